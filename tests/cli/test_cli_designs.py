@@ -140,13 +140,16 @@ def test_the_printed_command_names_all_options() -> None:
         (["--table", "none.csv"], "--table: no such file none.csv"),
         (["--table", "plan.xlsx"], "--table: plan.xlsx: tables of a spreadsheet cannot be read"),
         (["--vary", "indenter.file=*.x3p"], "--vary indenter.file=*.x3p: no file of that name in"),
-        (["--table", "plan.csv"], "plan.csv: load.force: cannot read '2 mm' as a force"),
+        (["--table", "plan.csv"], "plan.csv: column 'load.force': cannot read '2 mm' as a force"),
         (["--table", "plan.csv"], "'20 kN' [line 3]"),
         (
             ["--sample", "200", "--range", "load.force=1 mm:2 mm"],
             "--range load.force: cannot read '",
         ),
-        (["--sample", "200", "--range", "load.force=1 mm:2 mm"], "[and 199 more values]"),
+        (
+            ["--sample", "16", "--range", "material.poisson_ratio=0.4:0.6"],
+            " and 3 more]",
+        ),
         (["--sample", "20", "--range", "time.steps=1:9"], "--range time.steps: "),
         (["--sample", "20", "--range", "load.forc=1 N:9 N"], "did you mean 'force'"),
     ],
@@ -159,6 +162,22 @@ def test_what_cannot_be_designed_is_refused_in_one_line(
     (line,) = capsys.readouterr().err.splitlines()
     assert said.replace("20 kN", "10 kN") in line
     assert not Path("out").exists()
+
+
+@pytest.mark.parametrize(
+    ("heading", "why"),
+    [
+        ("load.force [mm]", "cannot read '2 mm' as a force (got a length); write e.g. '10 kN'"),
+        ("load.force", "2 has no unit, a force is wanted; write e.g. '10 kN'"),
+        ("time.steps [s]", "must be a whole number, got '2 s'"),
+    ],
+)
+def test_unit_of_a_heading_is_refused_once_with_the_column(
+    folder: Path, capsys: pytest.CaptureFixture[str], heading: str, why: str
+) -> None:
+    Path("plan.csv").write_text(f"{heading}\n2\n3.50\n-4e1\n", encoding="utf-8")
+    assert sweep("--table", "plan.csv") == 2
+    assert capsys.readouterr().err == f"plan.csv: column {heading!r}: {why}\n"
 
 
 def test_tables_and_samples_need_a_directory(

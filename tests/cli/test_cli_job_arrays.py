@@ -182,13 +182,25 @@ def test_a_file_stops_tasks_until_the_next_array_is_written(
     assert not list(Path("out").rglob(FAILURE_NAME))
 
 
+def test_too_little_memory_warns_where_the_array_is_written_and_refuses_where_it_runs(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for module in ("runs.preparation", "runs.sweep.common_cells", "cli.many.jobs"):
+        monkeypatch.setattr(f"viscontact.{module}.available_memory", lambda: 1e8)
+    assert main([*WORDS[:-1], "-o", "out", "--array", "a.sbatch"]) == 0
+    warning = "a run needs about 0.220 GB of memory, this machine has 0.100 GB free"
+    assert f"warning: {warning}; the machine" in capsys.readouterr().err
+    assert main(["run", "--task", "0", "out"]) == 2
+    assert "need about 0.220 GB of memory, 0.100 GB are free" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (["--task", "3", "out/runs.jsonl"], "--task 3: out/runs.jsonl has the runs 0 to 2"),
         (["--task", "-1", "out/runs.jsonl"], "--task -1: out/runs.jsonl has the runs 0 to 2"),
         (["--task", "0", "none.jsonl"], "none.jsonl: no such file; --task needs the manifest"),
-        (["--task", "0", "my ball.yaml"], "my ball.yaml:1: is not a line of JSON"),
+        (["--task", "0", "my ball.yaml"], "my ball.yaml is not the manifest of a sweep; give DIR/"),
         (["--task", "0", "out", "out"], "--task 0: takes the manifest of a sweep, which names"),
         (["--task", "0", "out", "-o", "x"], "--task 0: takes the manifest of a sweep, which"),
         (["--task", "0", "out", "--set", "a=1"], "--set a: unknown key"),

@@ -56,7 +56,7 @@ def test_a_setting_of_one_task_repairs_its_run_alone(
     path = Path("out") / MANIFEST_NAME
     change = f"viscontact run --task 1 {path} --set KEY=VALUE"
     assert said[-2:] == [
-        "1 of 3 runs stopped: ball_force=9N",
+        "1 of 3 runs failed: ball_force=9N",
         f"to change only ball_force=9N: {change}",
     ]
     done = written()

@@ -21,14 +21,17 @@ class PreparedRun:
     run: RunSetup
 
 
-def prepared(case: Case, threads: int = 1) -> PreparedRun:
+def prepared(case: Case, threads: int = 1, memory: float | None = None) -> PreparedRun:
     """Set up the run of a case, on some threads of one Fourier transform.
 
-    CaseError if it cannot be run, or needs more memory than is free.
+    CaseError if it cannot be run, or needs more than some memory [bytes]; by default what is free.
     """
-    _refuse_beyond_memory(case)
+    available = available_memory() if memory is None else memory
+    if isinstance(case.grid, Grid):  # before arrays of its size are allocated
+        _refuse_beyond(available, case, case.grid, least_memory(case.grid, case.compliance))
     run = _prepared_run(case, threads)
-    _refuse_beyond(case, run.grid, needed_memory(run.grid, run.hereditary.fields_kept))
+    needed = needed_memory(run.grid, run.hereditary.fields_kept)
+    _refuse_beyond(available, case, run.grid, needed)
     return PreparedRun(case, run)
 
 
@@ -47,15 +50,7 @@ def _prepared_run(case: Case, threads: int) -> RunSetup:
         raise case.error(str(error)) from error
 
 
-def _refuse_beyond_memory(case: Case) -> None:
-    """Refuse a grid that is too large before arrays of its size are allocated."""
-    if not isinstance(case.grid, Grid):
-        return
-    _refuse_beyond(case, case.grid, least_memory(case.grid, case.compliance))
-
-
-def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:
-    available = available_memory()
+def _refuse_beyond(available: float, case: Case, grid: Grid, needed: float) -> None:
     if needed > available:
         nx, ny = grid.shape
         raise case.error(

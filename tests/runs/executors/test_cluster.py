@@ -147,7 +147,7 @@ def test_scheduler_that_does_not_answer_and_missing_dask_are_refused(
 ) -> None:
     monkeypatch.setattr("viscontact.cli.many.cluster._PATIENCE", 1)
     assert main([*SWEEP, "--scheduler", "tcp://127.0.0.1:9", "-o", "sweep"]) == 2
-    assert "no scheduler answers there" in capsys.readouterr().err
+    assert "tcp://127.0.0.1:9: no scheduler answers: " in capsys.readouterr().err
     assert main([*SWEEP, "--scheduler", "local", "--array", "a.sbatch", "-o", "sweep"]) == 2
     assert "--array and --task do not go with it" in capsys.readouterr().err
     monkeypatch.setitem(sys.modules, "distributed", None)

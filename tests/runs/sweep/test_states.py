@@ -4,14 +4,24 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
+from viscontact.runs.processes.child import Ended
+from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
-from viscontact.runs.sweep.states import RunState, State, finished_part, run_state
+from viscontact.runs.sweep.states import (
+    RunState,
+    State,
+    finished_part,
+    run_state,
+    state_at_end,
+)
 from viscontact.runs.sweep.status import LISTED, sweep_status
 
 
@@ -57,6 +67,26 @@ def test_state_follows_from_the_files(
         is_done = expected.state is State.DONE
         assert run_state(directory).state is (State.DONE if is_done else State.RUNNING)
     assert run_state(directory) == expected
+
+
+@pytest.mark.parametrize(
+    ("outcome", "code", "expected"),
+    [
+        ("done", 0, State.DONE),
+        ("stopped", 1, State.FAILED),
+        ("killed", 1, State.FAILED),
+        ("interrupted", 130, State.STOPPED),
+        ("lost", 1, State.STOPPED),  # its worker may still compute it
+    ],
+)
+def test_state_at_the_end_of_a_command_is_that_of_its_status(
+    tmp_path: Path, outcome: str, code: int, expected: State
+) -> None:
+    request = RunRequest(tmp_path / "a.yaml", made(tmp_path / "run", STATE_NAME))
+    job = Job(request, tmp_path / "run", "run", Standing.NEW, 3, 1.0, 1.0, 1.0)
+    assert state_at_end(Ended(job, outcome, code)) is expected
+    never = replace(job, directory=tmp_path / "other")
+    assert state_at_end(Ended(never, "not begun", 130)) is State.WAITING
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"message": 5}', "[" * 10**5, "\xff"])

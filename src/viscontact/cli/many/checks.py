@@ -7,6 +7,7 @@ the others. Beyond 1000 runs, only these are checked, and the others as they beg
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
@@ -22,6 +23,7 @@ from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.sweep.designs import Design
 from viscontact.runs.sweep.extremes import extreme_rows
 
 #: Largest number of runs whose cases are all read.
@@ -31,18 +33,25 @@ _MOST_PROBLEMS, _MOST_PLACES = 50, 5
 
 
 def checked_jobs(
-    request: ManyRequest, planned: Sequence[PlannedRun], runs: Sequence[RunRequest]
+    request: ManyRequest,
+    planned: Sequence[PlannedRun],
+    runs: Sequence[RunRequest],
+    memory: float | None = None,
 ) -> list[Job]:
-    """Check the runs of a command; the problems of all of them are reported together."""
+    """Check the runs of a command; the problems of all of them are reported together.
+
+    Each may need some memory [bytes]; by default what is free.
+    """
     jobs: dict[int, Job] = {}
     problems: dict[str, list[PlannedRun]] = {}
     first = _to_prepare(planned)
     for number in (*sorted(first), *(n for n in range(len(runs)) if n not in first)):
         try:
             if number in first:
-                jobs[number] = _prepared_job(runs[number])
+                jobs[number] = _prepared_job(runs[number], memory)
             elif not problems or len(runs) <= MOST_READ:
-                jobs[number] = _job(runs[number], [jobs[n] for n in first if n in jobs], len(runs))
+                alike = [jobs[n] for n in first if n in jobs]
+                jobs[number] = _job(runs[number], alike, len(runs), memory)
         except CommandError as refusal:
             keys = planned[number].design.keys
             for line in refusal.lines:
@@ -67,24 +76,24 @@ def _to_prepare(planned: Sequence[PlannedRun]) -> set[int]:
     return found
 
 
-def _prepared_job(request: RunRequest) -> Job:
-    checked = checked_run(request)
+def _prepared_job(request: RunRequest, memory: float | None) -> Job:
+    checked = checked_run(request, memory)
     standing = checked.standing()
     _refuse_in_use(request, checked.recorded.directory)
     return checked.job(standing)
 
 
-def _job(request: RunRequest, prepared: Sequence[Job], count: int) -> Job:
+def _job(request: RunRequest, prepared: Sequence[Job], count: int, memory: float | None) -> Job:
     """Job of a run whose grid is not chosen beforehand, with the sizes of a prepared one."""
     alike = [job for job in prepared if job.request.case == request.case] or prepared
     if not alike:  # all of them are refused
-        return _prepared_job(request)
+        return _prepared_job(request, memory)
     size = max(alike, key=lambda job: job.memory)
     directory = directory_of(request)
     if count > MOST_READ:
         standing = _standing_by_names(request, directory)
     else:
-        standing = _standing(request, directory, _read(request))
+        standing = _standing(request, directory, _read(request), memory)
     return replace(
         size, request=request, directory=directory, name=directory.name, standing=standing
     )
@@ -97,7 +106,7 @@ def _read(request: RunRequest) -> Case:
         refuse(*error.problems)
 
 
-def _standing(request: RunRequest, directory: Path, case: Case) -> Standing:
+def _standing(request: RunRequest, directory: Path, case: Case, memory: float | None) -> Standing:
     """State of a run whose case is read; a run of another case is refused."""
     refuse_no_directory(directory)
     _refuse_in_use(request, directory)
@@ -108,7 +117,7 @@ def _standing(request: RunRequest, directory: Path, case: Case) -> Standing:
     with suppress(OSError, UnicodeDecodeError):
         if found is Standing.NEW or (directory / CASE_NAME).read_text("utf-8") == case.text:
             return found
-    return checked_run(request).standing()  # compared in detail
+    return checked_run(request, memory).standing()  # compared in detail
 
 
 def _standing_by_names(request: RunRequest, directory: Path) -> Standing:
@@ -134,25 +143,33 @@ def _problems(problems: dict[str, list[PlannedRun]], planned: Sequence[PlannedRu
     """Lines of the problems, each with its runs unless all runs of the case have it."""
     number = Counter(each.request.case for each in planned)
     common = set.intersection(*(set(each.request.settings) for each in planned))
-    lines: dict[str, list[str]] = {}
+    alike: dict[str, dict[str, list[PlannedRun]]] = {}
     for line, concerned in problems.items():
+        named = _with_heading(line, concerned[0].design)
+        alike.setdefault(_subject(named, concerned[0].design), {})[named] = concerned
+    shown = []
+    for lines in alike.values():
+        first, concerned = next(iter(lines)), [run for runs in lines.values() for run in runs]
         cases = {each.request.case for each in concerned}
         is_of_all = len(concerned) == sum(number[case] for case in cases)
-        lines.setdefault(_subject(line, concerned), []).append(
-            line if is_of_all else f"{line}{_attribution(line, concerned, common)}"
-        )
-    shown = [
-        first + (f" [and {len(others)} more values]" if others else "")
-        for first, *others in lines.values()
-    ]
+        shown.append(first if is_of_all else f"{first}{_attribution(first, concerned, common)}")
     more = len(shown) - _MOST_PROBLEMS
     return shown[:_MOST_PROBLEMS] + ([f"and {more} more problems"] if more > 0 else [])
 
 
-def _subject(line: str, concerned: Sequence[PlannedRun]) -> str:
-    """Problem without its value, where each run of a sample has another value."""
-    if concerned[0].design.kind == "sample" and line.startswith("--range "):
+def _with_heading(line: str, design: Design) -> str:
+    """Problem of a value in a table, with the heading of its column."""
+    for heading in design.headings:
+        line = line.replace(f": {heading.key}: ", f": column {heading.text!r}: ", 1)
+    return line
+
+
+def _subject(line: str, design: Design) -> str:
+    """Problem without its value, where each run may have another value."""
+    if design.kind == "sample" and line.startswith("--range "):
         return line.partition(": ")[0]
+    if design.kind == "table" and ": column " in line:
+        return re.sub(r"[+-]?\d[\d.]*(e[+-]?\d+)?", "", line)
     return line
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -42,6 +43,7 @@ def cluster_tasks(
 
 @contextmanager
 def _client(scheduler: str, count: int) -> Iterator[Any]:
+    address = "" if scheduler == "local" else _address(scheduler)
     try:
         distributed: Any = import_module("distributed")
     except ImportError:
@@ -61,16 +63,35 @@ def _client(scheduler: str, count: int) -> Iterator[Any]:
                 with signals_blocked([signal.SIGINT]):
                     cluster = distributed.LocalCluster(**options)
                 client = distributed.Client(opened.enter_context(cluster))
-            elif Path(scheduler).is_file():
-                client = distributed.Client(scheduler_file=scheduler, timeout=_PATIENCE)
             else:
-                client = distributed.Client(scheduler, timeout=_PATIENCE)
+                client = distributed.Client(address, timeout=_PATIENCE)
         except (OSError, TimeoutError, ValueError) as error:
-            refuse(
-                f"--scheduler {scheduler}: is neither `local` nor a scheduler file, and no "
-                f"scheduler answers there: {error}"
-            )
+            at = "" if address == scheduler else f" at {address}"
+            refuse(f"--scheduler {scheduler}: no scheduler answers{at}: {error}")
         yield opened.enter_context(client)
+
+
+def _address(scheduler: str) -> str:
+    """Address of a scheduler, which may be given by its file."""
+    file = Path(scheduler)
+    if not file.is_file():
+        if ":" in scheduler and file.suffix != ".json":
+            return scheduler
+        refuse(
+            f"--scheduler {scheduler}: no such file; give an address, as tcp://node17:8786, the "
+            "file that `dask scheduler --scheduler-file` has written, or local"
+        )
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        found = None
+    address = found.get("address") if isinstance(found, dict) else None
+    if not isinstance(address, str):
+        refuse(
+            f"--scheduler {scheduler}: is not a scheduler file, which `dask scheduler "
+            f"--scheduler-file` writes; it states no address"
+        )
+    return address
 
 
 def _check_memory(client: Any, scheduler: str, jobs: Sequence[Job], *, quiet: bool) -> None:

@@ -28,17 +28,19 @@ def with_common_cells(
     option: str,
     settings: Sequence[str] = (),
     earlier: Sequence[SweepRun] = (),
+    memory: float | None = None,
 ) -> list[RunRequest]:
     """Add the common cells to the settings of runs that differ in the values of some keys.
 
     Runs keep their own cells where the keys concern the grid, where the grid or its largest cell
     is given, or where the common cells would be too many. The cells of a sweep that is resumed
-    are those of its earlier runs in the manifest.
+    are those of its earlier runs in the manifest. Each run may need some memory [bytes]; by default
+    what is free.
     """
     sweeps: dict[Path, list[PlannedRun]] = {}
     for each in planned:
         sweeps.setdefault(each.request.case, []).append(each)
-    added = {case: _added(runs, option, settings, earlier) for case, runs in sweeps.items()}
+    added = {case: _added(runs, option, settings, earlier, memory) for case, runs in sweeps.items()}
     requests = (each.request for each in planned)
     return [replace(each, settings=(*each.settings, *added[each.case])) for each in requests]
 
@@ -48,6 +50,7 @@ def _added(
     option: str,
     settings: Sequence[str],
     earlier: Sequence[SweepRun],
+    memory: float | None,
 ) -> tuple[str, ...]:
     """Setting of the common cells of the runs of a case; none if they keep their own."""
     design, requests = planned[0].design, [each.request for each in planned]
@@ -62,7 +65,7 @@ def _added(
         begun = [found for each in requests if each.resume and (found := _begun_with(each))]
         if begun:
             return begun[0].settings
-        cells = common_cells(case, design, settings, requests[0].threads)
+        cells = common_cells(case, design, settings, requests[0].threads, memory)
     except (CaseError, CommandError):
         return ()  # reported when the runs are checked
     if not quiet:

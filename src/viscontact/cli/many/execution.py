@@ -18,6 +18,10 @@ from viscontact.runs.executors.driver import Workers, drive
 from viscontact.runs.executors.local import LocalTasks, LocalWorkers
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.sweep.states import State, state_at_end
+
+#: Most failed runs that are named at the end.
+_MOST_NAMES = 20
 
 
 def execute_many(request: ManyRequest) -> None:
@@ -27,7 +31,7 @@ def execute_many(request: ManyRequest) -> None:
     quiet = request.common.quiet
     with watched_interruption() as interruption, ExitStack() as opened:
         with before_the_first_step():
-            sweep = checked_sweep(request)
+            sweep = checked_sweep(request, elsewhere=request.is_elsewhere)
             jobs = sweep.jobs
             left = [job for job in jobs if job.standing is not Standing.FINISHED]
             workers = opened.enter_context(_workers(request, left, interruption))
@@ -43,7 +47,7 @@ def _workers(
 ) -> Iterator[Workers]:
     """Workers of this machine, or those of a scheduler."""
     quiet, at_once = request.common.quiet, min(request.jobs, fitting(jobs), max(1, len(jobs)))
-    if not quiet and request.scheduler in ("", "local"):
+    if not quiet and not request.is_elsewhere:
         for line in resource_warnings(jobs, request.jobs, at_once, request.common.threads):
             say(line)
     if request.scheduler:
@@ -69,19 +73,24 @@ def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> N
     for each in runs:
         for line in each.said if each.code else ():
             say(request.options.as_typed(line, sweep.keys))
-    stopped = [each.job.name for each in runs if each.code == STOPPED]
-    lines = [f"{len(stopped)} of {len(runs)} runs stopped: {', '.join(stopped)}"] if stopped else []
+    failed = [each.job.name for each in runs if state_at_end(each) is State.FAILED]
+    lines = [f"{len(failed)} of {len(runs)} runs failed: {_names(failed)}"] if failed else []
     if any(each.code == INTERRUPTED for each in runs):
         stop(*lines, "interrupted", f"continue with: {request.resuming}", code=INTERRUPTED)
-    if stopped:
+    if any(each.code == STOPPED for each in runs):
         stop(*lines, *sweep.recorded.change_of_failed())
+
+
+def _names(runs: Sequence[str]) -> str:
+    more = f" and {len(runs) - _MOST_NAMES} more" if len(runs) > _MOST_NAMES else ""
+    return ", ".join(runs[:_MOST_NAMES]) + more
 
 
 def _not_marched(job: Job) -> Ended:
     if job.standing is not Standing.FINISHED:
         return Ended(job, "not begun", INTERRUPTED)
     remove_leftovers(job.directory)
-    return Ended(job, "was finished", DONE)
+    return Ended(job, "done", DONE)
 
 
 def _print_table(runs: Sequence[Ended]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 import shutil
 import sys
@@ -39,7 +40,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
     if request.common.overwrite:
         refuse("--array and --overwrite: its tasks would not resume; choose another -o DIR")
     with before_the_first_step():
-        sweep = checked_sweep(request)
+        sweep = checked_sweep(request, elsewhere=True)
         left = [n for n, job in enumerate(sweep.jobs) if job.standing is not Standing.FINISHED]
         if not left:
             say(f"{directory}: all {len(sweep.jobs)} runs are finished")
@@ -68,7 +69,8 @@ def write_array(request: ManyRequest, script: Path) -> None:
 def _longest(jobs: list[Job]) -> float:
     """Predicted duration of the longest run [s]."""
     longest = max(jobs, key=lambda job: job.work)
-    checked = checked_run(replace(longest.request, output=longest.directory))
+    request = replace(longest.request, output=longest.directory)
+    checked = checked_run(request, memory=math.inf)
     return run_seconds(checked.recorded.run, errors=checked.recorded.errors)
 
 

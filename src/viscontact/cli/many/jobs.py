@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -31,22 +32,38 @@ class CheckedSweep:
     keys: tuple[str, ...]  # varied ones
 
 
-def checked_sweep(request: ManyRequest) -> CheckedSweep:
-    """Check all runs of a request; nothing is created."""
+def checked_sweep(request: ManyRequest, *, elsewhere: bool) -> CheckedSweep:
+    """Check all runs of a request; nothing is created.
+
+    The memory of this machine limits the runs, unless they are computed `elsewhere`.
+    """
+    memory = math.inf if elsewhere else None
     common, planned = request.common, request.planned()
     earlier = recorded_runs(common.output)
     kept = earlier if common.resume and any_begun(common.output, earlier) else []
-    requests = with_common_cells(planned, request.options.option, common.settings, kept)
+    requests = with_common_cells(planned, request.options.option, common.settings, kept, memory)
     runs = sweep_runs(common.output, planned, requests)
     recorded = RecordedSweep(common.output, runs, earlier)
     if not common.overwrite:
         recorded = recorded.continued(resume=common.resume)
         requests = recorded.requests(requests)
-    jobs = checked_jobs(request, planned, requests)
+    jobs = checked_jobs(request, planned, requests, memory)
     if len(jobs) > MOST_READ and not common.quiet:
         say(f"of {len(jobs)} runs, only some are checked now; each is checked as it begins")
+    if elsewhere and not common.quiet:
+        _warn_of_memory(jobs)
     keys = dict.fromkeys(key for each in planned for key in each.design.keys)
     return CheckedSweep(jobs, recorded, tuple(keys))
+
+
+def _warn_of_memory(jobs: Sequence[Job]) -> None:
+    needed, available = max(job.memory for job in jobs), available_memory()
+    if needed > available:
+        say(
+            f"warning: a run needs about {format_number(needed / 1e9, 3)} GB of memory, this "
+            f"machine has {format_number(available / 1e9, 3)} GB free; the machine that computes "
+            "it must have them"
+        )
 
 
 def fitting(jobs: Sequence[Job]) -> int:

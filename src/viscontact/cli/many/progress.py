@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time as clock
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 
@@ -21,6 +22,7 @@ from viscontact.cli.terminal.messages import say
 from viscontact.runs.executors.driver import Active
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
+from viscontact.runs.sweep.states import State, state_at_end
 from viscontact.units.formatting import format_quantity
 
 #: A plain line is printed after this part of all the work, or after this time [s].
@@ -38,7 +40,7 @@ class RunsDisplay:
         self._done = 0.0  # work, in the same unit
         self._parts = {job.directory: 0.0 for job in jobs}
         self._count = len(jobs)
-        self._ended = 0
+        self._states: Counter[State] = Counter()
 
     def update(self, active: Sequence[Active]) -> None:
         """Display the progress of some of the active runs."""
@@ -47,7 +49,7 @@ class RunsDisplay:
 
     def end(self, ended: Ended) -> None:
         """Display that a run has ended."""
-        self._ended += 1
+        self._states[state_at_end(ended)] += 1
         self._note(ended.job, 1.0)
 
     def _note(self, job: Job, part: float) -> None:
@@ -61,7 +63,9 @@ class RunsDisplay:
 
     @property
     def _runs(self) -> str:
-        return f"{self._ended} of {self._count} runs ended"
+        others = (State.FAILED, State.STOPPED)
+        counts = [f"{self._states[each]} {each.value}" for each in others if self._states[each]]
+        return ", ".join((f"{self._states[State.DONE]} of {self._count} runs done", *counts))
 
 
 class _Lines(RunsDisplay):
@@ -87,7 +91,7 @@ class _Lines(RunsDisplay):
 
     def end(self, ended: Ended) -> None:
         super().end(ended)
-        say(f"{ended.job.name}: {ended.outcome}; {self._runs}")
+        say(f"{ended.job.name}: {state_at_end(ended).value}; {self._runs}")
 
 
 class _Bars(RunsDisplay):

@@ -42,6 +42,11 @@ class ManyRequest:
     jobs: int = 1
     scheduler: str = ""  # of a cluster: address, file, or local
 
+    @property
+    def is_elsewhere(self) -> bool:
+        """True if the runs are computed by a scheduler, on other machines."""
+        return self.scheduler not in ("", "local")
+
     def planned(self) -> list[PlannedRun]:
         """Return each combination of a case and a row of its design."""
         if self.common.output is None and self.options.option != "--vary":

@@ -42,6 +42,11 @@ def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
         )
     (manifest,) = asked.cases
     path = manifest / MANIFEST_NAME if manifest.is_dir() else manifest
+    if path.is_file() and path.suffix != Path(MANIFEST_NAME).suffix:
+        refuse(
+            f"--task {number}: {path} is not the manifest of a sweep; give DIR/{MANIFEST_NAME}, "
+            "which `viscontact run CASE --vary ... -o DIR --array FILE.sbatch` writes"
+        )
     run = _numbered(path, number)
     if common.settings:
         run = _changed(path, run, common)

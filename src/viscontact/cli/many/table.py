@@ -19,6 +19,7 @@ from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.runs.processes.child import Ended
+from viscontact.runs.sweep.states import state_at_end
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: Largest number of runs named with a warning.
@@ -80,7 +81,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
         title_justify="right",
     )
     table.add_column("run", no_wrap=True)
-    table.add_column("outcome", no_wrap=True)
+    table.add_column("state", no_wrap=True)
     table.add_column("took", justify="right", no_wrap=True)
     shown = {name for each in found if each for name in each.largest}
     names, units = [name for name in shown_in(Place.KEY) if name in shown], {}
@@ -99,7 +100,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
             cells = [format_quantity(each.seconds, "s", 2), *values]
             if has_errors:
                 cells.append("" if math.isnan(each.error) else format_percent(each.error))
-        table.add_row(escape(ended.job.name), ended.outcome, *cells)
+        table.add_row(escape(ended.job.name), state_at_end(ended).value, *cells)
     return table
 
 

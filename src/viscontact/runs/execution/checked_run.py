@@ -58,19 +58,27 @@ class CheckedRun:
         return progress_made(instants, reached, run.problem.instants.tolist(), run.problem.adaptive)
 
 
-def checked_run(request: RunRequest) -> CheckedRun:
-    """Read and check the case of a run, and choose its directory; nothing is created."""
+def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
+    """Read and check the case of a run, and choose its directory; nothing is created.
+
+    It may need some memory [bytes]; by default what is free.
+    """
     directory = directory_of(request)
-    found = prepare(request.case, request.settings, request.threads)
+    found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case
     recorded = RecordedRun(directory, found.run, case.fields, case.title, case.errors)
     return CheckedRun(request, found, recorded)
 
 
-def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> PreparedRun:
-    """Read a case and check everything that can be checked before the first step."""
+def prepare(
+    path: Path, settings: Sequence[str], threads: int = 1, memory: float | None = None
+) -> PreparedRun:
+    """Read a case and check everything that can be checked before the first step.
+
+    It may need some memory [bytes]; by default what is free.
+    """
     try:
-        return prepared(read_case(path, settings), threads)
+        return prepared(read_case(path, settings), threads, memory)
     except CaseError as error:
         refuse(*error.problems)
 

@@ -75,18 +75,26 @@ def keeps_own_cells(case: Path, design: Design, settings: Sequence[str]) -> bool
 
 
 def common_cells(
-    case: Path, design: Design, settings: Sequence[str], threads: int = 1
+    case: Path,
+    design: Design,
+    settings: Sequence[str],
+    threads: int = 1,
+    memory: float | None = None,
 ) -> CommonCells:
-    """Common cells of the runs of a design; CommandError if one is refused."""
+    """Common cells of the runs of a design; CommandError if one is refused.
+
+    Each run may need some memory [bytes]; by default what is free.
+    """
+    available = available_memory() if memory is None else memory
     chosen = [(*settings, *design.settings(row)) for row in extreme_rows(design)]
-    runs = [prepare(case, each, threads).run for each in chosen]
+    runs = [prepare(case, each, threads, memory).run for each in chosen]
     dx, dy = np.min([run.grid.cell_size for run in runs], axis=0).tolist()
-    return CommonCells((dx, dy), all(_is_affordable(run, (dx, dy)) for run in runs))
+    return CommonCells((dx, dy), all(_is_affordable(run, (dx, dy), available) for run in runs))
 
 
-def _is_affordable(run: RunSetup, cell: tuple[float, float]) -> bool:
-    """Test whether a run on smaller cells fits into the limit and into the free memory."""
+def _is_affordable(run: RunSetup, cell: tuple[float, float], available: float) -> bool:
+    """Test whether a run on smaller cells fits into the limit and into some memory [bytes]."""
     before = math.prod(run.grid.shape)
     now = math.prod(size / length for size, length in zip(run.grid.size, cell, strict=True))
     arrays = (resources.run_memory(run) - resources.PROGRAM) * now / before
-    return now <= max(before, MOST_CELLS) and resources.PROGRAM + arrays < available_memory()
+    return now <= max(before, MOST_CELLS) and resources.PROGRAM + arrays < available

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 
-from viscontact.runs.sweep.designs import Design
+from viscontact.runs.sweep.designs import Design, Heading
 from viscontact.tables import Row, decimal_number, looks_like_number, read_rows
 
 # "load.force [N]" or "load.force (kN)"; brackets with a number at the key are an entry of a list.
@@ -17,15 +16,6 @@ _HEADING = re.compile(
 )
 _NO_UNIT = ("", "-", "–", "—", "1", "none")
 _SPREADSHEETS = (".xlsx", ".xls", ".xlsm", ".ods")
-
-
-@dataclass(frozen=True)
-class _Column:
-    """Key of a column, and the unit in its heading; empty if the cells have their own."""
-
-    heading: str
-    key: str
-    unit: str
 
 
 def read_design(path: Path) -> Design:
@@ -55,10 +45,11 @@ def read_design(path: Path) -> Design:
         tuple(column.key for column in columns),
         tuple(_values(path, row, columns, mark) for row in rows),
         tuple(row.line for row in rows),
+        tuple(columns),
     )
 
 
-def _columns(path: Path, header: Row) -> list[_Column]:
+def _columns(path: Path, header: Row) -> list[Heading]:
     cells = list(header.cells)
     while cells and not cells[-1]:  # spreadsheets export empty columns at the end
         cells.pop()
@@ -69,7 +60,7 @@ def _columns(path: Path, header: Row) -> list[_Column]:
     return columns
 
 
-def _column(where: str, place: int, cell: str) -> _Column:
+def _column(where: str, place: int, cell: str) -> Heading:
     example = "as 'load.force [N]'"
     if looks_like_number(cell):
         raise ValueError(
@@ -84,10 +75,10 @@ def _column(where: str, place: int, cell: str) -> _Column:
             f"brackets, a unit, {example}"
         )
     unit = (found["square"] or found["round"] or "").strip()
-    return _Column(cell, found["key"], "" if unit in _NO_UNIT else unit)
+    return Heading(cell, found["key"], "" if unit in _NO_UNIT else unit)
 
 
-def _values(path: Path, row: Row, columns: list[_Column], mark: str) -> tuple[str, ...]:
+def _values(path: Path, row: Row, columns: list[Heading], mark: str) -> tuple[str, ...]:
     if len(row.cells) < len(columns) or any(row.cells[len(columns) :]):
         raise ValueError(
             f"{path}:{row.line}: has {len(row.cells)} cells, the header {len(columns)}; write a "
@@ -97,11 +88,11 @@ def _values(path: Path, row: Row, columns: list[_Column], mark: str) -> tuple[st
     return tuple(_value(f"{path}:{row.line}", cell, column, mark) for cell, column in cells)
 
 
-def _value(where: str, cell: str, column: _Column, mark: str) -> str:
+def _value(where: str, cell: str, column: Heading, mark: str) -> str:
     try:
         if cell and not column.unit and not looks_like_number(cell):
             return cell
         number = decimal_number(cell, mark)
     except ValueError as error:
-        raise ValueError(f"{where}: column {column.heading!r}: {error}") from None
+        raise ValueError(f"{where}: column {column.text!r}: {error}") from None
     return f"{number} {column.unit}" if column.unit else number

@@ -10,16 +10,26 @@ from itertools import product
 
 
 @dataclass(frozen=True)
+class Heading:
+    """Heading of a column of a table, and the unit in it; empty if the cells have their own."""
+
+    text: str
+    key: str
+    unit: str
+
+
+@dataclass(frozen=True)
 class Design:
     """Values of the varied keys, as ``--set`` takes them: a row for each run.
 
-    Rows of a table have their lines in the file.
+    Rows of a table have their lines in the file, and keys their headings.
     """
 
     kind: str  # grid, zip, table, sample, or cases without varied keys
     keys: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     lines: tuple[int, ...] = ()
+    headings: tuple[Heading, ...] = ()
 
     def settings(self, row: int) -> tuple[str, ...]:
         """Settings of a row, as KEY=VALUE."""

@@ -12,7 +12,8 @@ from typing import Any
 
 from viscontact.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.processes.request import INTERRUPTED
+from viscontact.runs.processes.child import Ended
+from viscontact.runs.processes.request import DONE, INTERRUPTED
 
 #: Part of a progress log that holds its last line [bytes].
 _LAST_LINE = 2**16
@@ -56,6 +57,15 @@ def run_state(directory: Path) -> RunState:
     if FAILURE_NAME in names:
         return _failure(directory / FAILURE_NAME)
     return RunState(State.STOPPED if STATE_NAME in names else State.WAITING)
+
+
+def state_at_end(ended: Ended) -> State:
+    """State of a run of a command that has ended; the directory tells where the run has not."""
+    if ended.code == DONE:
+        return State.DONE
+    if ended.code == INTERRUPTED or ended.outcome in ("lost", "not begun"):
+        return run_state(ended.job.directory).state
+    return State.FAILED
 
 
 def _failure(path: Path) -> RunState:
