@@ -86,6 +86,7 @@ from .simulation.automatic_grid import auto_grid as auto_grid
 from .simulation.state_generator import march as march
 from .state import ContactState as ContactState
 from .state import Outcome as Outcome
+from .steady.run import steady as steady
 from .surfaces import Surface as Surface
 from .surfaces import read_surface as read_surface
 from .tables import Table as Table

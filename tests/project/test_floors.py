@@ -28,8 +28,8 @@ FLOORS = (
     ("problem",),
     ("checks", "meshing", "results", "case"),
     ("simulation", "plot", "notebook"),
-    ("accuracy", "report", "verify"),
-    ("runs",),
+    ("accuracy", "report", "steady"),
+    ("runs", "verify"),
     ("web",),
     ("cli",),
     ("__main__",),
@@ -39,7 +39,7 @@ MOST_FLOORS, MOST_ROOT_MODULES = 12, 8
 # notebooks are drawn on a high floor, so the mixin that objects derive from asks there for them.
 AT_THE_FRONT_DOOR = {"display", "web", "cli"}
 # Exact solutions: what computes a result must not reach them, by however many imports.
-COMPUTES = ("simulation", "accuracy", "runs")
+COMPUTES = ("simulation", "accuracy", "steady", "runs")
 # Other packages, and the rooms from whose floor on they may be imported.
 OTHERS = {
     "numpy": "errors", "scipy": "errors", "ducc0": "fourier",

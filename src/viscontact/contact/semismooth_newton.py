@@ -123,7 +123,8 @@ class _LinearSystem:
         residual = self._projected(gap)[cells]
         norm = _norm(residual)
         goal = max(REDUCTION * norm, accuracy)
-        basis = [residual / norm]
+        factors: NDArray[np.float64] = np.empty(0)
+        basis = [residual / norm] if norm else []
         directions: list[NDArray[np.float64]] = []
         images: list[NDArray[np.float64]] = []
         hessenberg = np.zeros((MAX_VECTORS + 1, MAX_VECTORS))

@@ -75,30 +75,31 @@ def solve_steady_contact(
 
 
 def _balanced(guess: Guess, problem: ContactProblem, domain: MovingDomain) -> Guess | None:
-    """Guess with the prescribed force and moments; None if they do not fit under its pressure."""
+    """Guess under the body with the prescribed force and moments; None if they do not fit."""
     whole = domain.whole
-    pressure = restore_balance(
-        guess.pressure, problem.constraints, whole.plane, whole.cell_area, whole.arm
-    )
+    under = np.where(np.isfinite(problem.open_gap), guess.pressure, 0.0)
+    pressure = restore_balance(under, problem.constraints, whole.plane, whole.cell_area, whole.arm)
     return None if pressure is None else replace(guess, pressure=pressure)
 
 
 def _cold_start(problem: ContactProblem, domain: MovingDomain) -> tuple[Guess, float]:
     """Solution on a coarser grid, on the coarsest a Winkler foundation; and its cost."""
-    coarser = domain.coarser()
+    coarser, work = domain.coarser(), 0.0
     if coarser is not None:
         coarse = solve_steady_contact(problem.coarsened(), coarser, tolerance=NESTED_TOLERANCE)
         # Each coarse pressure on its cells.
         pressure = coarse.values[0]
         for axis in (0, 1):
             pressure = np.repeat(pressure, domain.shape[axis] // pressure.shape[axis], axis)
-        share = coarse.values[0].size / pressure.size
-        return Guess(pressure, pressure, coarse.motion), coarse.work * share
+        work = coarse.work * coarse.values[0].size / pressure.size
+        start = _balanced(Guess(pressure, pressure, coarse.motion), problem, domain)
+        if start is not None:
+            return start, work
     whole, constraints = domain.whole, problem.constraints
     others = constraints, whole.plane, whole.cell_area
     pressure, motion = winkler_contact(problem.open_gap, problem.compliance, *others)
     balanced = restore_balance(pressure, *others, whole.arm)
-    return Guess(pressure if balanced is None else balanced, pressure, motion), 0.0
+    return Guess(pressure if balanced is None else balanced, pressure, motion), work
 
 
 def _proximal_search(

@@ -46,6 +46,9 @@ GRADED_PANELS = 10
 #: Distance of an edge from a whole number of cells that is rounding [cells].
 EDGE_ROUNDING = 1e-9
 
+#: Panel lengths over 2 l beyond which a mode is relaxed to rounding.
+RELAXED_RATIO = 1e8
+
 #: Growth of the panels beyond the table, and the decay lengths after which they end.
 PANEL_GROWTH, DECAY_LENGTHS = 1.5, 45.0
 
@@ -182,7 +185,7 @@ def _panel_weights(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
     Exact for polynomials that Gauss' rule interpolates: exp(-a ξ) in Legendre polynomials has the
     coefficients (2n + 1) (-1)ⁿ i_n(a), modified spherical Bessel functions.
     """
-    a = ratio[:, None]
+    a = np.minimum(ratio, RELAXED_RATIO)[:, None]
     order = np.arange(len(NODES))
     bessel = np.sqrt(np.pi / (2 * a)) * ive(order + 0.5, a)
     polynomials = np.polynomial.legendre.legvander(NODES, len(NODES) - 1)

@@ -1,0 +1,118 @@
+"""Preparation of steady contacts: law, and a grid for each speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.domain import mirrored_axes
+from viscontact.fourier import Transforms
+from viscontact.grid import Grid
+from viscontact.meshing.contact_place import locate_contact
+from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.steady.contact import SteadySolver, gap_on
+from viscontact.steady.moving_law import moving_law
+from viscontact.steady.problem import SteadyProblem
+from viscontact.steady.region import Lattice, Region, find_region, lattice_for
+from viscontact.units.formatting import format_quantity
+
+#: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
+ACROSS, LEAST_ACROSS = 6.0, 20.0
+
+#: Samples along each axis by which a body is found to be even.
+EVEN_SAMPLES = 48
+
+#: Cells of a given grid that its contact is assumed to have, for the shortest times of a law.
+CELLS_OF_GIVEN = 1000
+
+#: Rounds in which the compliance of a contact and the time in which it is passed are matched.
+ROUNDS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedRun:
+    """Solver of a problem, and the grid of each speed."""
+
+    solver: SteadySolver
+    grids: tuple[Grid, ...]
+    #: Convolutions of the search for regions, in those of the grids.
+    work: float
+
+
+def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
+    """Find the law and the grids of a problem; refuse a body that does not touch."""
+    _refuse_apart(problem)
+    given, axis = problem.contact.grid, problem.axis
+    if isinstance(given, Grid):
+        extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
+        solver = SteadySolver(problem, moving_law(problem, extents), transforms)
+        return PreparedRun(solver, (given,) * len(problem.speeds), 0.0)
+    speeds = problem.speeds
+    fast, slow = (_estimate(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
+    law = moving_law(problem, (fast.extents[axis], slow.extents[axis]))
+    return _automatic(problem, SteadySolver(problem, law, transforms), fast)
+
+
+def _automatic(
+    problem: SteadyProblem, solver: SteadySolver, estimate: ContactEstimate
+) -> PreparedRun:
+    """Grids of one lattice; regions are found from the fastest speed on, each from the last."""
+    request = problem.contact.automatic_grid
+    assert request is not None
+    centre, half = np.array(estimate.centre), np.array(estimate.extents) / 2
+    centred = _centred(problem, np.abs(centre) + half)
+    last = Region(centre - half, centre + half)
+    regions: dict[float, Region] = {}
+    searches: dict[float, float] = {}
+    for speed in sorted(problem.speeds.tolist(), reverse=True):
+        last, searches[speed] = find_region(solver, speed, last, centred=centred)
+        regions[speed] = last
+    across = max(ACROSS / request.tolerance**0.5, LEAST_ACROSS)
+    lattice = lattice_for(list(regions.values()), across)
+    if request.largest_cell is not None:
+        lattice = Lattice(np.minimum(lattice.cell_size, request.largest_cell))
+    grids = [
+        lattice.grid_over(regions[speed], centred=centred) for speed in problem.speeds.tolist()
+    ]
+    work = sum(
+        searches[speed] / np.prod(grid.shape)
+        for speed, grid in zip(problem.speeds.tolist(), grids, strict=True)
+    )
+    return PreparedRun(solver, tuple(grids), float(work))
+
+
+def _estimate(problem: SteadyProblem, speed: float) -> ContactEstimate:
+    """Elastic contact with the compliance of the time in which half of it is passed."""
+    contact = problem.contact
+    found = locate_contact(contact.indenter, float(contact.compliance(1.0)), problem.point)
+    for _ in range(ROUNDS):
+        time = found.extents[problem.axis] / (2 * speed)
+        found = locate_contact(contact.indenter, float(contact.compliance(time)), problem.point)
+    return found
+
+
+def _centred(problem: SteadyProblem, reach: NDArray[np.float64]) -> tuple[bool, bool]:
+    """True across the motion if body and load are even there: the grid is centred on its axis."""
+    across, load = 1 - problem.axis, problem.contact.load
+    around = Grid((EVEN_SAMPLES, EVEN_SAMPLES), (2 * float(reach[0]), 2 * float(reach[1])))
+    both = (load.is_even(0), load.is_even(1))
+    even = mirrored_axes(around, gap_on(problem, around), both)[across]
+    return across == 0 and even, across == 1 and even
+
+
+def _refuse_apart(problem: SteadyProblem) -> None:
+    """Refuse a prescribed approach at which the body does not touch the surface."""
+    point, given = problem.point, problem.contact.grid
+    if point.approach is None or point.tilt_x is None or point.tilt_y is None:
+        return
+    touches = point.approach > 0
+    if isinstance(given, Grid):
+        slopes = point.tilt_x * given.x[:, None] + point.tilt_y * given.y[None, :]
+        touches = bool((gap_on(problem, given) < point.approach + slopes).any())
+    if not touches:
+        raise ValueError(
+            f"load: at an approach of {format_quantity(point.approach, 'm')} the body does not "
+            "touch the surface, so there is no contact in steady motion; press it on"
+        )

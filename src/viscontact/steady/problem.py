@@ -1,0 +1,135 @@
+"""Problem of a contact in steady motion: bodies, load, speeds and direction, with their checks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.grid import Grid
+from viscontact.loads import LoadHistory, LoadPoint
+from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
+from viscontact.problem.problem import Problem
+from viscontact.units.formatting import format_quantity
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyProblem:
+    """Contact problem of a body in steady motion, checked.
+
+    `contact` has bodies, grid and tolerance; its load is the constant `point`. The body moves
+    towards + along `axis` (0: x, 1: y) at the `speeds` [m/s]. `rolling` tells whether material of
+    the body flows through the contact; `kept` are the speeds whose fields are kept.
+    """
+
+    contact: Problem
+    point: LoadPoint
+    speeds: NDArray[np.float64]
+    axis: int
+    rolling: bool | None
+    kept: NDArray[np.float64]
+
+    @property
+    def along(self) -> str:
+        """Name of the axis of the motion."""
+        return "xy"[self.axis]
+
+    @property
+    def tilts_freely(self) -> bool:
+        """True if the slope along the motion is free of moment."""
+        return (self.point.tilt_x, self.point.tilt_y)[self.axis] is None
+
+
+def steady_problem(
+    contact: Problem,
+    speed: ArrayLike,
+    along: str,
+    rolling: bool | None,
+    fields: str | Sequence[float],
+) -> SteadyProblem:
+    """Check a problem of steady motion and complete it."""
+    if along not in ("x", "y"):
+        raise ValueError(f"along must be 'x' or 'y', got {along!r}")
+    if rolling is not None and not isinstance(rolling, bool | np.bool_):
+        raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
+    axis = "xy".index(along)
+    speeds = _speeds("speed", speed)
+    if isinstance(contact.grid, Grid) and contact.grid.periodic:
+        raise ValueError(
+            "grid.periodic: steady motion is computed on grids that are not periodic; leave "
+            "periodic out"
+        )
+    _check_bodies(contact, axis, rolling)
+    kept = _kept(fields, speeds)
+    return SteadyProblem(contact, constant_load(contact.load), speeds, axis, rolling, kept)
+
+
+def constant_load(load: LoadHistory) -> LoadPoint:
+    """The load of a history that does not change after time 0."""
+    sides = [load.at(float(time), side=side) for time in load.kinks for side in ("left", "right")]
+    held = load.at(0.0)
+    begins_at_once = [point for point in sides if point.level] or [held]
+    if np.isfinite(load.longest_step) or any(point != held for point in begins_at_once):
+        raise ValueError(
+            "load: a steady motion has a constant load, and this one changes in time; use "
+            "step(force=...) or step(approach=...)"
+        )
+    if held.force is not None and held.force <= 0:
+        raise ValueError(
+            "load: the force must be positive in steady motion, got "
+            f"{format_quantity(held.force, 'N')}"
+        )
+    return held
+
+
+def is_elastic(compliance: ContactCompliance) -> bool:
+    """True for a body without creep."""
+    if not isinstance(compliance, SeriesCompliance):
+        return False
+    return not (compliance.amplitudes.size or compliance.fluidity)
+
+
+def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
+    """Refuse a viscoelastic indenter that is not known to roll or slide, or that cannot roll."""
+    mate = contact.indenter_material
+    if mate is None or is_elastic(mate.contact_compliance()):
+        return
+    if rolling is None:
+        raise ValueError(
+            "rolling: the indenter's material is viscoelastic, so that rolling and sliding "
+            "differ; give rolling=True if it rolls (its material flows through the contact), "
+            "rolling=False if it slides"
+        )
+    if rolling and not contact.indenter.curvatures[axis] > 0:
+        raise ValueError(
+            f"rolling: the indenter has no radius of curvature along {'xy'[axis]}, so it cannot "
+            "roll; give rolling=False, or a round body"
+        )
+
+
+def _speeds(name: str, given: Any) -> NDArray[np.float64]:
+    """Distinct positive numbers, from one or a list of them [m/s]."""
+    try:
+        speeds = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be numbers in m/s, got {given!r}") from None
+    if speeds.ndim != 1 or not speeds.size or not (np.isfinite(speeds) & (speeds > 0)).all():
+        raise ValueError(f"{name} must be positive and finite [m/s], got {given!r}")
+    if len(np.unique(speeds)) < len(speeds):
+        raise ValueError(f"{name}: each speed is needed once, got {given!r}")
+    return speeds
+
+
+def _kept(fields: str | Sequence[float], speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Speeds whose fields are kept [m/s]."""
+    if isinstance(fields, str):
+        if fields not in ("all", "none"):
+            raise ValueError(f"fields must be 'all', 'none' or speeds, got {fields!r}")
+        return speeds if fields == "all" else speeds[:0]
+    kept = _speeds("fields", fields)
+    if not np.isin(kept, speeds).all():
+        raise ValueError(f"fields must be some of the speeds {speeds.tolist()}, got {fields!r}")
+    return kept

@@ -1,0 +1,94 @@
+"""Resistance of a half-space against a body in steady motion, in two forms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.moving_domain import MovingDomain
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+
+#: Retardation lengths beyond so many half lengths of the contact: the dissipation is the more
+#: accurate form.
+LONG = 5.0
+
+
+@dataclass(frozen=True)
+class Resistance:
+    """Force against the motion along an axis [N], by the slope and by the dissipation."""
+
+    by_slope: float
+    by_dissipation: float
+    is_slow: bool  # retardation lengths are not long against the contact
+    at_end: bool  # the body ends in the contact, where its slope has no limit
+
+    @property
+    def value(self) -> float:
+        """The more accurate form [N]."""
+        return self.by_slope if self.is_slow and not self.at_end else self.by_dissipation
+
+    @property
+    def difference(self) -> float:
+        """Difference of both forms, which is zero on an infinitely fine grid [N]."""
+        return abs(self.by_slope - self.by_dissipation)
+
+
+def slope_force(
+    indenter: Indenter, grid: Grid, pressure: NDArray[np.float64], axis: int, tilt: float
+) -> float:
+    """Force against +x (axis 0) or +y: ∫ p (∂h/∂ξ - tilt) dA, with means of ∂h/∂ξ over cells [N].
+
+    Where the body ends in a cell, from the centre to the inner edge.
+    """
+    half = grid.cell_size[axis] / 2
+    x, y = grid.x[:, None], grid.y[None, :]
+    places = [(x + way * half, y) if axis == 0 else (x, y + way * half) for way in (-1, 0, 1)]
+    behind, middle, ahead = (indenter.gap(*place) for place in places)
+    first = np.where(np.isfinite(behind), behind, middle)
+    last = np.where(np.isfinite(ahead), ahead, middle)
+    length = half * (np.isfinite(behind).astype(float) + np.isfinite(ahead))
+    touched = (pressure > 0) & (length > 0)
+    slope = (last[touched] - first[touched]) / length[touched] - tilt
+    return float((pressure[touched] * slope).sum()) * grid.cell_area
+
+
+def resistance(
+    indenter: Indenter,
+    domain: MovingDomain,
+    pressure: NDArray[np.float64],
+    tilt: float,
+    half_length: float,
+) -> Resistance:
+    """Resistance along the motion, of a pressure on the domain's cells [Pa].
+
+    `tilt` is the body's slope along the motion, `half_length` half the length of the contact [m].
+    """
+    whole = domain.expand_by_symmetry(pressure)
+    by_slope = slope_force(indenter, domain.grid, whole, domain.axis, tilt)
+    lost = float((pressure * domain.loss.apply(pressure)).sum())
+    lost *= domain.grid.cell_area * domain.symmetry_count
+    ends = _reaches_end(indenter, domain.grid, whole)
+    short = _lossy_length(domain, half_length) <= LONG * half_length
+    return Resistance(by_slope, lost, is_slow=short, at_end=ends)
+
+
+def _lossy_length(domain: MovingDomain, half_length: float) -> float:
+    """Mean retardation length by weights of the loss in a wave as long as the contact [m]."""
+    moving, wave = domain.moving_compliance, 1 / half_length
+    turn = wave * moving.lengths
+    loss = moving.amplitudes * turn / (1 + turn**2)
+    total = float(loss.sum())
+    return float(np.exp(loss @ np.log(moving.lengths) / total)) if total else 0.0
+
+
+def _reaches_end(indenter: Indenter, grid: Grid, pressure: NDArray[np.float64]) -> bool:
+    """True if there is pressure beside the body's end, where its slope has no limit."""
+    outside = np.isinf(indenter.gap(grid.x[:, None], grid.y[None, :]))
+    if not outside.any():
+        return False
+    near = np.pad(outside, 1)
+    beside = near[:-2, 1:-1] | near[2:, 1:-1] | near[1:-1, :-2] | near[1:-1, 2:]
+    return bool((pressure[beside] > 0).any())

@@ -1,0 +1,153 @@
+"""Contacts of a body in steady motion at one speed or a curve of speeds: `steady`."""
+
+from __future__ import annotations
+
+import time as clock
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.fourier import fastest_transforms, transforms_by
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
+from viscontact.problem.problem import Problem
+from viscontact.state import ContactState
+from viscontact.steady.curve import SteadyCurve
+from viscontact.steady.preparation import prepare
+from viscontact.steady.problem import steady_problem
+
+#: Called after each speed: the state, the number of states done, and of all.
+Progress = Callable[[ContactState, int, int], None]
+
+
+def steady(
+    indenter: Indenter,
+    material: Material,
+    load: LoadHistory,
+    speed: ArrayLike,
+    *,
+    along: Literal["x", "y"] = "y",
+    rolling: bool | None = None,
+    grid: Grid | AutomaticGrid | None = None,
+    indenter_material: Material | None = None,
+    tolerance: float = 1e-6,
+    fields: Literal["all", "none"] | Sequence[float] = "all",
+    threads: int = 1,
+    progress: Progress | None = None,
+    errors: bool = True,
+) -> xr.Dataset:
+    """Contact of a body that moves over a creeping half-space at constant speed.
+
+    The steady state is solved for at once, without steps in time, at one speed or at each of a
+    curve of speeds. There is no friction in the contact: the body is held back by the loss in the
+    material alone.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the moving body.
+    material : Material
+        Material of the half-space.
+    load : LoadHistory
+        Constant load, such as ``step(force)``. Give the tilt along the motion (``tilt_y=0.0``) for
+        a body on an axle; if it is left out, the body turns until that moment vanishes.
+    speed : float or array_like
+        Speeds towards +x or +y, each positive [m/s].
+    along : {"x", "y"}, optional
+        Axis of the motion; a roller rolls along y.
+    rolling : bool, optional
+        True if the body rolls, so that its own material flows through the contact as well; false if
+        it slides. Needed if the indenter's material is viscoelastic.
+    grid : Grid or AutomaticGrid, optional
+        Cells that carry the pressure, in coordinates relative to the body's axis, or requirements
+        on cells that the run chooses; chosen by the run as well when left out, for each speed.
+    indenter_material : Material, optional
+        Material of the indenter; rigid when left out.
+    tolerance : float, optional
+        Relative error of gap and balances at every speed.
+    fields : {"all", "none"} or sequence of float, optional
+        Speeds [m/s] whose pressure, gap and displacement are kept: all on the dimension
+        ``speed``, some on ``field_speed``.
+    threads : int, optional
+        Threads of one Fourier transform.
+    progress : callable, optional
+        Called with (state, done, total) after each speed, from the fastest to the slowest.
+    errors : bool, optional
+        Estimate the errors of the scalars, ``friction_coefficient_error`` and so on, from a
+        contact on a coarser grid.
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars over ``speed``, in the order given, and fields over (speed or field_speed, x, y), in
+        SI units, each with ``units`` and ``long_name``; the case, warnings and tolerance as
+        attributes. ``x`` and ``y`` are relative to the body's axis. ``resistance_x`` and
+        ``resistance_y`` are forces of the half-space against +x and +y, ``friction_coefficient`` is
+        the resistance over the force, and ``dissipation`` the power lost.
+
+        On chosen grids the fields of all speeds are on the smallest grid that holds their grids;
+        beyond its own, pressure is 0, and gap and displacement are NaN. On a fluid the approach is
+        NaN: it grows without limit with the way that the body has come.
+
+    Raises
+    ------
+    ValueError
+        If an argument is invalid, or there is no steady state; the message says what to change.
+    ConvergenceError, DomainError
+        If a contact is not found, or reaches the rim of a given grid; ``partial`` holds the speeds
+        completed so far, the faster ones, as a dataset.
+
+    Warns
+    -----
+    AccuracyWarning
+        If the result is less accurate than expected; kept in the attribute ``warnings``.
+
+    See Also
+    --------
+    simulate : Contact over time.
+
+    Notes
+    -----
+    The displacement is u = J0 q + Σ Ji ∫ exp(-z/li) q(ξ + z) dz/li, with the deflection q of an
+    elastic half-space of unit compliance under the same pressure, and the retardation lengths
+    li = speed times retardation time (Hunter 1961). The resistance is ∫ p (∂h/∂ξ) dA, or the power
+    of the dashpots over the speed, whichever is the more accurate; their difference is part of its
+    error.
+
+    References
+    ----------
+    S. C. Hunter, J. Appl. Mech. 28 (1961) 611; I. G. Goryacheva, *Contact Mechanics in Tribology*,
+    Kluwer 1998, chapter 6.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.5)
+    >>> ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    >>> ds = vc.steady(ball, rubber, load, [0.001, 0.1, 10.0])
+    >>> ds.friction_coefficient.values.round(4).tolist()
+    [0.0009, 0.0476, 0.0025]
+    """
+    contact = Problem(indenter, material, load, grid, None, indenter_material, tolerance)
+    problem = steady_problem(contact, speed, along, rolling, fields)
+    started = clock.perf_counter()
+    transforms = fastest_transforms()
+    curve = SteadyCurve(problem, prepare(problem, transforms_by(transforms, threads)), errors)
+    try:
+        for state, fresh in curve.states():
+            for text in fresh:
+                warnings.warn(text, AccuracyWarning, stacklevel=2)
+            if progress is not None:
+                progress(state, len(curve.done), len(problem.speeds))
+    except (ConvergenceError, DomainError) as stop:
+        stop.partial = curve.dataset(transforms, clock.perf_counter() - started)
+        raise
+    found = curve.dataset(transforms, clock.perf_counter() - started)
+    assert found is not None  # there is at least one speed
+    return found

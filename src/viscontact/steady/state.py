@@ -1,0 +1,81 @@
+"""State of a contact in steady motion: resultants, rim, resistance."""
+
+from __future__ import annotations
+
+import math
+
+from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.line_load import line_load, peak_line_load
+from viscontact.contact.rim import Rim, trace_rim
+from viscontact.state import ContactState, Outcome
+from viscontact.steady.contact import SteadyContact
+from viscontact.steady.problem import SteadyProblem
+from viscontact.steady.resistance import Resistance, resistance, slope_force
+
+
+def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
+    """Rim of a contact between the cell centres."""
+    outline = trace_outline(problem.contact.indenter, contact.grid)
+    return trace_rim(contact.grid, contact.pressure > 0, contact.gap, outline)
+
+
+def resistance_of(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> Resistance:
+    """Resistance along the motion."""
+    axis = problem.axis
+    return resistance(
+        problem.contact.indenter,
+        contact.domain,
+        contact.solution.values[0],
+        float(contact.solution.motion[1 + axis]),
+        (rim.length, rim.width)[axis] / 2,
+    )
+
+
+def state_of(
+    problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
+) -> ContactState:
+    """State of a contact; its time and what is cumulative are NaN.
+
+    Without a `datum` the approach is NaN.
+    """
+    grid, solution, axis = contact.grid, contact.solution, problem.axis
+    pressure, motion = contact.pressure, solution.motion
+    whole = pressure * grid.cell_area
+    force, peak = float(whole.sum()), float(pressure.max())
+    area, load = max(rim.area, force / peak), line_load(pressure, grid)
+    forces = [
+        slope_force(problem.contact.indenter, grid, pressure, side, float(motion[1 + side]))
+        for side in (0, 1)
+    ]
+    forces[axis] = against.value
+    return ContactState(
+        time=math.nan,
+        pressure=pressure,
+        gap=contact.gap,
+        displacement=contact.displacement,
+        line_load=load,
+        grid=grid,
+        force=force,
+        eccentricity_x=float(whole.sum(axis=1) @ grid.x) / force,
+        eccentricity_y=float(whole.sum(axis=0) @ grid.y) / force,
+        approach=float(motion[0]) if datum else math.nan,
+        tilt_x=float(motion[1]),
+        tilt_y=float(motion[2]),
+        contact_area=area,
+        contact_length=rim.length,
+        contact_width=rim.width,
+        peak_pressure=peak,
+        mean_pressure=force / area,
+        peak_line_load=peak_line_load(load, grid, rim.length),
+        work=math.nan,
+        loss_per_cycle=math.nan,
+        time_error=math.nan,
+        iterations=solution.iterations,
+        residual=solution.residual,
+        cells_across=rim.cells_across,
+        outcome=Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED,
+        resistance_x=forces[0],
+        resistance_y=forces[1],
+        friction_coefficient=forces[axis] / force,
+        dissipation=forces[axis] * contact.speed,
+    )

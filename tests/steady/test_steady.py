@@ -1,0 +1,204 @@
+"""Contacts in steady motion: exact limits, identities, laws, two bodies, results, refusals."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.reference import (
+    fast_sphere_friction_coefficient,
+    hertz_sphere,
+    slow_friction_coefficient,
+)
+
+RADIUS, FORCE = 10.0, 10.0
+BALL = vc.Paraboloid(RADIUS, RADIUS)
+LEVEL = vc.step(FORCE, tilt_x=0.0, tilt_y=0.0)
+COARSE = vc.AutomaticGrid(tolerance=0.04)  # 30 cells across the contact
+# Contact compliance 1/2000 at once and 10/2000 at last, retarded by 10 s.
+RUBBER = vc.Material(vc.CreepSeries(1 / 1000, [9 / 1000], [10.0]), poisson_ratio=0.5)
+
+
+def steady(speed, *, body=BALL, material=RUBBER, load=LEVEL, grid=COARSE, **options):
+    options = {"along": "x", "errors": False, "fields": "none"} | options
+    return vc.steady(body, material, load, speed, grid=grid, **options)
+
+
+def coefficient(*arguments, **options):
+    return float(steady(*arguments, **options).friction_coefficient[0])
+
+
+def test_slow_and_fast_contacts_are_those_of_hertz_with_the_exact_friction():
+    slow, fast = 1e-4, 1e4
+    ds = steady([slow, fast], errors=True)
+    friction = ds.friction_coefficient.values
+    # The cells, of 27 mm, are long against the retardation length of 1 mm; the bar shows it.
+    exact = slow_friction_coefficient(RADIUS, 9.0, slow)
+    assert friction[0] == pytest.approx(exact, rel=0.05)
+    assert abs(friction[0] - exact) < ds.friction_coefficient_error[0]
+    exact = fast_sphere_friction_coefficient(FORCE, RADIUS, 1 / 2000, 9 / 2000 / 10, fast)
+    assert friction[1] == pytest.approx(exact, rel=2e-4)
+    for index, compliance in enumerate((10 / 2000, 1 / 2000)):
+        hertz = hertz_sphere(FORCE, RADIUS, 1 / compliance)
+        here = ds.isel(speed=index)
+        for name, value in (
+            ("approach", hertz.approach),
+            ("contact_area", np.pi * hertz.contact_radius**2),
+            ("peak_pressure", hertz.peak_pressure),
+        ):
+            assert abs(here[name] - value) < here[f"{name}_error"], name
+            assert here[name] == pytest.approx(value, rel=5e-3)
+
+
+def test_error_bars_hold_the_values_of_a_finer_grid():
+    speeds = [0.05, 0.5, 5.0]
+    coarse = steady(speeds, errors=True)
+    fine = steady(speeds, grid=vc.AutomaticGrid(tolerance=0.004))
+    outside = [
+        name
+        for name in coarse
+        if f"{name}_error" in coarse
+        for here in range(len(speeds))
+        if abs(coarse[name] - fine[name])[here] > coarse[f"{name}_error"][here]
+    ]
+    assert outside == []
+    friction = coarse.friction_coefficient
+    assert (coarse.friction_coefficient_error / friction < 0.02).all()
+    assert np.abs(friction / fine.friction_coefficient - 1).max() < 5e-3
+
+
+def test_a_body_that_turns_freely_has_the_friction_of_a_level_one():
+    with pytest.warns(vc.AccuracyWarning, match=r"tilt_x=0\.0"):
+        free = steady(0.1, load=vc.step(FORCE, tilt_y=0.0))
+    assert float(free.tilt_x[0]) == pytest.approx(-float(free.friction_coefficient[0]), rel=1e-6)
+    assert float(free.friction_coefficient[0]) == pytest.approx(coefficient(0.1), rel=1e-3)
+    assert abs(float(free.eccentricity_x[0])) < 1e-9
+
+
+def test_motion_along_y_is_motion_along_x_of_the_turned_body():
+    body, turned = vc.Paraboloid(RADIUS, 3.0), vc.Paraboloid(3.0, RADIUS)
+    x, y = steady(0.1, body=body), steady(0.1, body=turned, along="y")
+    assert float(y.resistance_y[0]) == pytest.approx(float(x.resistance_x[0]), rel=1e-9)
+    assert float(y.contact_width[0]) == pytest.approx(float(x.contact_length[0]), rel=1e-9)
+    assert float(y.dissipation[0]) == pytest.approx(0.1 * float(x.resistance_x[0]), rel=1e-9)
+    assert abs(float(y.resistance_x[0])) < 1e-12
+
+
+def test_a_prescribed_approach_gives_back_the_force():
+    ds = steady(0.1, tolerance=1e-9)
+    back = steady(0.1, load=vc.step(approach=float(ds.approach[0]), tilt_x=0.0, tilt_y=0.0))
+    assert float(back.force[0]) == pytest.approx(FORCE, rel=2e-3)  # on other cells
+    assert float(back.friction_coefficient[0]) == pytest.approx(coefficient(0.1), rel=2e-3)
+
+
+def test_an_elastic_body_has_no_resistance():
+    steel = vc.Material(vc.Elastic(500.0), poisson_ratio=0.5)
+    assert abs(coefficient(0.1, material=steel)) < 1e-9
+
+
+def test_a_fluid_has_the_friction_of_its_flow_and_no_approach():
+    fluid = vc.Material(vc.Maxwell(shear_modulus=500.0, viscosity=5000.0), poisson_ratio=0.5)
+    ds = steady(1e3, material=fluid)
+    # J(t) = (1 + t/10 s)/2000; the next term of the limit is of the order 1/V.
+    exact = fast_sphere_friction_coefficient(FORCE, RADIUS, 1 / 2000, 1 / 20000, 1e3)
+    assert float(ds.friction_coefficient[0]) == pytest.approx(exact, rel=2e-3)
+    assert np.isnan(ds.approach[0])
+    slow = vc.Material(vc.CreepSeries(1 / 1000, [1e7], [1e11]), poisson_ratio=0.5)
+    assert coefficient(0.1, material=fluid) == pytest.approx(coefficient(0.1, material=slow), 1e-5)
+
+
+def test_a_law_that_is_no_series_is_approximated():
+    """A power of time has no time scale: friction depends on speed by a power as well."""
+    creep = vc.Material(vc.PowerLaw(1e-3, 0.5, 1.0), poisson_ratio=0.5)
+    with pytest.warns(vc.AccuracyWarning, match="no instant compliance"):
+        ds = steady([0.01, 1.0], material=creep)
+    # a^3 ~ J(a/V) = sqrt(a/V), so that a ~ V^(-1/5), and F/W ~ a/R.
+    ratio = float(ds.friction_coefficient[0] / ds.friction_coefficient[1])
+    assert ratio == pytest.approx(100**0.2, rel=2e-3)
+    assert ds.attrs["memory_error"] < 1e-5
+
+
+def test_rolling_bodies_may_be_exchanged_and_a_sliding_one_is_relaxed():
+    stiff = vc.Material(vc.CreepSeries(2e-3, [3e-3], [1.0]), poisson_ratio=0.5)
+    one = coefficient(0.1, indenter_material=stiff, rolling=True)
+    other = coefficient(0.1, material=stiff, indenter_material=RUBBER, rolling=True)
+    assert one == pytest.approx(other, rel=1e-4)  # less what returns after a turn of 63 m
+    slides = coefficient(0.1, indenter_material=stiff, rolling=False)
+    relaxed = vc.Material(vc.Elastic(100.0), poisson_ratio=0.5)
+    assert slides == pytest.approx(coefficient(0.1, indenter_material=relaxed), rel=1e-5)
+    assert slides < one
+
+
+def test_a_roller_that_returns_before_it_recovers_resists_less():
+    fast = 100.0  # its retardation length of 1 km is 16 turns
+    once = coefficient(fast, material=RUBBER)
+    steel = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    again = steady(fast, material=steel, indenter_material=RUBBER, rolling=True)
+    assert 0 < float(again.friction_coefficient[0]) < once
+    hertz = hertz_sphere(FORCE, RADIUS, 2000.0)
+    assert float(again.approach[0]) > hertz.approach
+
+
+def test_results_are_saved_with_fields_of_some_speeds(tmp_path):
+    speeds = [0.1, 10.0, 1.0]
+    ds = vc.steady(BALL, RUBBER, LEVEL, speeds, along="x", grid=COARSE, fields=[1.0, 10.0])
+    assert ds.speed.values.tolist() == speeds
+    assert ds.field_speed.values.tolist() == [10.0, 1.0]
+    assert ds.pressure.dims == ("field_speed", "x", "y")
+    area = np.diff(ds.x)[0] * np.diff(ds.y)[0]
+    assert (ds.pressure.sum(("x", "y")) * area).values == pytest.approx([FORCE, FORCE], rel=1e-6)
+    assert float(ds.line_load[1].idxmax()) > 0  # the load lies ahead of the axis
+    vc.save(ds, tmp_path / "curve.nc")
+    with vc.open_results(tmp_path / "curve.nc") as stored:
+        assert stored.identical(ds)
+
+
+def test_progress_counts_from_the_fastest_speed():
+    seen = []
+    steady([0.1, 1.0], progress=lambda state, done, total: seen.append((state, done, total)))
+    assert [each[1:] for each in seen] == [(1, 2), (2, 2)]
+    assert seen[0][0].friction_coefficient < seen[1][0].friction_coefficient
+
+
+def test_a_contact_at_the_rim_of_a_given_grid_is_refused_with_the_speeds_before():
+    grid = vc.Grid((48, 48), (0.8, 0.8))
+    with pytest.raises(vc.DomainError, match="rim at 100 mm/s") as stop:
+        steady([0.1, 100.0], grid=grid)
+    assert stop.value.partial.speed.values.tolist() == [100.0]
+
+
+def test_a_sharp_end_has_an_unknown_peak_and_a_resistance():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", vc.AccuracyWarning)
+        ds = steady(0.1, body=vc.FlatPunch(1.0), errors=True)
+    assert np.isinf(ds.peak_pressure_error[0])
+    assert 0 < ds.friction_coefficient_error[0] < 0.1 * ds.friction_coefficient[0]
+
+
+MATE = {"indenter_material": RUBBER}
+FLUID = vc.Material(vc.Maxwell(500.0, 5000.0), poisson_ratio=0.5)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"speed": 0.0}, "speed must be positive"),
+        ({"speed": [1.0, 1.0]}, "needed once"),
+        ({"along": "z"}, "along must be"),
+        ({"load": vc.ramp(1.0, 1.0)}, "changes in time"),
+        ({"load": vc.harmonic(2.0, 1.0, 1.0, 3)}, "changes in time"),
+        ({"load": vc.step(0.0)}, "force must be positive"),
+        ({"load": vc.step(approach=-1.0, tilt_x=0.0, tilt_y=0.0)}, "does not touch"),
+        ({"fields": [2.0]}, "some of the speeds"),
+        ({"rolling": "yes"}, "rolling must be"),
+        (MATE, "rolling and sliding differ"),
+        (MATE | {"rolling": True, "body": vc.FlatPunch(1.0)}, "cannot roll"),
+        ({"indenter_material": FLUID, "rolling": False}, "creeps without limit"),
+        ({"indenter_material": FLUID, "rolling": True}, "creeps without limit"),
+        ({"grid": vc.Grid((8, 8), (1.0, 1.0), periodic=True)}, "grid.periodic"),
+    ],
+)
+def test_problems_without_a_steady_state_are_refused(options, message):
+    with pytest.raises(ValueError, match=message):
+        steady(**({"speed": 1.0} | options))
