@@ -309,7 +309,8 @@ def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
         raise InterruptedError
 
     # of an elastic body: 0.22 GB, and 64 numbers of 8 bytes a cell
-    sizes = {n: {"material": RUBBER, "grid": vc.Grid((n, n), (1.0, 1.0))} for n in (100, 2000)}
+    given = {"indenter": vc.Sphere(0.01), "material": RUBBER, "load": vc.step(0.1)}
+    sizes = {n: {**given, "grid": vc.Grid((n, n), (1.0, 1.0))} for n in (100, 2000)}
     monkeypatch.setattr(many, "LocalWorkers", pool)
     monkeypatch.setattr(many, "available_memory", lambda: free)
     with warnings.catch_warnings(record=True) as warned, pytest.raises(InterruptedError):

@@ -18,7 +18,15 @@ from viscontact.runs.executors.local import LocalTasks, LocalWorkers
 from viscontact.runs.executors.remote import RemoteTasks
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.recorded_many import Progress, Recipe, known_memory, record_many
+from viscontact.runs.recipes import (
+    BEHIND_MAIN,
+    Recipe,
+    checked_recipes,
+    known_memory,
+    refuse_import_by_a_worker,
+    require_executor,
+)
+from viscontact.runs.recorded_many import Progress, record_many
 from viscontact.runs.resources import fitting
 from viscontact.runs.single import simulate
 from viscontact.runs.sweep.open_many import open_many
@@ -26,6 +34,9 @@ from viscontact.units.numbers import whole
 
 #: Longest time in which an interruption is not noticed on Windows [s].
 _PAUSE = 0.5
+
+#: Advice for a run whose process is killed.
+_REMEDY = f"{BEHIND_MAIN}; else make the same call again"
 
 
 @overload
@@ -96,6 +107,9 @@ def simulate_many(
 
     Raises
     ------
+    TypeError
+        If a run is no mapping of arguments of `simulate` and no function, or the executor or the
+        client is none.
     ValueError, ConvergenceError, DomainError, ...
         The exception of the first run that fails, with a note that names the run. All other runs
         are stopped, as by Ctrl-C.
@@ -130,9 +144,9 @@ def simulate_many(
     >>> round(float(eight.approach[0] / one.approach[0]), 2)  # 8**(2/3)  # doctest: +SKIP
     4.0
     """
-    recipes = list(runs)
-    if executor is not None and client is not None:
-        raise ValueError("executor and client are both given; give one of them")
+    refuse_import_by_a_worker()
+    recipes = checked_recipes(runs)
+    require_executor(executor, client)
     if directory is not None:
         place, shown = Path(directory), progress or _no_progress
         with _tasks(recipes, place, executor, client, workers) as tasks:
@@ -161,12 +175,12 @@ def _tasks(
     """Workers of runs that are recorded."""
     if executor is not None or client is not None:
         chosen = dask_executor(client) if executor is None else lambda memory: executor
-        with RemoteTasks(chosen, directory) as remote:
+        with RemoteTasks(chosen, directory, _REMEDY) as remote:
             yield remote
         return
     count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
     with LocalWorkers(count) as pool:
-        yield LocalTasks(pool, count)
+        yield LocalTasks(pool, count, f"{_REMEDY}, with fewer workers")
 
 
 def _no_progress(run: int, done: int, total: int) -> None:
@@ -241,9 +255,8 @@ def _result(futures: list[Future[Any]], number: int, return_exceptions: bool) ->
     error = futures[number].exception()
     if isinstance(error, BrokenExecutor):
         raise RuntimeError(
-            f"{which}: its process ended without an answer. In a script, call simulate_many "
-            'behind `if __name__ == "__main__":`; else it was killed, as happens when memory '
-            "runs out: then use fewer workers"
+            f"{which}: its process ended without an answer: {BEHIND_MAIN}; else it was killed, as "
+            "happens when memory runs out: then use fewer workers"
         ) from error
     if error is not None:
         error.add_note(f"in {which} of simulate_many")

@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-import xarray as xr
-
-from viscontact.grid import Grid
-from viscontact.materials.material import Material
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.executors.driver import Active, Workers, drive
 from viscontact.runs.executors.simulation_task import SimulationTask
@@ -18,29 +13,16 @@ from viscontact.runs.executors.task import RecordedTask, Task
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
-from viscontact.runs.resources import PROGRAM, least_memory
+from viscontact.runs.recipes import Recipe, known_memory
 from viscontact.runs.sweep.continuation import OtherSweepError, continued, recorded_runs
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import VariedRun, sweep_run, with_recorded_cells
-
-#: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
-Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
 
 #: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.
 Progress = Callable[[int, int, int], None]
 
 #: Most failed runs whose messages are raised.
 _MOST_NAMED = 5
-
-
-def known_memory(recipe: Recipe) -> float:
-    """Memory of a run, as far as it is known before it is set up [bytes]."""
-    given = recipe if isinstance(recipe, Mapping) else {}
-    grid, bodies = given.get("grid"), (given.get("material"), given.get("indenter_material"))
-    compliances = [body.contact_compliance() for body in bodies if isinstance(body, Material)]
-    if isinstance(grid, Grid) and compliances:
-        return least_memory(grid, sum(compliances[1:], start=compliances[0]))
-    return PROGRAM
 
 
 def record_many(

@@ -8,8 +8,14 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures import (
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
+from multiprocessing import current_process, get_context
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +43,16 @@ def runs(*forces: float) -> list[dict[str, Any]]:
     given = {"indenter": vc.Sphere(0.01), "material": RUBBER, "grid": SMALL, "errors": False}
     times, fields = vc.uniform_times(1.0, 4), [1.0]
     return [{**given, "load": vc.step(force), "times": times, "fields": fields} for force in forces]
+
+
+class Broken(Executor):
+    """Executor whose processes end at once."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Return a call without an answer."""
+        future: Future[Any] = Future()
+        future.set_exception(BrokenExecutor("gone"))
+        return future
 
 
 def loky_executor() -> Executor:
@@ -102,13 +118,43 @@ def test_recorded_runs_are_not_repeated_and_a_failed_one_is_not_a_number(tmp_pat
             vc.simulate_many(runs(0.06, 0.1, 50.0), executor=pool, directory=sweep)
 
 
-def test_functions_cannot_be_recorded_and_two_executors_are_refused(tmp_path: Path) -> None:
+def test_what_is_no_run_and_no_executor_is_refused(tmp_path: Path) -> None:
+    (given,) = runs(0.1)
+    few = {key: value for key, value in given.items() if key != "material"}
+    for recipes, options, said in (
+        ([given], {"executor": "x"}, r"executor: must have a method submit, .* got 'x'"),
+        ([given], {"client": "tcp://a"}, r"client: must be a Client .*, got 'tcp://a'"),
+        ([few], {}, r"runs\[0\]: missing a required argument: 'material', as of simulate"),
+        ([given, {**given, "lod": 1}], {}, r"runs\[1\]: got an unexpected keyword argument 'lod'"),
+        (
+            ["ball.yaml"],
+            {},
+            r"runs\[0\]: must be the arguments of simulate by name, .* 'ball.yaml'",
+        ),
+        (given, {}, r"runs: must be a list of runs, .* write \[run\]"),
+    ):
+        for place in ({}, {"directory": tmp_path / "sweep"}):
+            with pytest.raises(TypeError, match=said):
+                vc.simulate_many(recipes, **options, **place)  # type: ignore[call-overload]
     with ThreadPoolExecutor(1) as pool:
         with pytest.raises(ValueError, match=r"runs\[0\]: a run in a directory"):
             vc.simulate_many([dict], executor=pool, directory=tmp_path / "sweep")
+        with pytest.raises(ValueError, match="there are none to record"):
+            vc.simulate_many([], executor=pool, directory=tmp_path / "sweep")
         with pytest.raises(ValueError, match="executor and client are both given"):
             vc.simulate_many([], executor=pool, client=object())
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_script_without_a_guard_is_told_so_by_its_processes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(current_process(), "_inheriting", True, raising=False)
+    with pytest.raises(RuntimeError, match=r"call simulate_many behind `if __name__ =="):
+        vc.simulate_many(runs(0.1), directory=tmp_path / "sweep")
+    monkeypatch.undo()
+    with pytest.raises(RuntimeError, match=r"was killed: gone; in a script, call simulate_many"):
+        vc.simulate_many(runs(0.1), executor=Broken(), directory=tmp_path / "sweep")
 
 
 def test_runs_of_a_case_are_recorded_as_at_the_command_line(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ load: {kind: step, force: 0.5 N}
 time: {end: 1 s, steps: 1}
 output: {errors: false}
 """
+SAMPLE = {"design": "sample", "runs": 4}
 FORCES = {"load.force": ["0.2 N", "0.4 N"]}
 
 
@@ -100,7 +102,7 @@ def test_values_may_be_numbers_lists_and_paths(case: Path, tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("values", "options", "said"),
     [
-        ({"load.force": "5 N"}, {}, "values: load.force: must be a list of values, got '5 N'"),
+        ({"load.force": "5 N"}, {}, "a list of values, as ['5 kN', '10 kN'], got '5 N'"),
         ({"load.force": []}, {}, "values: load.force: must be a list of values"),
         ({}, {}, "values: name a key"),
         (FORCES, {"design": "random"}, "design: must be 'grid', 'zip' or 'sample'"),
@@ -108,13 +110,25 @@ def test_values_may_be_numbers_lists_and_paths(case: Path, tmp_path: Path) -> No
         ({"load.force": ["5 N", "6 MPa"]}, {}, "load.force: cannot read '6 MPa' as a force"),
         ({"load.forc": ["5 N"]}, {}, "did you mean 'force'"),
         (FORCES | {"time.end": ["1 s"]}, {"design": "zip"}, "pairs need equal numbers"),
+        (FORCES | {"time.end": ["1 s"]}, {"design": "zip"}, "leave design='zip' out"),
+        ({"load.force": "1 N"}, SAMPLE, "load.force: must be two bounds of the sample, as ('1 N'"),
+        ({"load.force": ("1 N",)}, SAMPLE, "must be two bounds of the sample"),
+        ({"load.force": ("1 N", "2 N", "lin")}, SAMPLE, "'log' for a logarithmic scale, got ('1"),
+        ({"load.force": 5}, SAMPLE, "must be two bounds of the sample"),
+        ({"load.force": ("2 N", "1 N")}, SAMPLE, "values: load.force: the lower bound comes first"),
+        (FORCES, SAMPLE | {"runs": 2.5}, "runs must be a whole number from 1 to 1000000, got 2.5"),
+        (FORCES, SAMPLE | {"seed": "a"}, "seed must be a whole number"),
+        (FORCES, SAMPLE | {"method": "lhs"}, "method: must be 'sobol' or 'latin-hypercube', got"),
+        (FORCES, {"runs": 4}, "runs: goes with design='sample'"),
+        (FORCES, {"settings": {"load.force": "1 N"}}, "settings: load.force: is varied, too"),
+        (["load.force"], {}, "values: name a key"),
     ],
 )
 def test_faulty_arguments_are_named(
-    case: Path, values: dict[str, list[str]], options: dict[str, str], said: str
+    case: Path, values: Any, options: dict[str, Any], said: str
 ) -> None:
     with pytest.raises(ValueError, match=r".+") as caught:
-        vc.vary(case, values, **options)  # type: ignore[arg-type]
+        vc.vary(case, values, **options)
     assert said in str(caught.value)
     assert "--set" not in str(caught.value)
     assert isinstance(caught.value, CaseError) is ("MPa" in said or "mean" in said)

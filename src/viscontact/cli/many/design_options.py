@@ -114,7 +114,7 @@ class DesignOptions:
         try:
             return paired_design(values) if self.zipped else grid_design(values)
         except ValueError as error:
-            refuse(f"--zip: {error}")
+            refuse(f"--zip: {error}; leave it out for all combinations")
 
     def _sampled(self, number: int) -> Design:
         ranges = [_range(text) for text in self.ranges]

@@ -186,6 +186,7 @@ class LocalTasks:
 
     workers: LocalWorkers
     count: int
+    remedy: str = "continue with --resume, and with fewer runs at a time"
 
     @property
     def most(self) -> int:
@@ -205,6 +206,6 @@ class LocalTasks:
         if isinstance(error, BrokenExecutor):
             return "killed", (
                 f"the process of the run was killed {ATTEMPTS} times, as happens when memory runs "
-                "out; continue with --resume, and with fewer runs at a time"
+                f"out; {self.remedy}"
             )
         return "stopped", f"the run cannot be started: {error}"

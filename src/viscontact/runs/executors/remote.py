@@ -24,7 +24,13 @@ class RemoteTasks:
     A file in the directory of the sweep asks all tasks to save and end, wherever they run.
     """
 
-    def __init__(self, executor: Callable[[float], Executor], directory: Path) -> None:
+    def __init__(
+        self,
+        executor: Callable[[float], Executor],
+        directory: Path,
+        remedy: str = "continue with --resume",
+    ) -> None:
+        self._remedy = remedy
         self._executor, self._stop = executor, directory.absolute() / STOP_NAME
         self._futures: set[Future[Outcome]] = set()
         self._requests = 0
@@ -71,7 +77,7 @@ class RemoteTasks:
         said = next(iter(str(error).splitlines()), "") or type(error).__name__
         is_killed = isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker"
         if is_killed:
-            return "killed", f"the worker of the run was killed: {said}; continue with --resume"
+            return "killed", f"the worker of the run was killed: {said}; {self._remedy}"
         return "stopped", f"the run could not be computed: {type(error).__name__}: {said}"
 
 

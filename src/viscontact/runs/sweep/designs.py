@@ -67,10 +67,7 @@ def paired_design(values: Mapping[str, Sequence[str]]) -> Design:
     count = {key: len(given) for key, given in values.items()}
     if len(set(count.values())) > 1:
         numbers = ", ".join(f"{number} of {key}" for key, number in count.items())
-        raise ValueError(
-            f"pairs need equal numbers of values, got {numbers}; leave --zip out for all "
-            "combinations"
-        )
+        raise ValueError(f"pairs need equal numbers of values, got {numbers}")
     return Design("zip", tuple(values), tuple(zip(*values.values(), strict=True)))
 
 

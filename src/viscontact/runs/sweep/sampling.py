@@ -17,8 +17,11 @@ from viscontact.units.parsing import parse_any_quantity, split_quantity
 
 Method = Literal["sobol", "latin-hypercube"]
 
+#: Kinds of random points.
+METHODS: tuple[Method, ...] = ("sobol", "latin-hypercube")
+
 #: Most runs of a design.
-_MOST_RUNS = 1_000_000
+MOST_RUNS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -51,15 +54,20 @@ def read_range(text: str) -> Range:
     Range(key='load.force', low=500.0, high=2000.0, unit='N', logarithmic=True)
     """
     name, equals, given = text.partition("=")
-    low, *others = (part.strip() for part in given.split(":"))
-    key, logarithmic = name.strip(), others[1:] == ["log"]
+    key, (low, *others) = name.strip(), (part.strip() for part in given.split(":"))
+    logarithmic = others[1:] == ["log"]
     if not (key and equals and low and others and others[0]) or (others[1:] and not logarithmic):
         raise ValueError("write KEY=LOW:HIGH or KEY=LOW:HIGH:log, e.g. 'load.force=5 kN:20 kN:log'")
-    first, last, unit = _bounds(low, others[0])
+    return bounded(key, low, others[0], logarithmic=logarithmic)
+
+
+def bounded(key: str, low: str, high: str, *, logarithmic: bool = False) -> Range:
+    """Return the range of a key between two quantities; ValueError names the fault."""
+    first, last, unit = _bounds(low, high)
     if not (math.isfinite(first) and math.isfinite(last)):
-        raise ValueError(f"the bounds must be finite, got {low} and {others[0]}")
+        raise ValueError(f"the bounds must be finite, got {low} and {high}")
     if not first < last:
-        raise ValueError(f"the lower bound comes first, and differs; got {low} and {others[0]}")
+        raise ValueError(f"the lower bound comes first, and differs; got {low} and {high}")
     if logarithmic and first <= 0:
         raise ValueError(f"a logarithmic range needs bounds above zero, got {low}")
     return Range(key, first, last, unit, logarithmic)
@@ -74,8 +82,8 @@ def sample_design(
     latin hypercube of N points has one in each N-th of every range. Sobol' (1967), scrambled as by
     Matousek (1998); McKay, Beckman and Conover (1979).
     """
-    if not 1 <= number <= _MOST_RUNS:
-        raise ValueError(f"must be a number of runs from 1 to {_MOST_RUNS}, got {number}")
+    if not 1 <= number <= MOST_RUNS:
+        raise ValueError(f"must be a number of runs from 1 to {MOST_RUNS}, got {number}")
     if seed < 0:
         raise ValueError(f"the seed must be zero or more, got {seed}")
     points = _points(len(ranges), number, seed, method)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from inspect import signature
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -27,7 +28,15 @@ from viscontact.runs.sweep.design_table import read_design
 from viscontact.runs.sweep.designs import Design, grid_design, paired_design
 from viscontact.runs.sweep.extremes import extreme_rows
 from viscontact.runs.sweep.manifest import SweepRun
-from viscontact.runs.sweep.sampling import Method, read_range, sample_design
+from viscontact.runs.sweep.sampling import (
+    METHODS,
+    MOST_RUNS,
+    Method,
+    Range,
+    bounded,
+    sample_design,
+)
+from viscontact.units.numbers import whole
 
 #: Values of the varied keys, or the path of a table of runs.
 Values = Mapping[str, Sequence[Any]] | str | PathLike[str]
@@ -53,18 +62,8 @@ class VariedRun:
     def __call__(self) -> xr.Dataset:
         """Simulate the run."""
         case = read_case(self.case, self.assignments)
-        fields: Any = case.fields
-        return simulate(
-            case.indenter,
-            case.material,
-            case.load,
-            case.grid,
-            case.times,
-            indenter_material=case.indenter_material,
-            tolerance=case.tolerance,
-            fields=fields,
-            errors=case.errors,
-        )
+        given = signature(simulate).parameters.keys() - {"threads", "progress"}
+        return simulate(**{name: getattr(case, name) for name in given})
 
 
 def vary(
@@ -87,8 +86,8 @@ def vary(
         Values of each dotted key, such as ``{"load.force": ["5 kN", "10 kN"]}``: texts with
         units, numbers for keys without unit, or paths of files; entries of lists are numbered
         from 1. For a sample, two bounds, and ``"log"`` for a logarithmic scale:
-        ``("1 N", "1 kN", "log")``. Or the path of a CSV file with a run in each row, whose
-        headings are keys with units.
+        ``{"load.force": ("1 N", "1 kN", "log")}``. Or the path of a CSV file with a run in each
+        row, whose headings are keys with units.
     design : {"grid", "zip", "sample"}, optional
         All combinations of the values; pairs, the first values of all keys, then the second
         ones; or points that fill the ranges evenly.
@@ -111,9 +110,9 @@ def vary(
     Raises
     ------
     ValueError
-        If a key or a value is refused (as `CaseError`, with all problems), numbers of values
-        differ in pairs, or the table cannot be read. Of more than 100 runs, only those with
-        extreme values are checked, the others when they are computed.
+        If an argument does not fit, a key or a value is refused (as `CaseError`, with all
+        problems), numbers of values differ in pairs, or the table cannot be read. Of more than
+        100 runs, only those with extreme values are checked, the others when they are computed.
 
     Examples
     --------
@@ -130,9 +129,15 @@ def vary(
     'force=0.1N'
     >>> round(float(eight().approach[-1] / one().approach[-1]), 1)  # Hertz: 8**(2/3)
     4.0
+
+    Four random forces, evenly over a logarithmic scale:
+
+    >>> sample = vary(file, {"load.force": ("0.1 N", "0.8 N", "log")}, design="sample", runs=4)
+    >>> len(sample), sample[3].name, 0.1 <= float(sample[3].settings["load.force"][:-2]) <= 0.8
+    (4, '0003', True)
     """
     path = Path(case)
-    chosen = _design(values, design, runs, seed, method)
+    chosen = _design(values, design, runs, seed, method, (settings or {}).keys())
     fixed = tuple(f"{key}={_text(value)}" for key, value in (settings or {}).items())
     own_cells = _keep_own_cells(path, chosen, fixed)
     added = fixed if own_cells else (*fixed, *_common_cells(path, chosen, fixed))
@@ -179,25 +184,65 @@ def case_name(case: Path, place: Path) -> str:
         return whole.as_posix()
 
 
-def _design(values: Values, design: str, runs: int | None, seed: int, method: Method) -> Design:
-    if not isinstance(values, Mapping):
-        return read_design(Path(values))
-    texts = {key: _texts(key, given) for key, given in values.items()}
-    if not texts:
-        raise ValueError("values: name a key, as {'load.force': ['5 kN', '10 kN']}")
-    if design == "sample":
-        if runs is None:
-            raise ValueError("runs: must be the number of runs of the sample, e.g. runs=64")
-        ranges = [read_range(f"{key}={':'.join(bounds)}") for key, bounds in texts.items()]
-        return sample_design(ranges, runs, seed, method)
-    if design not in ("grid", "zip"):
+def _design(
+    values: Values, design: str, runs: int | None, seed: int, method: str, fixed: Collection[str]
+) -> Design:
+    """Design of the values; ValueError if an argument does not fit."""
+    if design not in ("grid", "zip", "sample"):
         raise ValueError(f"design: must be 'grid', 'zip' or 'sample', got {design!r}")
-    return grid_design(texts) if design == "grid" else paired_design(texts)
+    if design != "sample" and runs is not None:
+        raise ValueError(f"runs: goes with design='sample', got design={design!r}")
+    if isinstance(values, str | PathLike):
+        found = read_design(Path(values))
+    elif not isinstance(values, Mapping) or not values:
+        raise ValueError("values: name a key, as {'load.force': ['5 kN', '10 kN']}")
+    elif design == "sample":
+        found = _sample(values, runs, seed, method)
+    else:
+        texts = {key: _texts(key, given) for key, given in values.items()}
+        found = grid_design(texts) if design == "grid" else _pairs(texts)
+    for key in fixed:
+        if key in found.keys:
+            raise ValueError(f"settings: {key}: is varied, too; leave one of them out")
+    return found
+
+
+def _pairs(texts: Mapping[str, Sequence[str]]) -> Design:
+    try:
+        return paired_design(texts)
+    except ValueError as error:
+        raise ValueError(f"values: {error}; leave design='zip' out for all combinations") from None
+
+
+def _sample(values: Mapping[str, Any], runs: int | None, seed: int, method: str) -> Design:
+    if runs is None:
+        raise ValueError("runs: must be the number of runs of the sample, e.g. runs=64")
+    if method not in METHODS:
+        raise ValueError(f"method: must be {' or '.join(map(repr, METHODS))}, got {method!r}")
+    number, start = whole("runs", runs, 1, MOST_RUNS), whole("seed", seed, 0)
+    ranges = [_range(key, given) for key, given in values.items()]
+    return sample_design(ranges, number, start, method)
+
+
+def _range(key: str, given: Any) -> Range:
+    is_list = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str)
+    bounds = list(map(_text, given)) if is_list else []
+    if len(bounds) not in (2, 3) or bounds[2:] not in ([], ["log"]):
+        raise ValueError(
+            f"values: {key}: must be two bounds of the sample, as ('1 N', '1 kN'), and 'log' for a "
+            f"logarithmic scale, got {given!r}"
+        )
+    try:
+        return bounded(key, *bounds[:2], logarithmic=bool(bounds[2:]))
+    except ValueError as error:
+        raise ValueError(f"values: {key}: {error}") from None
 
 
 def _texts(key: str, given: Sequence[Any]) -> list[str]:
     if isinstance(given, str) or not (isinstance(given, Sequence | np.ndarray) and len(given)):
-        raise ValueError(f"values: {key}: must be a list of values, got {given!r}")
+        raise ValueError(
+            f"values: {key}: must be a list of values, as ['5 kN', '10 kN'], got {given!r}"
+        )
     return [_text(value) for value in given]
 
 
