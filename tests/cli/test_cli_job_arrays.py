@@ -264,3 +264,65 @@ def test_tasks_of_a_long_array_compute_each_run_once(
     assert [int(line.split()[2]) for line in ran] == list(left)
     numbers = re.search(r"(?:--array=|-J )0-(\d+)\n", text)
     assert numbers is None or int(numbers[1]) < 4
+
+
+RUN = """\
+import signal, sys, time
+
+def say(word):
+    with open(__file__ + ".log", "a") as log:
+        print(word, sys.argv[3], file=log)
+
+def save(number, frame):
+    say("saved")
+    sys.exit(130)
+
+signal.signal(signal.SIGTERM, save)
+say("began")
+if "--threads" in sys.argv:  # a long run
+    time.sleep(60)
+sys.exit(sys.argv[3] == "1")
+"""
+
+
+@pytest.fixture
+def start_task(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[str], subprocess.Popen[bytes]]:
+    """Start the first of two tasks of a script for six runs of a program in place of ours."""
+    monkeypatch.setattr(job_array, "MOST_TASKS", 2)
+    (tmp_path / "run.py").write_text(RUN, encoding="utf-8")
+
+    def start(script: str) -> subprocess.Popen[bytes]:
+        program = f"{shlex.quote(sys.executable)} {shlex.quote(str(tmp_path / 'run.py'))}"
+        (tmp_path / "script").write_text(script.replace("viscontact run", f"{program} run"))
+        first = os.environ | {"SLURM_ARRAY_TASK_ID": "0", "PBS_ARRAY_INDEX": "0"}
+        return subprocess.Popen(["bash", tmp_path / "script"], env=first)
+
+    return start
+
+
+@pytest.mark.skipif(os.name == "nt", reason="batch systems run on Unix")
+@pytest.mark.parametrize("script", [slurm_script, pbs_script])
+def test_signal_to_a_task_of_several_runs_reaches_its_run_and_no_other_begins(
+    tmp_path: Path,
+    start_task: Callable[[str], subprocess.Popen[bytes]],
+    script: Callable[[JobArray], str],
+) -> None:
+    log = tmp_path / "run.py.log"
+    with start_task(script(array(6, threads=2))) as task:
+        while not log.exists() or not log.read_text(encoding="utf-8"):
+            clock.sleep(0.01)
+        task.terminate()  # bash only, as `sbatch --signal=B:TERM` does
+        assert task.wait(20) == 130
+    assert log.read_text(encoding="utf-8") == "began 0\nsaved 0\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="batch systems run on Unix")
+def test_task_of_several_runs_continues_after_a_failure_and_exits_with_it(
+    tmp_path: Path, start_task: Callable[[str], subprocess.Popen[bytes]]
+) -> None:
+    with start_task(slurm_script(array(6))) as task:
+        assert task.wait(20) == 1  # of run 1
+    log = (tmp_path / "run.py.log").read_text(encoding="utf-8")
+    assert log == "began 0\nbegan 1\nbegan 2\n"

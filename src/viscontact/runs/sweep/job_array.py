@@ -62,9 +62,14 @@ class JobArray:
         if each == 1:
             return f"{listed}exec {self._run(f'${{runs[{index}]}}')}\n"
         return (
-            f"{listed}failed=0\n"
+            f"{listed}failed=0 stopping=\n"
+            "# A signal to save is passed on to the run, and no other run begins.\n"
+            "trap 'stopping=1; kill $! 2>/dev/null' TERM\n"
             f'for run in "${{runs[@]:{index} * {each}:{each}}}"; do\n'
-            f"  {self._run('$run')} || failed=1\n"
+            f"  {self._run('$run')} &\n"
+            "  wait $! || failed=1\n"
+            "  while kill -0 $! 2>/dev/null; do wait $!; done  # signals end wait\n"
+            '  [ -z "$stopping" ] || exit 130\n'
             "done\n"
             "exit $failed\n"
         )
