@@ -390,7 +390,7 @@ def test_schema_names_every_key_and_shows_units() -> None:
     schema = case_schema()
     json.dumps(schema)
     assert set(schema["properties"]) == {
-        *("title", "indenter", "material", "indenter_material", "load", "time", "grid"),
+        *("title", "indenter", "material", "indenter_material", "load", "time", "grid", "motion"),
         *("output", "tolerance"),
     }
     radius = schema["$defs"]["Sphere"]["properties"]["radius"]

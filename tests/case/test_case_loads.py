@@ -361,4 +361,4 @@ def test_schema_knows_every_kind_of_load_and_spacing() -> None:
     assert "hold for 240 s" in spoken
     time = defs["Time"]
     assert time["required"] == ["end"]
-    assert time["properties"]["spacing"]["enum"] == ["uniform", "log", "adaptive"]
+    assert time["properties"]["spacing"]["enum"] == ["uniform", "log", "adaptive", "cells"]

@@ -70,6 +70,20 @@ def test_resumed_periodic_run_ends_in_the_same_bits(folder: Path) -> None:
     assert same_bits("case", at_once)
 
 
+def test_resumed_moving_run_ends_in_the_same_bits(folder: Path) -> None:
+    text = CASE.replace("size: [3 mm, 3 mm]", "size: [3 mm, 3 mm], centre: [0 mm, 0.3 mm]")
+    moved = "motion: {kind: travel, points: [[0 s, 0 mm], [2 s, 0.6 mm]]}\n"
+    text = text.replace("force: 4 N,", "force: 2 N, tilt_x: 0, tilt_y: 0,")
+    (folder / "case.yaml").write_text(text + moved, encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "at once"]) == 0
+    with xr.open_dataset(folder / "at once" / "result.nc") as ds:
+        at_once = ds.load()
+    assert float(at_once.resistance_y[4]) > 0
+    kill(4, "-q")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    assert same_bits("case", at_once)
+
+
 def test_resume_starts_where_nothing_is_saved(
     folder: Path, whole: xr.Dataset, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -122,7 +122,7 @@ def test_the_reference_of_case_files_lists_values_bounds_and_required_keys() -> 
     rows = {row.split(" | ")[0]: row for row in page.splitlines() if row.startswith("| `")}
     assert "| required |" in rows["| `end`"]
     assert "above -1, at most 0.5" in rows["| `poisson_ratio`"]
-    assert "`uniform` or `log` or `adaptive` | `uniform` |" in rows["| `spacing`"]
+    assert "`uniform` or `log` or `adaptive` or `cells` | `uniform` |" in rows["| `spacing`"]
     assert "e.g. `10 kN`" in rows["| `force`"]
     assert "A name, one of `pmma-paper`" in page
     assert "; or one of the kinds below.\n" in page

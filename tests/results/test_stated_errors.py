@@ -527,5 +527,5 @@ def test_check_says_of_which_bodies_the_peak_depends_on_the_mesh(
 
 
 def test_scalars_that_promise_an_error_are_those_whose_error_is_estimated() -> None:
-    promised = set(scalars_with_error(moving=False))
+    promised = set(scalars_with_error())
     assert promised == {*ERROR_MODELS, "mean_pressure"}

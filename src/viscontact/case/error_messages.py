@@ -18,6 +18,7 @@ from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.materials.shifts import AnyShift
+from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import alternatives
 from viscontact.case.sections import CaseFile
 from viscontact.units.dimensions import DIMENSIONS
@@ -28,12 +29,17 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
     "grid": time_grid_output.Cells,
     "output": time_grid_output.Output,
 }
-# Shifts, like loads, are identified by `kind`.
+# Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)
+_MOTIONS = alternatives(AnyMotion)
 _NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyMaterial) | alternatives(AnyLoad)
-_ALTERNATIVES = _NO_SHIFTS | _SHIFTS
+_ALTERNATIVES = _NO_SHIFTS | _SHIFTS | _MOTIONS
 # Values of these keys are identified by `kind`.
-_WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": _PROFILES}
+_WITHIN: dict[str | int, dict[str | int, Any]] = {
+    "shift": _SHIFTS,
+    "profile": _PROFILES,
+    "motion": _MOTIONS,
+}
 
 # Synonyms that are not similar in spelling.
 _OTHER_NAMES = {
@@ -46,6 +52,7 @@ _OTHER_NAMES = {
     **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},
     **{"points": "history", "sentences": "history", "file": "history"},
     **{"depth": "approach", "indentation": "approach", "displacement": "approach"},
+    **{"path": "travel", "oscillating": "reciprocating", "speed": "points"},
     **{"force": "mean", "frequency": "period", "logarithmic": "log", "linear": "uniform"},
 }
 

@@ -112,7 +112,7 @@ def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
 
 
 def _case(document: Document, found: CaseFile) -> Case:
-    times = found.time.instants()
+    times = found.instants()
     try:
         fields = kept_fields(found.output, times)
     except ValueError as error:
@@ -123,6 +123,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         indenter=combined(found.indenter),
         material=found.material.built,
         load=found.history(),
+        motion=found.motion.built if found.motion else None,
         grid=found.grid.build() if found.grid else None,
         times=with_instants(times, fields),
         indenter_material=of_indenter.built if of_indenter else None,
@@ -150,6 +151,8 @@ def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
         files |= {(*at, *key): path for key, path in shape.files.items()}
     if found.load.table is not None:
         files[("load", "file")] = found.load.table
+    if found.motion is not None:
+        files |= {("motion", *key): path for key, path in found.motion.files.items()}
     materials = {"material": found.material, "indenter_material": found.indenter_material}
     for section, material in materials.items():
         if material is not None:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.material import AnyMaterial
+from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
 from viscontact.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
+from viscontact.time_integration.moving_times import moving_times
+from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.dimensions import DIMENSIONS
 
@@ -28,6 +33,9 @@ class CaseFile(Section):
         default=None, description="the pressed body's material; rigid when left out"
     )
     load: AnyLoad = Field(description="load over time")
+    motion: AnyMotion | None = Field(
+        default=None, description="motion of the body over the surface; at rest when left out"
+    )
     time: Time = Field(description="instants of the run")
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
     output: Output = Field(default=Output(), description="results to keep")
@@ -43,6 +51,26 @@ class CaseFile(Section):
                 "makes a force of it; write 'periodic: true' under grid, or give the force"
             )
         return self
+
+    @model_validator(mode="after")
+    def _moves_if_steps_are_cells(self) -> CaseFile:
+        if self.time.spacing != "cells":
+            return self
+        if self.motion is None:
+            raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
+        if not isinstance(self.grid and self.grid.build(), Grid):
+            raise ValueError(
+                "time.spacing: cells goes with a given grid; write e.g. 'shape: [128, 256]' and "
+                "'size: [1 mm, 2 mm]' under grid, or 'spacing: uniform'"
+            )
+        return self
+
+    def instants(self) -> NDArray[np.float64] | AdaptiveTimes:
+        """Return the instants of the run [s], or the settings of adaptive steps."""
+        grid = self.grid.build() if self.grid else None
+        if self.time.spacing == "cells" and self.motion is not None and isinstance(grid, Grid):
+            return moving_times(self.motion.built, self.history(), grid.cell_size, self.time.end)
+        return self.time.instants()
 
     def history(self) -> LoadHistory:
         """Return the load; a mean pressure acts on the area of the grid."""

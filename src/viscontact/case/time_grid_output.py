@@ -47,11 +47,12 @@ class Time(Section):
 
     end: Duration = Field(description="last instant of the run")
     steps: StepCount | None = Field(
-        default=None, description="number of steps; not with adaptive spacing"
+        default=None, description="number of steps; not with adaptive spacing or cells"
     )
-    spacing: Literal["uniform", "log", "adaptive"] = Field(
+    spacing: Literal["uniform", "log", "adaptive", "cells"] = Field(
         default="uniform",
-        description="adaptive: each step as long as the tolerance allows",
+        description="adaptive: each step as long as the tolerance allows; cells: with a motion, "
+        "a cell of way each",
     )
     first: Duration | None = Field(
         default=None,
@@ -80,6 +81,8 @@ class Time(Section):
                 raise ValueError(
                     f"{name} goes with spacing: {' or '.join(spacings)} only; leave it out"
                 )
+        if self.spacing == "cells":
+            return self  # they follow from the motion and the grid
         if self.steps is None and self.spacing != "adaptive":
             raise ValueError(
                 "steps is missing; write e.g. 'steps: 120', or 'spacing: adaptive' for steps "

@@ -98,9 +98,10 @@ class MovingLoad(LoadHistory):
     @property
     def kinks(self) -> NDArray[np.float64]:
         """Kinks of load and path, increasing [s]."""
-        known = self.load.kinks
-        others = self.motion.kinks
-        distance = np.abs(others[:, None] - known).min(axis=1)
+        known, others = self.load.kinks, self.motion.kinks
+        after = np.searchsorted(known, others)
+        around = known[np.clip([after - 1, after], 0, len(known) - 1)]
+        distance = np.abs(others - around).min(axis=0)
         return np.unique([*known, *others[distance > SAME_TIME * others]])
 
     @property

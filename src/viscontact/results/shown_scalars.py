@@ -14,7 +14,7 @@ LONG = 3.0
 OF_LONG_CONTACTS = ("peak_line_load",)
 
 #: Scalars without a value where the approach has no datum.
-WITH_DATUM = ("approach", "work", "loss_per_cycle")
+WITH_DATUM = ("approach", "work", "loss_per_cycle", "dissipation", "heat")
 
 
 def is_long(ds: xr.Dataset) -> bool:

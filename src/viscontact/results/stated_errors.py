@@ -20,6 +20,8 @@ WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller ce
 _ROUNDING_ECCENTRICITY = 1e-12
 #: Of the approach: a tilt that moves the ends of the contact by less is rounding.
 _ROUNDING_TILT = 1e-6
+#: Resistance over force of an elastic body, and across the motion.
+_ROUNDING_RESISTANCE = 1e-9
 #: Approach over extent of a contact whose approach has no datum, in place of it.
 _USUAL_STRAIN = 1e-3
 
@@ -115,10 +117,26 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
 
 
 def is_rounding(ds: xr.Dataset, name: str) -> bool:
-    """Test for a scalar that is zero throughout, or a tilt or eccentricity of rounding size."""
+    """Test for a scalar that is zero throughout, or of rounding size.
+
+    Tilts and eccentricities under a centred load are, and the resistance across the motion.
+    """
     if is_centred(ds, name):
         return True
-    return _largest(ds[name].values) == 0.0
+    largest = _largest(ds[name].values)
+    return largest == 0.0 or largest <= _rounding_of_motion(ds, name)
+
+
+def _rounding_of_motion(ds: xr.Dataset, name: str) -> float:
+    """Largest rounding of a scalar of the motion, in its unit; 0 for other scalars."""
+    if name.startswith("resistance"):
+        return _ROUNDING_RESISTANCE * _largest(ds["force"].values)
+    if name == "friction_coefficient":
+        return _ROUNDING_RESISTANCE
+    if name == "motion_work":
+        way = max(np.ptp(ds[f"position_{axis}"].values) for axis in "xy")
+        return _ROUNDING_RESISTANCE * _largest(ds["force"].values) * float(way)
+    return 0.0
 
 
 def is_centred(ds: xr.Dataset, name: str) -> bool:

@@ -18,12 +18,16 @@ SAME_TIME = 1e-9
 
 
 def moving_times(
-    motion: Motion, load: LoadHistory, cell_size: tuple[float, float]
+    motion: Motion,
+    load: LoadHistory,
+    cell_size: tuple[float, float],
+    end: float | None = None,
 ) -> NDArray[np.float64]:
     """Times at which the body has passed whole cells (dx, dy), and kinks of load and path [s].
 
     Alignment of body and cells is then the same at all of them, so that the resistance does not
-    scatter. At rest they are in geometric progression.
+    scatter. At rest they are in geometric progression. The last one is that of load and path, or
+    `end`.
 
     Examples
     --------
@@ -33,8 +37,8 @@ def moving_times(
     [0.0, 0.25, 0.5, 0.75, 1.0]
     """
     kinks = MovingLoad(load, motion).kinks
-    end = float(kinks[-1])
-    ends = np.unique([0.0, *kinks])
+    end = float(kinks[-1]) if end is None else end
+    ends = np.unique([0.0, *kinks[kinks < end], end])
     found = [motion.times_at_cells(cell_size)]
     for begin, stop in itertools.pairwise(ends.tolist()):
         if (motion.position_at(begin) == motion.position_at(stop)).all() and not any(
@@ -45,7 +49,8 @@ def moving_times(
     times = np.unique(np.concatenate([ends, *found]))
     times = times[times <= end]
     # Of times that coincide the kink is kept, else the first.
-    distance = np.abs(times[:, None] - ends).min(axis=1)
+    after = np.clip(np.searchsorted(ends, times), 1, len(ends) - 1)
+    distance = np.minimum(np.abs(times - ends[after - 1]), np.abs(times - ends[after]))
     rounded = (distance > 0) & (distance < SAME_TIME * end)
     times = times[~rounded]
     apart = np.append(True, np.diff(times) > SAME_TIME * end)

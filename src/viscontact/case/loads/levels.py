@@ -73,12 +73,14 @@ ForceOrApproach = Annotated[Level, _LevelQuantity()]
 
 @dataclass(frozen=True)
 class _TiltQuantity(Quantity):
-    """Annotation of a tilt: an angle, or the word that leaves it free of moment."""
+    """Annotation of a tilt: an angle, 0 without a unit, or the word for one free of moment."""
 
     def read(self, given: Any) -> Any:
         """Return the angle [rad], None where the tilt is free."""
         if given is None or given == "free":
             return None
+        if not isinstance(given, bool) and given in (0, "0"):
+            return 0.0
         try:
             return super().read(given)
         except PydanticCustomError as error:
@@ -88,9 +90,9 @@ class _TiltQuantity(Quantity):
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Return the JSON schema: an angle or the word."""
+        """Return the JSON schema: an angle, zero or the word."""
         angle = super().__get_pydantic_json_schema__(schema, handler)
-        return {"anyOf": [angle, {"const": "free"}]}
+        return {"anyOf": [angle, {"const": "free"}, {"const": 0}]}
 
 
 Tilt = Annotated[float | None, _TiltQuantity("angle")]

@@ -1,0 +1,126 @@
+"""Section `motion` of a case file."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from viscontact import loads
+from viscontact.case.data_file import DataFile
+from viscontact.case.quantities import CycleCount, Duration, Instant, Length, Offset, Section
+from viscontact.loads.motion import Motion
+from viscontact.tables import read_table
+from viscontact.tables.text import read_rows
+
+#: Columns of a table of the path.
+_AXES = ("x", "y")
+_COLUMNS = ("time", *_AXES)
+
+
+class MotionSection(Section):
+    """A motion of the body over the surface."""
+
+    rolling: bool | None = Field(
+        default=None,
+        description="whether the material of both bodies flows through the contact; if not, the "
+        "body slides; required if the indenter's material is not elastic",
+    )
+
+    @abstractmethod
+    def build(self) -> Motion:
+        """Return the motion."""
+
+    @cached_property
+    def built(self) -> Motion:
+        """The motion, built once: its file is read once."""
+        return self.build()
+
+    @property
+    def files(self) -> dict[tuple[str, ...], Path]:
+        """Files of the motion, by their keys."""
+        return {}
+
+    @model_validator(mode="after")
+    def _accepted(self) -> MotionSection:
+        _ = self.built
+        return self
+
+
+class Travel(MotionSection):
+    """A path of the body through points at given times; at rest before and after."""
+
+    kind: Literal["travel"]
+    points: list[Annotated[tuple[Instant, Offset], Field(strict=False)]] | None = Field(
+        default=None,
+        description="[time, position] each, of the body's axis, with constant velocity between "
+        "them",
+        examples=[[["0 s", "0 mm"], ["2 s", "40 mm"]]],
+    )
+    along: Literal["x", "y"] = Field(default="y", description="axis of the positions")
+    file: DataFile | None = Field(
+        default=None,
+        description="CSV in place of points, with a header such as: time [s], x [mm], y [mm]",
+        examples=["path.csv"],
+    )
+
+    def build(self) -> Motion:
+        """Return the path, from its points or its file."""
+        if (self.points is None) == (self.file is None):
+            raise ValueError(
+                "give points (e.g. '[[0 s, 0 mm], [2 s, 40 mm]]') or file, and only one of them"
+            )
+        if self.file is not None:
+            if "along" in self.model_fields_set:
+                raise ValueError("along goes with points; a file has columns x and y")
+            return self._from_file(Path(self.file))
+        if not self.points:
+            raise ValueError("points is empty; write e.g. '[[0 s, 0 mm], [2 s, 40 mm]]'")
+        times, positions = zip(*self.points, strict=True)
+        return loads.Travel(times, **{self.along: positions}, rolling=self.rolling)
+
+    @property
+    def files(self) -> dict[tuple[str, ...], Path]:
+        """File of the path, if it has one."""
+        return {} if self.file is None else {("file",): Path(self.file)}
+
+    def _from_file(self, path: Path) -> Motion:
+        try:
+            heads = [
+                cell for cell in read_rows(path)[0].cells if cell.split("[")[0].strip() in "xy"
+            ]
+            table = read_table(path, {cell: cell.strip()[0] for cell in heads if cell.strip()})
+        except ValueError as error:
+            raise ValueError(f"file: {error}") from error
+        others = [table.headings[column] for column in table.columns if column not in _COLUMNS]
+        for unknown in (*table.left_out, *others):
+            raise ValueError(
+                f"file: {path.name}: cannot read the column name {unknown!r}; names are "
+                f"{', '.join(_COLUMNS)}, each with its unit, as 'y [mm]'"
+            )
+        if "time" not in table or not ("x" in table or "y" in table):
+            raise ValueError(f"file: {path.name}: needs the column time, and x or y or both")
+        places: dict[str, Any] = {name: table[name] for name in _AXES if name in table}
+        return loads.Travel(table["time"], **places, rolling=self.rolling)
+
+
+class Reciprocating(MotionSection):
+    """A motion back and forth, amplitude sin(2 pi t/period), from time 0."""
+
+    kind: Literal["reciprocating"]
+    amplitude: Length = Field(description="largest distance from the middle")
+    period: Duration = Field(description="time of a cycle")
+    cycles: CycleCount = Field(description="number of cycles; then the body is at rest")
+    along: Literal["x", "y"] = Field(default="y", description="axis of the motion")
+
+    def build(self) -> Motion:
+        """Return the motion."""
+        return loads.reciprocating(
+            self.amplitude, self.period, self.cycles, self.along, rolling=self.rolling
+        )
+
+
+AnyMotion = Annotated[Travel | Reciprocating, Field(discriminator="kind")]
