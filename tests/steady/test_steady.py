@@ -99,13 +99,15 @@ def test_an_elastic_body_has_no_resistance():
 
 def test_a_fluid_has_the_friction_of_its_flow_and_no_approach():
     fluid = vc.Material(vc.Maxwell(shear_modulus=500.0, viscosity=5000.0), poisson_ratio=0.5)
-    ds = steady(1e3, material=fluid)
+    with pytest.warns(vc.AccuracyWarning, match="the material flows"):
+        ds = steady([1e3, 0.1], material=fluid)
     # J(t) = (1 + t/10 s)/2000; the next term of the limit is of the order 1/V.
     exact = fast_sphere_friction_coefficient(FORCE, RADIUS, 1 / 2000, 1 / 20000, 1e3)
     assert float(ds.friction_coefficient[0]) == pytest.approx(exact, rel=2e-3)
-    assert np.isnan(ds.approach[0])
+    assert np.isnan(ds.approach).all()
     slow = vc.Material(vc.CreepSeries(1 / 1000, [1e7], [1e11]), poisson_ratio=0.5)
-    assert coefficient(0.1, material=fluid) == pytest.approx(coefficient(0.1, material=slow), 1e-5)
+    retarded = coefficient(0.1, material=slow)
+    assert float(ds.friction_coefficient[1]) == pytest.approx(retarded, rel=1e-3)  # other cells
 
 
 def test_a_law_that_is_no_series_is_approximated():
@@ -196,7 +198,8 @@ FLUID = vc.Material(vc.Maxwell(500.0, 5000.0), poisson_ratio=0.5)
         (MATE | {"rolling": True, "body": vc.FlatPunch(1.0)}, "cannot roll"),
         ({"indenter_material": FLUID, "rolling": False}, "creeps without limit"),
         ({"indenter_material": FLUID, "rolling": True}, "creeps without limit"),
-        ({"grid": vc.Grid((8, 8), (1.0, 1.0), periodic=True)}, "grid.periodic"),
+        ({"grid": vc.Grid((8, 8), (1.0, 1.0), periodic=(True, False))}, "across the motion"),
+        ({"body": vc.Paraboloid(RADIUS, np.inf)}, "without end"),
     ],
 )
 def test_problems_without_a_steady_state_are_refused(options, message):

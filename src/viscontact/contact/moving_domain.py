@@ -19,6 +19,7 @@ from viscontact.halfspace.moving_load import (
     MovingCompliance,
     moving_influence_table,
 )
+from viscontact.halfspace.periodic_influence import periodic_influence_coefficient
 from viscontact.halfspace.preconditioner import MovingPreconditioner
 
 #: Fewest cells of a coarser grid along an axis.
@@ -30,7 +31,7 @@ class MovingDomain(ContactDomain):
 
     The unit displacement is that of the moving contact over a reference compliance
     (`compliance`): that of a wave as long as the grid, so that it has the size of an elastic one.
-    Only evenness across the motion halves the problem.
+    Only evenness across the motion halves the problem. The grid may be periodic across the motion.
 
     `axis` is that of the motion, which is towards its positive end; `mirrored` means even across
     it. `added` is an elastic compliance added to the operator [1/Pa], for the proximal point
@@ -46,11 +47,11 @@ class MovingDomain(ContactDomain):
         mirrored: bool = False,
         added: float = 0.0,
         transforms: Transforms | None = None,
-        coefficient: Coefficient = influence_coefficient,
         moving_table: NDArray[np.float64] | None = None,
     ) -> None:
         self.moving_compliance, self.axis = moving_compliance, axis
-        self._added, self._coefficient, self._moving_table = added, coefficient, moving_table
+        self._added, self._moving_table = added, moving_table
+        self._coefficient = _coefficient_on(grid, axis)
         wave = np.array(2 * np.pi / grid.size[axis])
         #: Compliance that unit displacements are relative to [1/Pa].
         self.compliance = abs(complex(moving_compliance.at_wave_number(wave)))
@@ -97,7 +98,6 @@ class MovingDomain(ContactDomain):
             mirrored=any(self.mirrored),
             added=added,
             transforms=self._transforms,
-            coefficient=self._coefficient,
             moving_table=moving_table,
         )
 
@@ -114,6 +114,8 @@ class MovingDomain(ContactDomain):
             self._moving_table = moving_influence_table(
                 self.grid.shape, self.grid.cell_size, relative, self.axis, self._coefficient
             )
+            if not self.grid.has_datum:  # from the farthest place on, as that of the memory is far
+                self._moving_table = self._moving_table - self._moving_table.min()
         if not self._added:
             return self._moving_table
         return self._moving_table + self._added / self.compliance * self._elastic_table
@@ -141,8 +143,27 @@ class MovingDomain(ContactDomain):
             mirrored=self.mirrored,
             single=single,
             signed=axis,
+            periodic=(self.grid.periodic[0], self.grid.periodic[1]),
             transforms=self._transforms,
         )
+
+
+def _coefficient_on(grid: Grid, axis: int) -> Coefficient:
+    """Influence coefficients of an elastic surface, with images across the motion if periodic."""
+    if not grid.periodic[1 - axis]:
+        return influence_coefficient
+    period = grid.size[1 - axis]
+
+    def with_images(
+        along: NDArray[np.float64], across: NDArray[np.float64], cell: tuple[float, float]
+    ) -> NDArray[np.float64]:
+        if grid.shape[1 - axis] == 1:  # pieces of any length make the strip
+            return periodic_influence_coefficient(across, along, (cell[0], cell[0]), cell[0], size)
+        near = np.minimum(across, period - across)
+        return periodic_influence_coefficient(near, along, cell[::-1], period, size)
+
+    size = grid.size[axis]
+    return with_images
 
 
 def coarser_shape(shape: tuple[int, int]) -> tuple[int, int] | None:

@@ -53,13 +53,27 @@ def periodic_influence_table(
         dx = dy  # pieces of any length make the strip
     x = np.arange(nx // 2 + 1, dtype=np.float64)[:, None] * dx
     y = np.arange(ny, dtype=np.float64)[None, :] * dy
-    period = nx * dx
-    images = max(IMAGES, math.ceil(IMAGES * dy / period))
-    table = _far_images(x, y, (dx, dy), period, images, datum)
-    for image in range(-images, images + 1):
-        table += influence_coefficient(x + image * period, y, (dx, dy))
+    table = periodic_influence_coefficient(x, y, (dx, dy), nx * dx, datum)
     offsets = np.arange(nx)
     return np.asarray(table[np.minimum(offsets, nx - offsets)])
+
+
+def periodic_influence_coefficient(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    cell_size: tuple[float, float],
+    period: float,
+    datum: float,
+) -> NDArray[np.float64]:
+    """Influence coefficients [m] of a cell with its images along x at offsets x, y [m].
+
+    `x` is at most half a period. Displacement is zero at the distance `datum` [m] of a line load.
+    """
+    images = max(IMAGES, math.ceil(IMAGES * cell_size[1] / period))
+    table = _far_images(x, y, cell_size, period, images, datum)
+    for image in range(-images, images + 1):
+        table += influence_coefficient(x + image * period, y, cell_size)
+    return table
 
 
 def _far_images(

@@ -17,6 +17,7 @@ from viscontact.checks.half_space_theory import (
 )
 from viscontact.checks.material import data_warnings, law_warnings
 from viscontact.checks.mesh import cells_across_spots, mesh_warnings
+from viscontact.checks.periodicity import NO_DATUM
 from viscontact.checks.singularities import strain_of
 from viscontact.contact.rim import Rim
 from viscontact.errors import ConvergenceError, DomainError
@@ -110,7 +111,7 @@ class SteadyCurve:
     def _measured(self, contact: SteadyContact) -> Measured:
         rim = rim_of(self.problem, contact)
         against = resistance_of(self.problem, contact, rim)
-        datum = not self.run.solver.law.fluidity
+        datum = contact.grid.has_datum and not self.run.solver.law.fluidity
         state = state_of(self.problem, contact, rim, against, datum=datum)
         return Measured(state, rim, against)
 
@@ -125,7 +126,8 @@ def _refuse(contact: SteadyContact, tolerance: float) -> None:
     """Raise if a contact is not found, reaches the rim, or has too few cells."""
     grid, speed = contact.grid, format_quantity(contact.speed, "m/s", 6)
     solution = contact.solution
-    if any(overrun(contact.pressure)):
+    cut = np.logical_and(overrun(contact.pressure), np.logical_not(grid.periodic))
+    if cut.any():
         raise DomainError(
             f"grid: the contact reaches the grid's rim at {speed}; it need not lie at the body's "
             f"centre. Enlarge grid.size, now {format_quantity(grid.size[0], 'm')} x "
@@ -148,6 +150,15 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
     """Warnings, by kind, that hold for all speeds."""
     compliance, law = problem.contact.compliance, run.solver.law
     found = law_warnings(law.error, compliance.inversion_error)
+    if not run.grids[0].has_datum:
+        found["datum"] = (
+            f"the grid is periodic across the motion, and {NO_DATUM}: approach is not defined (NaN)"
+        )
+    if run.solver.law.fluidity:
+        found["fluid"] = (
+            "the material flows, so that the approach grows without limit with the way that the "
+            "body has come: approach is not defined (NaN)"
+        )
     if compliance.instant == 0:
         found["instant"] = (
             "the law has no instant compliance: where the surface is loaded first, pressure may "
@@ -183,7 +194,7 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
     strain = strain_of(float(pressure.max()), contact.domain.compliance)
     passed = (rim.length, rim.width)[problem.axis] / contact.speed
     return (
-        mesh_warnings(rim.cells_across, cells_across_spots(pressure > 0))
+        mesh_warnings(rim.cells_across, cells_across_spots(pressure > 0, periodic=grid.periodic))
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
         | data_warnings(passed, body.measured_until)

@@ -27,7 +27,7 @@ LEAST_ERRORS = {
 
 #: Least error of extents along and across the motion, in cells, and of the place of the resultant,
 #: over the extents and times the square of these cells.
-ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.25, 0.1, 0.1
+ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.5, 0.1, 0.1
 
 #: Error of the resistance over the difference of its forms: both err where a retardation length is
 #: shorter than a cell.
@@ -52,8 +52,8 @@ def error_bars(
     """Half widths of the error bars of a contact, from one in cells twice as large.
 
     The difference of both grids counts, and at least an error by the rim's place in its cells and
-    by the solver. Of the resistance, the difference of its two forms counts as well, unless the
-    body ends in the contact. A `singular` peak pressure has no limit.
+    by the solver. Of a resistance by the slope, the difference of both forms counts as well. A
+    `singular` peak pressure has no limit.
     """
     state, least = fine.state, _least_bars(problem, fine)
     bars = {}
@@ -62,7 +62,7 @@ def error_bars(
         bars[name] = max(FIRST_ORDER.get(name, 1.0) * difference, least[name])
     along_motion = f"resistance_{problem.along}"
     forces = bars[along_motion]
-    if not fine.against.at_end:
+    if fine.against.slope_weight and not fine.against.at_end:
         forces = max(forces, FORMS * fine.against.difference)
     if singular:
         bars["peak_pressure"] = math.inf
@@ -79,7 +79,8 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     """Errors by the rim's place in its cells and by the solver, however well two grids agree."""
     state, rim = fine.state, fine.rim
     cell, extents = rim.grid.cell_size, (rim.length, rim.width)
-    square = max(min(extents[0] / cell[0], extents[1] / cell[1]), 1.0) ** 2
+    free = [axis for axis in (0, 1) if not rim.grid.periodic[axis]]
+    square = max(min(extents[axis] / cell[axis] for axis in free), 1.0) ** 2
     solver = SOLVER_ERROR_FACTOR * problem.contact.tolerance
     least = {
         name: (LEAST_ERRORS.get(name, 0.0) / square + solver) * abs(float(getattr(state, name)))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
 from viscontact.fourier import Transforms
 from viscontact.grid import Grid
@@ -43,8 +44,11 @@ class PreparedRun:
 
 def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
     """Find the law and the grids of a problem; refuse a body that does not touch."""
+    given, axis, contact = problem.contact.grid, problem.axis, problem.contact
+    check_endless(contact.indenter, given if isinstance(given, Grid) else None)
+    if isinstance(given, Grid):
+        check_period(contact.indenter, gap_on(problem, given), given, contact.load)
     _refuse_apart(problem)
-    given, axis = problem.contact.grid, problem.axis
     if isinstance(given, Grid):
         extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
         solver = SteadySolver(problem, moving_law(problem, extents), transforms)

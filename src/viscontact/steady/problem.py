@@ -57,10 +57,11 @@ def steady_problem(
         raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
     axis = "xy".index(along)
     speeds = _speeds("speed", speed)
-    if isinstance(contact.grid, Grid) and contact.grid.periodic:
+    if isinstance(contact.grid, Grid) and contact.grid.periodic[axis]:
         raise ValueError(
-            "grid.periodic: steady motion is computed on grids that are not periodic; leave "
-            "periodic out"
+            f"grid.periodic: the body moves along {along}, and a grid that is periodic along it "
+            "would hold other bodies ahead of it and behind it; use a grid that is periodic across "
+            "the motion, or not at all"
         )
     _check_bodies(contact, axis, rolling)
     kept = _kept(fields, speeds)

@@ -66,7 +66,8 @@ def steady(
         it slides. Needed if the indenter's material is viscoelastic.
     grid : Grid or AutomaticGrid, optional
         Cells that carry the pressure, in coordinates relative to the body's axis, or requirements
-        on cells that the run chooses; chosen by the run as well when left out, for each speed.
+        on cells that the run chooses; chosen by the run as well when left out, for each speed. A
+        grid that is periodic across the motion holds a line contact, whose approach has no datum.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
     tolerance : float, optional

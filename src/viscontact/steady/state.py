@@ -48,6 +48,8 @@ def state_of(
         for side in (0, 1)
     ]
     forces[axis] = against.value
+    # A body that repeats has no centre from which the force could be offset.
+    centre_x, centre_y = (math.nan if repeats else 1.0 for repeats in grid.periodic)
     return ContactState(
         time=math.nan,
         pressure=pressure,
@@ -56,8 +58,8 @@ def state_of(
         line_load=load,
         grid=grid,
         force=force,
-        eccentricity_x=float(whole.sum(axis=1) @ grid.x) / force,
-        eccentricity_y=float(whole.sum(axis=0) @ grid.y) / force,
+        eccentricity_x=centre_x * float(whole.sum(axis=1) @ grid.x) / force,
+        eccentricity_y=centre_y * float(whole.sum(axis=0) @ grid.y) / force,
         approach=float(motion[0]) if datum else math.nan,
         tilt_x=float(motion[1]),
         tilt_y=float(motion[2]),

@@ -1,0 +1,72 @@
+"""Line contacts in steady motion against Hunter's cylinder."""
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.reference import moving_cylinder
+
+RADIUS, FORCE, CELLS = 10.0, 10.0, 64
+CYLINDER, LEVEL = vc.Paraboloid(np.inf, RADIUS), vc.step(FORCE, tilt_y=0.0)
+
+
+def hunter(speed, ratio=10):
+    return moving_cylinder(FORCE, RADIUS, 1 / 2000, (ratio - 1) / 2000, float(ratio), speed)
+
+
+def rubber(ratio=10):
+    series = vc.CreepSeries(1 / 1000, [(ratio - 1) / 1000], [float(ratio)])
+    return vc.Material(series, poisson_ratio=0.5)
+
+
+def line(exact, cells=CELLS, pieces=1, shift=0.3):
+    """Grid of one unit of length with so many cells across the contact, at any place in a cell."""
+    cell = 2 * exact.half_width / cells
+    count = 8 * round(cells * 1.25 / 8)
+    centre = (0.0, exact.offset + shift * cell)
+    return vc.Grid((pieces, count), (1.0, count * cell), periodic=(True, False), centre=centre)
+
+
+# mu is within 1e-3 at 128 cells from speeds V tau/a of 0.01 on; here are 64.
+@pytest.mark.parametrize(
+    ("speed", "ratio", "limit"),
+    [(0.005, 10, 5e-3), (0.02, 10, 1e-3), (0.1, 10, 2e-4), (10.0, 10, 2e-5), (1.0, 100, 1e-3)],
+)
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_the_cylinder_is_hunters(speed, ratio, limit):
+    exact = hunter(speed, ratio)
+    ds = vc.steady(CYLINDER, rubber(ratio), LEVEL, speed, grid=line(exact)).isel(speed=0)
+    for name, value in (
+        ("friction_coefficient", exact.friction_coefficient),
+        ("contact_width", 2 * exact.half_width),
+    ):
+        assert abs(ds[name] - value) < ds[f"{name}_error"], name
+    assert ds.friction_coefficient == pytest.approx(exact.friction_coefficient, rel=limit)
+    assert ds.contact_width == pytest.approx(2 * exact.half_width, rel=1e-2)
+    # On a parabola the resultant lies ahead of the axis by mu R.
+    assert ds.eccentricity_y == pytest.approx(RADIUS * exact.friction_coefficient, rel=2e-2)
+
+
+def with_warning(function, *arguments, **options):
+    with pytest.warns(vc.AccuracyWarning, match="approach is not defined"):
+        return function(*arguments, **options)
+
+
+def test_pieces_along_the_cylinder_change_nothing_and_the_approach_has_no_datum():
+    exact = hunter(0.1)
+    one, many = (
+        with_warning(vc.steady, CYLINDER, rubber(), LEVEL, 0.1, grid=line(exact, 32, pieces=pieces))
+        for pieces in (1, 4)
+    )
+    assert np.isnan(one.approach).all()
+    assert np.isnan(one.eccentricity_x).all()
+    assert many.pressure.values.std(axis=1).max() < 1e-6 * many.pressure.values.max()
+    assert float(many.friction_coefficient[0]) == pytest.approx(
+        float(one.friction_coefficient[0]), rel=1e-7
+    )
+
+
+def test_a_prescribed_approach_of_a_line_contact_is_refused():
+    load = vc.step(approach=0.01, tilt_y=0.0)
+    with pytest.raises(ValueError, match="datum"):
+        vc.steady(CYLINDER, rubber(), load, 0.1, grid=line(hunter(0.1)))
