@@ -138,10 +138,16 @@ def test_the_printed_command_names_all_options() -> None:
             "plan.csv: load.force: is given twice",
         ),
         (["--table", "none.csv"], "--table: no such file none.csv"),
-        (["--table", "plan.xlsx"], "--table: plan.xlsx: tables of a spreadsheet cannot be read"),
+        (["--table", "plan.xlsx"], "plan.xlsx: tables of a spreadsheet cannot be read"),
         (["--vary", "indenter.file=*.x3p"], "--vary indenter.file=*.x3p: no file of that name in"),
-        (["--table", "plan.csv"], "plan.csv: column 'load.force': cannot read '2 mm' as a force"),
-        (["--table", "plan.csv"], "'20 kN' [line 3]"),
+        (["--table", "plan.csv"], "cannot read '2 mm' as a force"),
+        (["--table", "plan.csv"], "plan.csv:3: column 'load.force': cannot read '2 mm'"),
+        (["--table", "empty.csv"], "--table: empty.csv is empty; a table begins with e.g. 'load.f"),
+        (["--table", "short.csv"], "short.csv:3: has 1 cell, the header 2; add a value of 'b'"),
+        (["--table", "many.csv"], "many.csv:2: column 'load.force': 1 has no unit"),
+        (["--table", "many.csv"], "[and in lines 3, 4, 5, 6, 7 and 1 more]"),
+        (["--table", "few.csv"], "few.csv:2: column 'load.force': 1 has no unit, a force is want"),
+        (["--table", "few.csv"], "[and in line 4]"),
         (
             ["--sample", "200", "--range", "load.force=1 mm:2 mm"],
             "--range load.force: cannot read '",
@@ -157,7 +163,14 @@ def test_the_printed_command_names_all_options() -> None:
 def test_what_cannot_be_designed_is_refused_in_one_line(
     folder: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str
 ) -> None:
-    Path("plan.csv").write_text("load.force\n1 N\n2 mm\n", encoding="utf-8")
+    for name, text in {
+        "plan": "load.force\n1 N\n2 mm\n",
+        "empty": "",
+        "short": "load.force [N],b\n1,2\n3\n",
+        "many": "load.force\n1\n1\n1\n1\n1\n1\n1\n2 N\n",
+        "few": "load.force\n1\n2 N\n1\n",
+    }.items():
+        Path(f"{name}.csv").write_text(text, encoding="utf-8")
     assert sweep(*words) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert said.replace("20 kN", "10 kN") in line

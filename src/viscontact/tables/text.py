@@ -28,7 +28,7 @@ class Row:
     cells: tuple[str, ...]
 
 
-def read_rows(path: Path) -> list[Row]:
+def read_rows(path: Path, example: str = "time [s], force [kN]") -> list[Row]:
     """Read the rows of a file that are neither empty nor comments.
 
     Parameters
@@ -37,6 +37,8 @@ def read_rows(path: Path) -> list[Row]:
         A text file in UTF-8, UTF-16 with a byte-order mark, Windows-1252 or Latin-1; cells are
         separated by tabs, semicolons or commas, whichever its first row has. Comments begin with
         ``#``, ``%`` or ``//``.
+    example : str
+        First row of such a table, for messages.
 
     Returns
     -------
@@ -62,7 +64,7 @@ def read_rows(path: Path) -> list[Row]:
     except csv.Error as error:
         raise ValueError(f"{path.name}: cannot be read as CSV: {error}") from error
     if not rows:
-        raise ValueError(f"{path.name} is empty; a table begins with e.g. 'time [s], force [kN]'")
+        raise ValueError(f"{path.name} is empty; a table begins with e.g. {example!r}")
     return rows
 
 

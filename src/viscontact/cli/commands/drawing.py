@@ -7,8 +7,6 @@ from typing import Annotated
 
 import typer
 
-from viscontact.cli.commands.showing import RunDirectory
-
 Picture = Annotated[
     Path | None,
     typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
@@ -49,7 +47,9 @@ At = Annotated[
 
 
 def plot(
-    directory: RunDirectory,
+    directory: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Run directory, its .nc file, or a sweep.")
+    ],
     figure: Annotated[
         str,
         typer.Argument(
@@ -71,7 +71,10 @@ def plot(
         float | None, typer.Option("--fps", help="Frames per second; 15 by default.")
     ] = None,
 ) -> None:
-    """Draw a figure or an animation of a run."""
+    """Draw a figure or an animation of a run, or the response of a sweep.
+
+    A sweep:  viscontact plot forces response -o forces.png
+    """
     from viscontact.cli.results.figures import draw
 
     options = {"width": width, "along": along, "at": at, "seconds": seconds, "fps": fps}

@@ -48,7 +48,9 @@ def export(
 
 
 def report(
-    directory: RunDirectory,
+    directory: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Run directory, its .nc file, or a sweep.")
+    ],
     output: Annotated[
         Path | None,
         typer.Option(

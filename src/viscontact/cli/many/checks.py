@@ -152,7 +152,7 @@ def _problems(problems: dict[str, list[PlannedRun]], planned: Sequence[PlannedRu
         first, concerned = next(iter(lines)), [run for runs in lines.values() for run in runs]
         cases = {each.request.case for each in concerned}
         is_of_all = len(concerned) == sum(number[case] for case in cases)
-        shown.append(first if is_of_all else f"{first}{_attribution(first, concerned, common)}")
+        shown.append(first if is_of_all else _attributed(first, concerned, common))
     more = len(shown) - _MOST_PROBLEMS
     return shown[:_MOST_PROBLEMS] + ([f"and {more} more problems"] if more > 0 else [])
 
@@ -173,17 +173,34 @@ def _subject(line: str, design: Design) -> str:
     return line
 
 
-def _attribution(line: str, concerned: Sequence[PlannedRun], common: set[str]) -> str:
-    """Runs that have a problem: their lines in a table, their numbers, or their values."""
-    places = [each.place for each in concerned if each.place]
-    if not places:
-        varied = [[t for t in each.request.settings if t not in common] for each in concerned]
-        if len(varied) == 1 and all(t.partition("=")[2].strip() in line for t in varied[0]):
-            return ""
-        places = [f"with {', '.join(texts)}" for texts in varied]
-    more = len(places) - _MOST_PLACES
-    named = "; ".join(dict.fromkeys(places[:_MOST_PLACES]))
-    return f" [{named}{f' and {more} more' if more > 0 else ''}]"
+def _attributed(line: str, concerned: Sequence[PlannedRun], common: set[str]) -> str:
+    """Problem with its runs: their lines in a table, their numbers, or their values."""
+    design = concerned[0].design
+    if design.lines:
+        numbers = [str(each.design.lines[each.row]) for each in concerned]
+        table, colon, rest = line.partition(": column ")
+        if not colon:
+            return f"{line} [{_listed('line', numbers)} of the table]"
+        others = f" [and in {_listed('line', numbers[1:])}]" if numbers[1:] else ""
+        return f"{table}:{numbers[0]}: column {rest}{others}"
+    if design.kind == "sample":
+        return f"{line} [{_listed('run', [str(each.row) for each in concerned])}]"
+    varied = [[t for t in each.request.settings if t not in common] for each in concerned]
+    if len(varied) == 1 and all(t.partition("=")[2].strip() in line for t in varied[0]):
+        return line
+    return f"{line} [{_listed('', ['with ' + ', '.join(texts) for texts in varied], '; ')}]"
+
+
+def _listed(noun: str, names: Sequence[str], separator: str = ", ") -> str:
+    """Some of the names, behind their noun.
+
+    >>> _listed("line", ["2", "5"])
+    'lines 2, 5'
+    """
+    more = len(names) - _MOST_PLACES
+    shown = separator.join(dict.fromkeys(names[:_MOST_PLACES]))
+    plural = f"{noun}{'s' if len(names) > 1 else ''} " if noun else ""
+    return f"{plural}{shown}{f' and {more} more' if more > 0 else ''}"
 
 
 def _refuse_shared_directories(jobs: Sequence[Job]) -> None:

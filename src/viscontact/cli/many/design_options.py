@@ -141,7 +141,8 @@ def _read(table: Path) -> Design:
     try:
         return read_design(table)
     except ValueError as error:
-        refuse(f"--table: {error}")
+        is_placed = str(error).startswith(f"{table}:")
+        refuse(f"{'' if is_placed else '--table: '}{error}")
 
 
 def _range(text: str) -> Range:

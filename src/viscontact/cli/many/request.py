@@ -21,13 +21,6 @@ class PlannedRun:
     design: Design
     row: int
 
-    @property
-    def place(self) -> str:
-        """Line of the table that describes it; its number among those of a sample, else empty."""
-        if self.design.lines:
-            return f"line {self.design.lines[self.row]}"
-        return f"run {self.row}" if self.design.kind == "sample" else ""
-
 
 @dataclass(frozen=True)
 class ManyRequest:

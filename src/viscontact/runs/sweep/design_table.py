@@ -34,7 +34,7 @@ def read_design(path: Path) -> Design:
         raise ValueError(
             f"{path}: tables of a spreadsheet cannot be read; save the sheet as CSV, one row a run"
         )
-    header, *rows = read_rows(path)
+    header, *rows = read_rows(path, example="load.force [N], time.end")
     columns = _columns(path, header)
     if not rows:
         raise ValueError(f"{path}: has a header and no rows; write a row for each run")
@@ -79,10 +79,17 @@ def _column(where: str, place: int, cell: str) -> Heading:
 
 
 def _values(path: Path, row: Row, columns: list[Heading], mark: str) -> tuple[str, ...]:
-    if len(row.cells) < len(columns) or any(row.cells[len(columns) :]):
+    missing = columns[len(row.cells) :]
+    if missing or any(row.cells[len(columns) :]):
+        remedy = (
+            f"add a value of {missing[0].text!r}"
+            if missing
+            else "write a cell with commas in quotes, and decimal commas with semicolons between "
+            "the cells"
+        )
         raise ValueError(
-            f"{path}:{row.line}: has {len(row.cells)} cells, the header {len(columns)}; write a "
-            "cell with commas in quotes, and decimal commas with semicolons between the cells"
+            f"{path}:{row.line}: has {len(row.cells)} cell{'s' if len(row.cells) > 1 else ''}, the "
+            f"header {len(columns)}; {remedy}"
         )
     cells = zip(row.cells, columns, strict=False)
     return tuple(_value(f"{path}:{row.line}", cell, column, mark) for cell, column in cells)
@@ -94,5 +101,15 @@ def _value(where: str, cell: str, column: Heading, mark: str) -> str:
             return cell
         number = decimal_number(cell, mark)
     except ValueError as error:
-        raise ValueError(f"{where}: column {column.text!r}: {error}") from None
+        raise ValueError(f"{where}: column {column.text!r}: {error}{_hint(cell, column)}") from None
     return f"{number} {column.unit}" if column.unit else number
+
+
+def _hint(cell: str, column: Heading) -> str:
+    """Remedy for a cell with a unit of its own; empty for any other."""
+    if not (column.unit and re.match(r"[+-]?[\d.,]+\s*[^\W\d]", cell)):
+        return ""
+    return (
+        f"; write it without unit, as the heading has one, or name the heading {column.key!r} and "
+        "write a unit in each cell"
+    )
