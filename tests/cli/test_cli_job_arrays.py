@@ -182,6 +182,30 @@ def test_a_file_stops_tasks_until_the_next_array_is_written(
     assert not list(Path("out").rglob(FAILURE_NAME))
 
 
+def test_task_of_a_case_that_was_edited_is_refused_until_that_is_meant(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*WORDS, "-o", "out", "--array", "a.sbatch"]) == 0
+    case, task = Path("my ball.yaml"), ["run", "-q", "--task"]
+    case.write_text(f"# a comment\n{CASE}", encoding="utf-8")
+    assert main([*task, "0", "out"]) == 0
+    case.write_text(CASE.replace("end: 1 s", "end: 2 s"), encoding="utf-8")
+    capsys.readouterr()
+    assert main([*task, "1", "out"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"my ball.yaml: has changed since {Path('out/runs.jsonl')} was written:")
+    assert "time; compute the changed case in a new directory, or" in line
+    place = Path("out/my ball_force=0.4N")
+    assert "has changed" in (place / FAILURE_NAME).read_text(encoding="utf-8")
+    assert main([*WORDS, "-o", "out", "--array", "b.sbatch"]) == 2
+    assert "out: holds runs of the case my ball.yaml before it changed: time; " in (
+        capsys.readouterr().err
+    )
+    assert main([*task, "1", "out", "--resume"]) == 0
+    with xr.open_dataset(place / RESULT_NAME) as ds:
+        assert float(ds.time[-1]) == 2.0
+
+
 def test_too_little_memory_warns_where_the_array_is_written_and_refuses_where_it_runs(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -14,6 +14,7 @@ from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
 from viscontact.runs.recipes import Recipe, known_memory
+from viscontact.runs.sweep.case_digests import with_digests
 from viscontact.runs.sweep.continuation import OtherSweepError, continued, recorded_runs
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import VariedRun, sweep_run, with_recorded_cells
@@ -73,7 +74,7 @@ def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
     if count > 1:
         raise ValueError(f"runs: {count} of them would go to {directory / place}; give each once")
     if found != earlier:
-        write_manifest(directory, found)
+        write_manifest(directory, with_digests(directory, found))
     return found
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from viscontact.cli.many.design_options import key_of, share_a_branch
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.sweep.case_digests import with_digests
 from viscontact.runs.sweep.continuation import has_begun
 from viscontact.runs.sweep.equal_values import comparable
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
@@ -46,7 +47,7 @@ def write_changed(manifest: Path, run: SweepRun) -> None:
     try:
         with locked(manifest.parent):
             runs = list(read_manifest(manifest))
-            runs[run.run] = run
+            [runs[run.run]] = with_digests(manifest.parent, [run])
             write_manifest(manifest.parent, runs)
     except (DirectoryInUse, OSError, ValueError) as error:
         refuse(f"{manifest}: cannot be changed: {error}")

@@ -47,6 +47,7 @@ def checked_sweep(request: ManyRequest, *, elsewhere: bool) -> CheckedSweep:
     if not common.overwrite:
         recorded = recorded.continued(resume=common.resume)
         requests = recorded.requests(requests)
+    recorded = recorded.with_digests(mixed=common.resume or common.overwrite)
     jobs = checked_jobs(request, planned, requests, memory)
     if len(jobs) > MOST_READ and not common.quiet:
         say(f"of {len(jobs)} runs, only some are checked now; each is checked as it begins")

@@ -12,6 +12,7 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.runs.sweep import continuation
+from viscontact.runs.sweep.case_digests import changed_parts, with_digests
 from viscontact.runs.sweep.continuation import OtherSweepError, continued, has_begun
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import case_name
@@ -51,6 +52,23 @@ class RecordedSweep:
             self._refuse_another()
         return found
 
+    def with_digests(self, *, mixed: bool) -> RecordedSweep:
+        """Return the sweep with digests of its cases; refuse changed ones unless runs may be mixed.
+
+        Cases may change as long as no run has results.
+        """
+        if self.directory is None:
+            return self
+        if not mixed and any_begun(self.directory, self.earlier):
+            for each in self.earlier:
+                if parts := changed_parts(self.directory, each):
+                    refuse(
+                        f"{self.directory}: holds runs of the case {Path(each.case).name} before "
+                        f"it changed: {', '.join(parts)}; choose another directory with -o "
+                        "DIR, or continue with the changed case by --resume"
+                    )
+        return replace(self, runs=with_digests(self.directory, self.runs))
+
     def requests(self, planned: Sequence[RunRequest]) -> list[RunRequest]:
         """Return the requests with the directories and settings of the runs."""
         if self.directory is None:
@@ -62,7 +80,8 @@ class RecordedSweep:
 
     def write(self) -> None:
         """Write the manifest, unless it is there already."""
-        if self.directory is None or self.runs == self.earlier:
+        digests = [[each.digests for each in runs] for runs in (self.runs, self.earlier)]
+        if self.directory is None or (self.runs == self.earlier and digests[0] == digests[1]):
             return
         try:
             write_manifest(self.directory, self.runs)

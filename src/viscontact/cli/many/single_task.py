@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from viscontact.cli.many.changed_run import changed_run, write_changed
@@ -22,6 +24,7 @@ from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.sweep.case_digests import changed_parts
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 
 
@@ -48,12 +51,21 @@ def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
             "which `viscontact run CASE --vary ... -o DIR --array FILE.sbatch` writes"
         )
     run = _numbered(path, number)
+    directory = path.parent / run.directory
+    if not (common.resume or common.overwrite):
+        with _recorded_failure(directory):
+            _refuse_changed_case(path, run)
     if common.settings:
         run = _changed(path, run, common)
-    request = _request(path, run, common)
-    directory = request.output or Path()
+    with _recorded_failure(directory):
+        _execute(_request(path, run, common), path.parent / STOP_NAME)
+
+
+@contextmanager
+def _recorded_failure(directory: Path) -> Iterator[None]:
+    """Write a failure within the block to the directory of the run, unless it has a result."""
     try:
-        _execute(request, path.parent / STOP_NAME)
+        yield
     except CommandError as end:
         is_new = end.code == REFUSED and not (directory / RESULT_NAME).exists()
         if (is_new or end.code == STOPPED) and not is_locked(directory):
@@ -70,6 +82,15 @@ def _execute(request: RunRequest, file: Path) -> None:
         execute(request)
 
 
+def _refuse_changed_case(path: Path, run: SweepRun) -> None:
+    if parts := changed_parts(path.parent, run):
+        refuse(
+            f"{_case(path, run)}: has changed since {path} was written: {', '.join(parts)}; "
+            "compute the changed case in a new directory, or, if runs of both cases are meant to "
+            "be in this one, with --resume"
+        )
+
+
 def _changed(path: Path, run: SweepRun, common: RunRequest) -> SweepRun:
     """Run with other settings, which are checked and written to its manifest."""
     directory = path.parent / run.directory
@@ -82,7 +103,7 @@ def _changed(path: Path, run: SweepRun, common: RunRequest) -> SweepRun:
 
 def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:
     return RunRequest(
-        Path(os.path.normpath(path.parent / run.case)),
+        _case(path, run),
         path.parent / run.directory,
         common.overwrite,
         not common.overwrite,
@@ -90,6 +111,10 @@ def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:
         common.threads,
         common.quiet,
     )
+
+
+def _case(path: Path, run: SweepRun) -> Path:
+    return Path(os.path.normpath(path.parent / run.case))
 
 
 def _numbered(path: Path, number: int) -> SweepRun:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,8 @@ class SweepRun:
     case: str  # path of the case file
     design: str  # one of `DESIGNS`
     changed: tuple[str, ...] = ()  # keys of the settings that were set for this run alone
+    #: Digests of the case's sections and files when the manifest was written; empty if unknown.
+    digests: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
     def assignments(self) -> tuple[str, ...]:
@@ -51,9 +53,10 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
     path = directory / MANIFEST_NAME
     with replacing(path) as file:
         for each in runs:
-            found = {**vars(each), "settings": dict(each.settings)}
-            if not each.changed:
-                del found["changed"]
+            found = {**vars(each), "settings": dict(each.settings), "digests": dict(each.digests)}
+            for name in ("changed", "digests"):
+                if not found[name]:
+                    del found[name]
             text = json.dumps(found, ensure_ascii=False)
             # A name that is not UTF-8 is escaped as JSON does it.
             file.write(text.encode("utf-8", "backslashreplace") + b"\n")
@@ -95,11 +98,12 @@ def _read(line: str, number: int) -> SweepRun:
         _entry(found, "run", int),
         _entry(found, "name", str),
         _entry(found, "directory", str),
-        _texts(found),
+        _texts(found, "settings"),
         _names(found, "varied"),
         _entry(found, "case", str),
         _entry(found, "design", str),
         _names(found, "changed") if "changed" in found else (),
+        _texts(found, "digests") if "digests" in found else {},
     )
     if run.run != number - 1 or isinstance(found["run"], bool):
         raise ValueError(f"run: must be {number - 1}, the number of its line, got {found['run']}")
@@ -118,12 +122,13 @@ def _entry(found: dict[str, Any], name: str, kind: type) -> Any:
     return value
 
 
-def _texts(found: dict[str, Any]) -> dict[str, str]:
-    settings: dict[str, str] = _entry(found, "settings", dict)
-    for key, value in settings.items():
+def _texts(found: dict[str, Any], entry: str) -> dict[str, str]:
+    texts: dict[str, str] = _entry(found, entry, dict)
+    for key, value in texts.items():
         if not isinstance(value, str):
-            raise ValueError(f"settings: {key} must be text with its unit, got {value!r}")
-    return settings
+            what = "text with its unit" if entry == "settings" else "text"
+            raise ValueError(f"{entry}: {key} must be {what}, got {value!r}")
+    return texts
 
 
 def _names(found: dict[str, Any], entry: str) -> tuple[str, ...]:
