@@ -236,7 +236,11 @@ def test_sweep_stands_for_its_runs_in_a_comparison(
     assert capsys.readouterr().err == left_out
     monkeypatch.setattr("viscontact.cli.results.compared_runs.MOST", 1)
     assert main(["compare", "sweep"]) == 2
-    assert "has 2 finished runs, of which a figure shows 1 at most" in capsys.readouterr().err
+    assert main(["compare", *(f"sweep/{name}" for name in names)]) == 2
+    *_, of_sweep, of_runs = capsys.readouterr().err.splitlines()
+    assert "2 runs are too many for a figure, which shows 1 at most" in of_sweep
+    assert of_sweep.endswith("viscontact plot sweep response")
+    assert "3 runs are too many for a figure" in of_runs
 
 
 def test_report_and_response_of_a_sweep(sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:

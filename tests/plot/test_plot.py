@@ -274,6 +274,20 @@ def test_comparison_names_its_runs(long_contact: xr.Dataset) -> None:
     assert [text.get_text() for text in legend.get_texts()] == ["e = 0", "e = L"]
 
 
+@pytest.mark.parametrize("name", ["history", "hysteresis"])
+def test_legend_of_many_runs_leaves_the_panels_their_height(name: str, sphere: xr.Dataset) -> None:
+    few, many = (
+        COMPARISONS[name]({f"ball_force={n}N": sphere for n in range(count)}) for count in (2, 24)
+    )
+    (legend,) = many.legends
+    heights = []
+    for figure in (few, many):
+        figure.draw_without_rendering()
+        heights.append(min(axes.bbox.height for axes in figure.axes))
+    assert heights[1] > 0.7 * heights[0]
+    assert not any(legend.get_window_extent().overlaps(axes.bbox) for axes in many.axes)
+
+
 @pytest.mark.parametrize("name", sorted(COMPARISONS))
 def test_comparison_of_nothing_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match=r"at least one run"):

@@ -10,13 +10,20 @@ from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.sweep.manifest import read_manifest
 from viscontact.runs.sweep.states import State, run_state
 
-#: Most runs of a sweep in a figure.
+#: Most runs in a figure, of which each has a colour and dashes of its own.
 MOST = 24
 
 
 def compared_runs(paths: Sequence[Path]) -> list[Path]:
-    """Return the directories of runs; those of a sweep in the order of its manifest."""
-    return [run for path in paths for run in _runs(path)]
+    """Return the directories of runs, at most `MOST`; of a sweep in the order of its manifest."""
+    found = [run for path in paths for run in _runs(path)]
+    if len(found) > MOST:
+        sweep = next((str(path) for path in paths if (path / MANIFEST_NAME).is_file()), "SWEEP")
+        refuse(
+            f"{len(found)} runs are too many for a figure, which shows {MOST} at most; name fewer, "
+            f"or draw all of a sweep with: viscontact plot {sweep} response"
+        )
+    return found
 
 
 def _runs(path: Path) -> Iterator[Path]:
@@ -25,13 +32,7 @@ def _runs(path: Path) -> Iterator[Path]:
     if not (path / MANIFEST_NAME).is_file():
         yield path
         return
-    found = _finished(path)
-    if len(found) > MOST:
-        refuse(
-            f"{path}: has {len(found)} finished runs, of which a figure shows {MOST} at most; name "
-            f"some of them, or draw all with: viscontact plot {path} response"
-        )
-    yield from found
+    yield from _finished(path)
 
 
 def _finished(sweep: Path) -> list[Path]:

@@ -222,10 +222,12 @@ def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[B
     entries = legend_entries(panels[0].get_lines(), names, bands)
     if not entries:
         return
+    columns = style.columns_that_fit(figure, [label for _, label in entries], 4)
+    style.add_height_of_legend(figure, -(-len(entries) // columns))
     figure.legend(
         *zip(*entries, strict=True),
         loc="outside upper center" if len(names) > 1 else "outside upper right",
-        ncols=style.columns_that_fit(figure, [label for _, label in entries], 4),
+        ncols=columns,
         frameon=False,
         fontsize=style.TICK_SIZE,
         labelcolor=style.INK,

@@ -25,6 +25,9 @@ _NAME = "hysteresis"
 #: Positions of the arrows along the loop.
 _ARROWS = (0.15, 0.4, 0.65, 0.9)
 
+#: Most entries of a legend within the panel.
+_MOST_INSIDE = 6
+
 
 def hysteresis(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
@@ -135,7 +138,10 @@ def compare_hysteresis(
     entries = legend_entries(axes.get_lines(), list(shown), bands)
     if entries:
         handles, labels = zip(*entries, strict=True)
-        style.add_legend(axes, handles, labels, loc="best")
+        if len(labels) > _MOST_INSIDE:
+            style.add_legend_below(figure, handles, labels)
+        else:
+            style.add_legend(axes, handles, labels, loc="best")
     return figure
 
 

@@ -27,6 +27,8 @@ LINE_WIDTH = 1.4
 THIN_LINE = 0.6
 # Mean width of a letter of a legend, and width of the key before its text [inch].
 _LETTER, _KEY = 0.062, 0.5
+# Height of a row of a legend [inch], and number of rows for which figures have room.
+_ROW, _FEW_ROWS = 0.18, 3
 INK = "#262626"
 FAINT = "#7a7a7a"
 LINE = "#0072B2"
@@ -81,13 +83,15 @@ def add_legend_below(
     title: str | None = None,
 ) -> None:
     """Add a legend below all panels, with at most `columns` columns."""
+    columns = columns_that_fit(figure, labels, columns)
+    add_height_of_legend(figure, -(-len(labels) // columns))
     figure.legend(
         handles,
         labels,
         title=title,
         title_fontsize=TICK_SIZE,
         loc="outside lower center",
-        ncols=columns_that_fit(figure, labels, columns),
+        ncols=columns,
         fontsize=TICK_SIZE,
         frameon=False,
         handlelength=1.6,
@@ -100,6 +104,11 @@ def columns_that_fit(figure: Figure, labels: Sequence[str], most: int) -> int:
     """Number of legend columns that fit on a page, with the widest label in each."""
     each = _KEY + _LETTER * max(map(len, labels))
     return max(1, min(most, len(labels), int(figure.get_figwidth() / each)))
+
+
+def add_height_of_legend(figure: Figure, rows: int) -> None:
+    """Make a figure higher by the rows of a long legend, which would cover its panels."""
+    figure.set_figheight(figure.get_figheight() + _ROW * max(0, rows - _FEW_ROWS))
 
 
 def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
