@@ -13,6 +13,7 @@ import viscontact as vc
 from viscontact.case import Case, case_schema
 from viscontact.cli.entry import main
 from viscontact.results.summary import summary_scalars
+from viscontact.simulation.setup import prepare_run
 
 GRID = {"shape": [16, 24], "size": ["1.6 mm", "2.4 mm"]}
 TRAVEL = {"kind": "travel", "points": [["0 s", "0 mm"], ["2 s", "1 mm"]]}
@@ -55,6 +56,15 @@ def test_cells_are_steps_of_a_cell_up_to_the_end(tmp_path: Path) -> None:
     assert moving(tmp_path, time={"end": "9 s", "spacing": "cells"}).times[-1] == 9.0  # at rest
 
 
+def test_cells_of_an_automatic_grid_are_chosen_before_the_steps(tmp_path: Path) -> None:
+    time = {"end": "2 s", "spacing": "cells"}
+    case = moving(tmp_path, grid={"tolerance": "20 %", "quantities": ["approach"]}, time=time)
+    run = prepare_run(case)
+    ways = np.diff(run.problem.motion.position_at(run.problem.instants)[:, 1])  # type: ignore[union-attr]
+    assert ways.max() == pytest.approx(run.grid.cell_size[1])
+    assert set(case.fields) <= set(run.problem.instants)
+
+
 def test_zero_is_a_tilt_without_unit(tmp_path: Path) -> None:
     assert moving(tmp_path).load.at(0.0).tilt_y == 0.0
     said = problem(tmp_path, load={**LOAD, "tilt_y": 1})
@@ -70,7 +80,6 @@ def test_zero_is_a_tilt_without_unit(tmp_path: Path) -> None:
         ({"motion": {**TRAVEL, "speed": "1 m"}}, "motion.speed: unknown key"),
         ({"motion": {**TRAVEL, "points": []}}, "motion.points: is empty"),
         ({"motion": None, "time": {"end": "1 s", "spacing": "cells"}}, "cells goes with a motion"),
-        ({"grid": None, "time": {"end": "1 s", "spacing": "cells"}}, "goes with a given grid"),
         (
             {"time": {"end": "1 s", "spacing": "cells", "steps": 3}},
             "time.steps: goes with spacing: uniform or log only",

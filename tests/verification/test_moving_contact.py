@@ -11,9 +11,11 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact.accuracy.coarser_runs import plan_coarser_runs
+from viscontact.grid import AutomaticGrid
 from viscontact.problem.problem import Problem
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.recorder import Recorder
+from viscontact.simulation import setup
 from viscontact.simulation.setup import prepare_run
 
 #: A Zener body that relaxes from 2000 to 200 with a retardation time of 10; J = Phi for nu = 0.
@@ -252,7 +254,6 @@ def test_force_on_the_edge_of_a_punch_is_not_known() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"grid": None}, "a moving contact needs a given grid"),
         ({"times": vc.adaptive_times(1.0, 1e-3)}, "adaptive steps .* not of the resistance"),
         ({"indenter_material": ZENER}, "rolling=True .* False"),
         ({"motion": vc.Travel([0, 1], y=[0, 9.0])}, "beyond the grid"),
@@ -262,6 +263,56 @@ def test_what_is_not_available_is_refused_by_name(change: dict[str, Any], messag
     given = {"grid": vc.Grid((40, 40), (3.2, 3.2)), "motion": vc.Travel([0, 1], y=[0, 0.4])}
     with pytest.raises(ValueError, match=message):
         next(vc.march(BODY, ZENER, LEVEL, **(given | change)))
+
+
+def test_contact_that_is_lost_has_no_resistance_and_returns() -> None:
+    load = vc.ForceHistory([0, 2, 3, 5, 6], [10, 10, 0, 0, 10], tilt_x=0.0, tilt_y=0.0)
+    ds = travelled(way=0.8, load=load)
+    apart = (ds.force == 0).values
+    assert apart.sum() == 3
+    for name in ("resistance_y", "contact_area"):
+        assert (ds[name].values[apart] == 0).all()
+    assert ds.friction_coefficient.values[apart] == pytest.approx(np.nan, nan_ok=True)
+    assert (np.diff(ds.heat.values) > 0).all()  # the surface recovers
+    assert float(ds.resistance_y[-1]) > 0.1
+
+
+def test_given_approach_moves_at_the_height_of_its_force() -> None:
+    held = travelled(way=0.4)
+    load = vc.ApproachHistory(held.time.values, held.approach.values, tilt_x=0.0, tilt_y=0.0)
+    given = travelled(way=0.4, load=load)
+    # Between the times the approach is straight, the force of the first run is not.
+    assert given.force.values == pytest.approx(10.0, rel=1e-4)
+    assert given.resistance_y.values == pytest.approx(held.resistance_y.values, rel=1e-3, abs=1e-4)
+
+
+COARSE = AutomaticGrid(0.2, ["approach"])
+
+
+def test_automatic_grid_covers_the_path_in_steps_of_its_cells() -> None:
+    path = vc.Travel([0.0, 4.0], x=[0.3, -0.5])
+    ds = vc.simulate(BODY, ELASTIC, LEVEL, COARSE, motion=path, fields=[0.0, 1.0])
+    cell, reach = float(ds.x[1] - ds.x[0]), float(ds.y[-1])
+    assert float(ds.x[0]) < -0.5 - 0.9 * reach
+    assert float(ds.x[-1]) > 0.3 + 0.9 * reach
+    ways = np.diff(ds.position_x.sel(time=ds.time != 1.0))[:-1] / cell
+    assert ways == pytest.approx(-1.0)
+    assert 1.0 in ds.time
+    assert ds.field_time.values.tolist() == [0.0, 1.0]
+
+
+def test_automatic_grid_grows_where_a_moving_contact_outgrows_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    given = (BODY, ZENER, LEVEL, COARSE, np.linspace(0.0, 8.0, 17))
+    options: Any = {"motion": vc.Travel([0.0, 8.0], y=[0.0, 0.6]), "errors": False}
+    whole = vc.simulate(*given, **options)
+    monkeypatch.setattr(setup, "grid_over_path", lambda grid, motion: grid)
+    grown = vc.simulate(*given, **options)
+    assert "grid_enlarged" in grown.attrs
+    for name in ("resistance_y", "approach", "heat"):
+        scale = float(abs(whole[name]).max())
+        assert grown[name].values == pytest.approx(whole[name].values, abs=2e-3 * scale)
 
 
 def test_a_jump_of_the_position_is_refused() -> None:

@@ -17,7 +17,7 @@ from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
 from viscontact.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
-from viscontact.time_integration.moving_times import moving_times
+from viscontact.time_integration.moving_times import CellTimes, moving_times
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.dimensions import DIMENSIONS
@@ -58,19 +58,16 @@ class CaseFile(Section):
             return self
         if self.motion is None:
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
-        if not isinstance(self.grid and self.grid.build(), Grid):
-            raise ValueError(
-                "time.spacing: cells goes with a given grid; write e.g. 'shape: [128, 256]' and "
-                "'size: [1 mm, 2 mm]' under grid, or 'spacing: uniform'"
-            )
         return self
 
-    def instants(self) -> NDArray[np.float64] | AdaptiveTimes:
-        """Return the instants of the run [s], or the settings of adaptive steps."""
+    def instants(self) -> NDArray[np.float64] | AdaptiveTimes | CellTimes:
+        """Return the instants of the run [s], or the settings of steps that are chosen later."""
+        if self.time.spacing != "cells" or self.motion is None:
+            return self.time.instants()
         grid = self.grid.build() if self.grid else None
-        if self.time.spacing == "cells" and self.motion is not None and isinstance(grid, Grid):
-            return moving_times(self.motion.built, self.history(), grid.cell_size, self.time.end)
-        return self.time.instants()
+        if not isinstance(grid, Grid):
+            return CellTimes(self.time.end)
+        return moving_times(self.motion.built, self.history(), grid.cell_size, self.time.end)
 
     def history(self) -> LoadHistory:
         """Return the load; a mean pressure acts on the area of the grid."""

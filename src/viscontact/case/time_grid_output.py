@@ -20,6 +20,7 @@ from viscontact.case.quantities import (
     StepCount,
     TimeTolerance,
 )
+from viscontact.time_integration.moving_times import CellTimes
 from viscontact.time_integration.requested_times import (
     AdaptiveTimes,
     adaptive_times,
@@ -40,6 +41,10 @@ DEFAULT_FIELDS = 10
 
 #: Default relative error of an automatic grid.
 DEFAULT_TOLERANCE = 0.01
+
+
+#: Instants of a run [s], or settings of steps that are chosen later.
+Times = NDArray[np.float64] | AdaptiveTimes | CellTimes
 
 
 class Time(Section):
@@ -208,9 +213,7 @@ class Output(Section):
     )
 
 
-def kept_fields(
-    output: Output, times: NDArray[np.float64] | AdaptiveTimes
-) -> str | tuple[float, ...]:
+def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
     """Return the instants whose fields are kept.
 
     Examples
@@ -222,7 +225,7 @@ def kept_fields(
     """
     if isinstance(output.fields, str):
         return output.fields
-    end = times.end if isinstance(times, AdaptiveTimes) else float(times[-1])
+    end = times.end if isinstance(times, AdaptiveTimes | CellTimes) else float(times[-1])
     if output.fields is None:
         return _default_fields(times)
     late = [instant for instant in output.fields if instant > end * (1 + 1e-9)]
@@ -234,17 +237,15 @@ def kept_fields(
     return tuple(sorted({min(instant, end) for instant in output.fields}))
 
 
-def _default_fields(times: NDArray[np.float64] | AdaptiveTimes) -> tuple[float, ...]:
-    if isinstance(times, AdaptiveTimes):
+def _default_fields(times: Times) -> tuple[float, ...]:
+    if isinstance(times, AdaptiveTimes | CellTimes):
         spread = log_times(times.end * FIRST_OF_END, times.end, DEFAULT_FIELDS - 1)
         return tuple(spread.tolist())
     chosen = np.linspace(0, len(times) - 1, min(DEFAULT_FIELDS, len(times))).round()
     return tuple(times[chosen.astype(int)].tolist())
 
 
-def with_instants(
-    times: NDArray[np.float64] | AdaptiveTimes, fields: str | tuple[float, ...]
-) -> NDArray[np.float64] | AdaptiveTimes:
+def with_instants(times: Times, fields: str | tuple[float, ...]) -> Times:
     """Return the instants of the run together with those of requested fields.
 
     Examples
@@ -252,7 +253,7 @@ def with_instants(
     >>> with_instants(np.array([0.0, 1.0]), (0.0, 0.5)).tolist()
     [0.0, 0.5, 1.0]
     """
-    if isinstance(fields, str) or isinstance(times, AdaptiveTimes):
+    if isinstance(fields, str) or isinstance(times, AdaptiveTimes | CellTimes):
         return times
     # A field requested at 30 s is computed at 30 s, not at a step nearby; it replaces a step that
     # differs by rounding only.

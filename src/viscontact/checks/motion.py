@@ -24,12 +24,6 @@ def check_motion(problem: Problem) -> None:
     motion = problem.motion
     if motion is None:
         return
-    if not isinstance(problem.grid, Grid):
-        raise ValueError(
-            "grid: a moving contact needs a given grid that holds its whole path; give "
-            "Grid(shape, size, centre=...) in Python, `shape:`, `size:` and `centre:` in a case "
-            "file"
-        )
     if problem.adaptive is not None:
         raise ValueError(
             "times: adaptive steps control the error of the pressure, not of the resistance, and "

@@ -18,13 +18,17 @@ from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.material import Material
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps, Step, plan_steps
-from viscontact.time_integration.moving_times import moving_times
+from viscontact.time_integration.moving_times import CellTimes, moving_times
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.run_times import field_instants, run_instants
 from viscontact.units.numbers import as_real
 
 #: Range of tolerances [-]: smaller ones are below rounding, larger ones give no solution.
 FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
+
+
+#: Edge of the cell of an automatic grid that is not chosen yet [m].
+UNKNOWN_CELL = 1e100
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +63,7 @@ class Problem:
     material: Material
     load: LoadHistory
     grid: Grid | AutomaticGrid | None = None
-    times: ArrayLike | AdaptiveTimes | None = None
+    times: ArrayLike | AdaptiveTimes | CellTimes | None = None
     indenter_material: Material | None = None
     tolerance: float = 1e-6
     fields: str | Sequence[float] = "all"
@@ -116,9 +120,25 @@ class Problem:
     @cached_property
     def instants(self) -> NDArray[np.float64]:
         """Times of the states [s]; of adaptive steps the prescribed ones, the end last."""
-        if self.times is None and self.motion is not None and isinstance(self.grid, Grid):
-            return moving_times(self.motion, self.load, self.grid.cell_size)
+        if isinstance(self.times, CellTimes) or (self.times is None and self.motion is not None):
+            if isinstance(self.grid, Grid):
+                return self.times_at_cells(self.grid.cell_size)
+            # Until the cells are known, those of one that is longer than any path.
+            return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
         return run_instants(self.times, self.fields, self.load, self.compliance)
+
+    def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
+        """Times of a moving contact at which the body has passed whole cells [s]."""
+        assert self.motion is not None  # they are requested with a motion only
+        end = self.times.end if isinstance(self.times, CellTimes) else None
+        kept = () if isinstance(self.fields, str) else self.fields
+        return moving_times(self.motion, self.load, cell_size, end, kept)
+
+    @property
+    def awaits_cells(self) -> bool:
+        """True if its times follow from cells that are not chosen yet."""
+        at_cells = self.times is None or isinstance(self.times, CellTimes)
+        return self.motion is not None and at_cells and not isinstance(self.grid, Grid)
 
     @cached_property
     def field_instants(self) -> NDArray[np.float64]:

@@ -76,7 +76,7 @@ def simulate(
         coarser runs, which take about two thirds of the run's own time.
     motion : Travel or Reciprocation, optional
         Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
-        out. It needs a given grid, which is fixed to the surface.
+        out. The grid is fixed to the surface; an automatic one covers the path.
 
     Returns
     -------

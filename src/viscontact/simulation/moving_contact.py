@@ -59,6 +59,10 @@ class MovingContact:
         #: and half extent [m], duration [s] and angular frequency [1/s].
         self._extent, self._way, self._rate = 0.0, (0.0, 1.0), (0.0, 0.0)
 
+    def continue_on(self, run: RunSetup) -> None:
+        """Continue the same run on a larger grid."""
+        self._run = run
+
     def evaluate(self, step: Step, solution: StepSolution) -> MotionScalars:
         """Return the scalars at the end of a step, and add its work and heat."""
         motion = self._run.problem.motion

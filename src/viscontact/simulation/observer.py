@@ -65,6 +65,8 @@ class Observer:
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
         self._set_geometry(run)
+        if self._motion is not None:
+            self._motion.continue_on(run)
         if self._before is not None:
             self._before = enlargement.solution(self._before)
 

@@ -24,6 +24,7 @@ from viscontact.fourier import fastest_transforms
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, PlacedIndenter
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh
+from viscontact.meshing.path_extent import grid_over_path
 from viscontact.problem.problem import Problem
 from viscontact.simulation.moving_body import PeriodicBody, cells_seen
 from viscontact.time_integration.fixed_steps import step_ends
@@ -129,8 +130,10 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     if given is not None:
         mesh, grid = None, given
     else:
-        mesh = choose_mesh(problem, problem.end)
+        mesh = _mesh_over_path(problem)
         grid = mesh.grid
+        if problem.awaits_cells:
+            problem = replace(problem, times=problem.times_at_cells(grid.cell_size))
     # 3. Refuse what the body on this grid cannot carry.
     open_gap = _gap_on(problem, grid)
     about_body = _about_body(problem, grid)
@@ -141,6 +144,14 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     # 4. Plan the hereditary integral: internal variables, or the whole history.
     plan = plan_history(problem, open_gap, grid)
     return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), fastest_transforms())
+
+
+def _mesh_over_path(problem: Problem) -> Mesh:
+    """Automatic mesh, of a moving body over its whole path."""
+    mesh = choose_mesh(problem, problem.end)
+    if problem.motion is None:
+        return mesh
+    return replace(mesh, grid=grid_over_path(mesh.grid, problem.motion))
 
 
 def _about_body(problem: Problem, grid: Grid) -> Grid:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,17 +19,25 @@ REST_TIMES, FIRST_REST_TIME = 20, 1e-3
 SAME_TIME = 1e-9
 
 
+@dataclass(frozen=True)
+class CellTimes:
+    """Request for steps of a cell of way up to an end [s], on a grid that is chosen later."""
+
+    end: float
+
+
 def moving_times(
     motion: Motion,
     load: LoadHistory,
     cell_size: tuple[float, float],
     end: float | None = None,
+    kept: Sequence[float] = (),
 ) -> NDArray[np.float64]:
     """Times at which the body has passed whole cells (dx, dy), and kinks of load and path [s].
 
     Alignment of body and cells is then the same at all of them, so that the resistance does not
     scatter. At rest they are in geometric progression. The last one is that of load and path, or
-    `end`.
+    `end`. The times `kept` up to there are among them.
 
     Examples
     --------
@@ -38,7 +48,7 @@ def moving_times(
     """
     kinks = MovingLoad(load, motion).kinks
     end = float(kinks[-1]) if end is None else end
-    ends = np.unique([0.0, *kinks[kinks < end], end])
+    ends = np.unique([0.0, *kinks[kinks < end], *(time for time in kept if time < end), end])
     found = [motion.times_at_cells(cell_size)]
     for begin, stop in itertools.pairwise(ends.tolist()):
         if (motion.position_at(begin) == motion.position_at(stop)).all() and not any(
