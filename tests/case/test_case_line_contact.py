@@ -12,7 +12,7 @@ CASE = """
 indenter: {shape: paraboloid, radius_x: infinite, radius_y: 10 mm}
 material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
 load: {kind: step, force: 0.1 N}
-time: {end: 1 s, steps: 1}
+time: {end: 100 s, steps: 4, spacing: log}
 grid: {shape: [1, 48], size: [1 mm, 2.4 mm], periodic: [true, false]}
 """
 
@@ -45,7 +45,7 @@ def test_refused_in_a_case(tmp_path, old, new, message):
 
 
 def test_command_line(tmp_path, monkeypatch, capsys):
-    """A run, its check, report and figures without an approach."""
+    """A run, its check, report and figures without an approach, at a logarithmic time."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "case.yaml").write_text(CASE)
     assert main(["check", "case.yaml"]) == 0
@@ -55,8 +55,9 @@ def test_command_line(tmp_path, monkeypatch, capsys):
     assert main(["run", "case.yaml", "--quiet"]) == 0
     assert main(["show", "case"]) == 0
     assert main(["report", "case"]) == 0
-    for figure in ("history", "pressure-map", "contact-outline", "creep"):
+    for figure in ("history", "pressure-map", "surface-3d", "contact-area", "stress-section"):
         assert main(["plot", "case", figure]) == 0
+    assert main(["plot", "case", "animation", "--seconds", "1", "--fps", "2"]) == 0
     assert main(["plot", "case", "hysteresis"]) == 2
 
 

@@ -184,3 +184,24 @@ def test_a_stopped_run_continues():
 
 def test_the_card_of_a_grid_names_the_axis():
     assert "periodic  along x" in str(STRIP)
+
+
+@pytest.mark.parametrize("body", [vc.Wedge(1.5), vc.Swept([0.0, 1e-3], [0.0, 1e-4])])
+def test_edges_without_end_need_a_period_along_them(body):
+    assert body.endless == (True, False)
+    with pytest.raises(ValueError, match=r"grid\.periodic: the body continues along x without"):
+        run(body, grid=Grid((24, 24), (2e-3, 2e-3)))
+    assert float(run(body).force[0]) == pytest.approx(0.1)
+
+
+def test_figures_of_a_cylinder_are_across_it():
+    """Its line load is constant along it, so that the history has no panel of it."""
+    ds = vc.simulate(CYLINDER, RUBBER, vc.ramp(0.1, 1.0), STRIP, [0.5, 1.0], errors=False)
+    assert vc.plot.pressure_profile(ds).axes[0].get_xlabel() == "y [µm]"
+    assert vc.plot.pressure_profile(ds, along="x").axes[0].get_xlabel() == "x [µm]"
+    labels = [axes.get_ylabel() for axes in vc.plot.history(ds).axes]
+    assert labels[0].startswith("Force")
+    assert not any("pproach" in label for label in labels)
+    assert "Peak line load [N/m]" in labels
+    held = vc.simulate(CYLINDER, RUBBER, LOAD, STRIP, [0.5, 1.0], errors=False)
+    assert not any("line load" in axes.get_ylabel() for axes in vc.plot.history(held).axes)

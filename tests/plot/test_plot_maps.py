@@ -47,7 +47,7 @@ def _level(height: FloatArray, share: float) -> FloatArray:
     return height - (np.quantile(height, 1 - share) if share < 1 else height.min() - 0.3)
 
 
-def _result(height: FloatArray, share: float, periodic: bool) -> xr.Dataset:
+def _result(height: FloatArray, share: float, periodic: bool | list[bool]) -> xr.Dataset:
     """What is highest is in contact; at its rim pressure and gap rise as at any smooth one."""
     level = _level(height, share)
     results = maxwell_sphere([0.0], cells=CELLS)
@@ -64,6 +64,7 @@ def _result(height: FloatArray, share: float, periodic: bool) -> xr.Dataset:
     return results.assign_attrs(case=json.dumps(case))
 
 
+ALONG = [True, False]  # periodic along x only
 CONTACTS = {
     "waves, 54 %": (_waves(), 0.54, True),
     "waves, 87 %": (_waves(), 0.87, True),
@@ -71,6 +72,7 @@ CONTACTS = {
     "waves upside down, 30 %": (-_waves(), 0.3, True),
     "rough, without end": (_rough(periodic=True), 0.35, True),
     "band across the border": (np.cos(np.pi * (X - HALF) / HALF), 0.4, True),
+    "row of bumps across the border of x": (np.cos(np.pi * (X - HALF) / HALF) - Y**2, 0.3, ALONG),
     "sphere": (-np.hypot(X, Y), 0.3, False),
     "ring": (-np.abs(np.hypot(X, Y) - 3.0), 0.4, False),
     "rough": (_rough(periodic=False), 0.25, False),

@@ -49,6 +49,11 @@ class Wedge(Indenter):
         end = math.inf if self.half_length is None else self.half_length
         return np.where(np.abs(x) <= end, np.abs(y) / math.tan(self.half_angle), np.inf)
 
+    @property
+    def endless(self) -> tuple[bool, bool]:
+        """Along x if the edge has no end."""
+        return self.half_length is None, False
+
 
 @dataclass(frozen=True)
 class Pyramid(Indenter):

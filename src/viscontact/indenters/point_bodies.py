@@ -135,3 +135,8 @@ class Swept(Indenter):
         drop = np.maximum(self._line(across) - min(self.drops), 0.0)
         end = np.inf if self.half_length is None else self.half_length
         return np.where(np.abs(x) <= end, drop, np.inf)
+
+    @property
+    def endless(self) -> tuple[bool, bool]:
+        """Along x if no half length is given."""
+        return self.half_length is None, False

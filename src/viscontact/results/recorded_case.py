@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 import json
-from typing import Any
+from typing import Any, Literal
 
 import xarray as xr
 
 from viscontact.grid import Grid
 from viscontact.results.descriptions import STORED_CLASSES, rebuild
+from viscontact.units.axis_flags import AxisFlags
 
 
 @functools.lru_cache(maxsize=8)
@@ -57,6 +58,16 @@ def recorded_grid(results: xr.Dataset) -> Grid:
     centre = (float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2)
     periodic = recorded.get("periodic", False)
     return Grid((x.size, y.size), (along, across), periodic, centre=centre)
+
+
+def across_period(results: xr.Dataset) -> Literal["x", "y"] | None:
+    """Axis across the only one along which a result's grid is periodic, None if there is no such.
+
+    >>> across_period(xr.Dataset(attrs={"case": '{"grid": {"periodic": [true, false]}}'}))
+    'y'
+    """
+    periodic = AxisFlags((case_of(results).get("grid") or {}).get("periodic", False))
+    return None if periodic[0] == periodic[1] else "y" if periodic[0] else "x"
 
 
 def prescribes_approach(ds: xr.Dataset) -> bool:

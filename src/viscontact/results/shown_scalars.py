@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from viscontact.results.recorded_case import across_period, recorded_grid
 from viscontact.results.variables import SCALARS, Place, shown_in
 
 #: Length of the contact over its width from which the line load is of use, as for rollers.
@@ -20,6 +21,8 @@ WITH_DATUM = ("approach", "work", "loss_per_cycle", "dissipation", "heat")
 def is_long(ds: xr.Dataset) -> bool:
     """Test for a contact that is at least three widths long along x when it is largest.
 
+    One that continues through the only period of a grid has no end.
+
     Examples
     --------
     >>> sizes = {"contact_area": [0.0, 5.0], "contact_length": [0.0, 6.0]}
@@ -29,6 +32,8 @@ def is_long(ds: xr.Dataset) -> bool:
     """
     largest = int(np.nan_to_num(ds["contact_area"].values).argmax())
     length, width = (float(ds[f"contact_{name}"][largest]) for name in ("length", "width"))
+    if across_period(ds) == "y" and length >= recorded_grid(ds).size[0]:
+        return True
     return length >= LONG * width > 0
 
 

@@ -61,19 +61,14 @@ def take_snapshots(
 def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
     """Prepare to read fields one stored instant at a time."""
     grid = recorded_grid(results)
-    single = tuple(SHOWN_CELLS if count == 1 else 1 for count in grid.shape)
+    single = tuple(map(_shown_cells, grid.shape))
     shown = replace(grid, shape=(grid.shape[0] * single[0], grid.shape[1] * single[1]))
     body_end = _body_end(results, shown)
 
     def read(index: int) -> Snapshot:
         dimension = _time_dimension(results)
         fields = results[["pressure", "gap"]].isel({dimension: index})
-        pressure, gap = (
-            np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
-            .repeat(single[0], axis=0)
-            .repeat(single[1], axis=1)
-            for name in ("pressure", "gap")
-        )
+        pressure, gap = (_as_shown(fields[name]) for name in ("pressure", "gap"))
         x, y = (
             results[name].values if cells == 1 else lines
             for name, cells, lines in zip("xy", single, (shown.x, shown.y), strict=True)
@@ -91,7 +86,19 @@ def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArra
             "with fields stored"
         )
     field = results[name].sel({_time_dimension(results): time}, method="nearest")
-    return np.asarray(field.transpose("x", "y").values, dtype=np.float64)
+    return _as_shown(field)
+
+
+def _as_shown(field: xr.DataArray) -> NDArray[np.float64]:
+    """Values of a field in SI units, a single cell along a period as several; shape (nx, ny)."""
+    values = np.asarray(field.transpose("x", "y").values, dtype=np.float64)
+    for axis, count in enumerate(values.shape):
+        values = values.repeat(_shown_cells(count), axis=axis)
+    return values
+
+
+def _shown_cells(count: int) -> int:
+    return SHOWN_CELLS if count == 1 else 1
 
 
 def _time_dimension(results: xr.Dataset) -> str:

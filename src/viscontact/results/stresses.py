@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import Grid
 from viscontact.halfspace.stress import Stress, stress_on_section
 from viscontact.halfspace.stress_influence import COMPONENTS
-from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
+from viscontact.results.recorded_case import across_period, recorded_grid, recorded_poisson_ratio
 
 #: Default depths: their number, and the largest in half widths of the contact.
 DEPTHS, REACH = 61, 2.0
@@ -84,7 +84,7 @@ def section_stresses(
         below = _usual_depths(results, grid)
     else:
         below = np.atleast_1d(np.asarray(depths, float))
-    if x is None and y is None and grid.periodic == (True, False):
+    if x is None and y is None and across_period(results) == "y":
         x = grid.centre[0]
     pressure = _chosen(results["pressure"], times)
     fields = (np.asarray(field, dtype=np.float64) for field in pressure.values)

@@ -25,6 +25,7 @@ from viscontact.plot.pressure.pressure_map import (
     fill_colour_bar,
     pressure_levels,
 )
+from viscontact.results.recorded_case import across_period
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
@@ -194,7 +195,8 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
     window = window_over(boxes, snapshot.borders() if snapshot.periodic else None)
     levels, unit = pressure_levels(highest)
     is_long = window.x[1] - window.x[0] >= window.y[1] - window.y[0]
-    return _Scene(stored, read, window, levels, unit, "x" if is_long else "y", note)
+    along = across_period(results) or ("x" if is_long else "y")
+    return _Scene(stored, read, window, levels, unit, along, note)
 
 
 def _histories(run: xr.Dataset, width: float) -> list[str]:

@@ -22,6 +22,7 @@ from viscontact.plot.layout.error_band import (
     peak_note,
 )
 from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.results.recorded_case import across_period
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import (
     NOT_DRAWN,
@@ -57,10 +58,10 @@ def history(
     Returns
     -------
     matplotlib.figure.Figure
-        One panel a quantity. Force and tilts have one only where they change. Time is
-        logarithmic where the run's steps are and the load is held nearly from the start. Bands
-        are the errors that the result states. A peak pressure that depends on the mesh has no
-        curve; its panel says so.
+        One panel a quantity. Force, tilts and the line load of a line contact have one only where
+        they change. Time is logarithmic where the run's steps are and the load is held nearly from
+        the start. Bands are the errors that the result states. A peak pressure that depends on
+        the mesh has no curve; its panel says so.
 
     Raises
     ------
@@ -132,7 +133,7 @@ def compare_histories(
 
 
 def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
-    """Names of the scalars to draw, which all runs have: without a constant force or tilt."""
+    """Names of the scalars to draw, which all runs have: without a constant load or tilt."""
     common = [name for name in shown_in(Place.FIGURE) if all(name in run for run in runs.values())]
     return [name for name in common if _worth_a_panel(name, runs.values())]
 
@@ -155,9 +156,9 @@ def needed_variables(run: xr.Dataset) -> list[str]:
 
 
 def _worth_a_panel(name: str, runs: Collection[xr.Dataset]) -> bool:
-    if name == "force":
-        forces = (run["force"].values for run in runs)
-        return any(np.ptp(force) > 1e-6 * np.max(force) for force in forces)
+    if name == "force" or (name == "peak_line_load" and all(map(across_period, runs))):
+        loads = (run[name].values for run in runs)
+        return any(np.ptp(load) > 1e-6 * np.max(load) for load in loads)
     return not all(is_centred(run, name) for run in runs)
 
 

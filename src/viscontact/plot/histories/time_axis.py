@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
 from viscontact.units.formatting import ReadableUnit, format_quantity
 
@@ -108,6 +109,8 @@ def _held_from(run: xr.Dataset) -> bool:
     times = run["time"].values
     held_from = []
     for name in ("force", "approach"):
+        if not is_shown(run, name):
+            continue
         values = run[name].values
         differs = np.abs(values - values[-1]) > _STEADY * np.abs(values).max()
         held_from.append(times[int(np.flatnonzero(differs).max(initial=-1)) + 1])

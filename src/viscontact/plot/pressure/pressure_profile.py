@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.plot.layout.page import Width
 from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
+from viscontact.results.recorded_case import across_period
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.stated_errors import MESH_DEPENDENT
 
@@ -20,7 +21,7 @@ def pressure_profile(
     results: xr.Dataset,
     *,
     times: ArrayLike | None = None,
-    along: Literal["x", "y"] = "x",
+    along: Literal["x", "y"] | None = None,
     at: float | None = None,
     axes: Axes | None = None,
     width: Width | None = None,
@@ -35,7 +36,8 @@ def pressure_profile(
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.
     along : {"x", "y"}, optional
-        Direction of the line: along a roller, or across it.
+        Direction of the line: along a roller, or across it. By default x, or across the period of
+        a grid that is periodic along one axis only.
     at : float, optional
         Position of the line on the other axis [m]; by default the middle of the grid. Between two
         rows of cells the pressure is interpolated.
@@ -65,6 +67,7 @@ def pressure_profile(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('x [µm]', 'Pressure [kPa]')
     """
+    along = along or across_period(results) or "x"
     return draw_curves(results, _curve(along, at), times, axes, width)
 
 
@@ -72,7 +75,7 @@ def compare_pressure_profiles(
     runs: Mapping[str, xr.Dataset],
     *,
     times: ArrayLike | None = None,
-    along: Literal["x", "y"] = "x",
+    along: Literal["x", "y"] | None = None,
     at: float | None = None,
     width: Width | None = None,
 ) -> Figure:
@@ -86,7 +89,7 @@ def compare_pressure_profiles(
         Instants [s]; of each run the nearest stored ones are drawn. By default the first in
         contact and the last of the first run.
     along, at : optional
-        Direction and position of the line, as for `pressure_profile`.
+        Direction and position of the line, as for `pressure_profile` of the first run.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -115,7 +118,8 @@ def compare_pressure_profiles(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('y [µm]', 'Pressure [kPa]')
     """
-    return compare_curves(runs, _curve(along, at), times, width)
+    ways = [along or across_period(run) or "x" for run in runs.values()]
+    return compare_curves(runs, _curve(ways[0] if ways else "x", at), times, width)
 
 
 def _beyond_border(snapshot: Snapshot) -> Snapshot:
