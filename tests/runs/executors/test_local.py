@@ -18,6 +18,7 @@ import xarray as xr
 from interrupted_runs import BODIES
 from viscontact.cli import main
 from viscontact.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME
+from viscontact.runs.execution.case_digests import digests_of
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.executors import task as tasks
 from viscontact.runs.executors.driver import drive
@@ -248,6 +249,39 @@ def test_task_resumes_what_a_killed_attempt_of_the_same_command_has_left(
     other = replace(request, settings=("time.steps=4",), overwrite=True)
     assert perform(Task(other, case.parent / "a", "three")).word == "done"
     assert (case.parent / "a" / RESULT_NAME).stat().st_mtime_ns != before
+
+
+def test_task_whose_case_has_been_edited_is_refused(case: Path) -> None:
+    digests = digests_of(case)({"load.force": "1 N"})
+    request = RunRequest(case, case.parent / "a", settings=("load.force=1 N",))
+    case.write_text(CASE.replace("end: 5 s", "end: 6 s"), encoding="utf-8")
+    task = Task(request, case.parent / "a", "", digests=digests)
+    outcome = perform(task)
+    assert (outcome.word, outcome.code) == ("refused", 1)
+    assert outcome.said[0].startswith(f"{case}: has changed since the first run began: time; ")
+    case.write_text(CASE.replace("force: 4 N", "force: 5 N"), encoding="utf-8")
+    assert perform(task).word == "done"  # the value of the run is another one in any case
+
+
+@pytest.mark.slow  # starts a worker
+def test_run_of_a_sweep_whose_case_is_edited_meanwhile_is_refused(
+    case: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    first, second = (case.parent / "sweep" / f"case_force={force}N" for force in (1, 2))
+
+    def edit() -> None:
+        while not (first / PROGRESS_NAME).exists():
+            clock.sleep(0.005)
+        case.write_text(CASE.replace("end: 5 s", "end: 6 s"), encoding="utf-8")
+
+    editing = threading.Thread(target=edit)
+    editing.start()
+    words = ["run", str(case), "--vary", "load.force=1N,2N", "-o", str(first.parent), "-q"]
+    assert main(words) == 1
+    editing.join()
+    assert (first / RESULT_NAME).exists()
+    assert not (second / RESULT_NAME).exists()
+    assert f"{case}: has changed since the first run began: time; " in capsys.readouterr().err
 
 
 def test_long_run_is_a_process_of_its_own_and_ends_in_the_same_bits(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from viscontact.runs.sweep.case_digests import changed_parts, with_digests
+from viscontact.runs.sweep.case_digests import changed_since, with_digests
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
 
 CASE = """\
@@ -54,7 +54,7 @@ def test_edit_of_a_case_changes_the_digests_of_its_sections(
     edited = CASE.replace(before, now)
     assert edited != CASE
     (tmp_path / "case.yaml").write_text(edited, encoding="utf-8")
-    assert changed_parts(tmp_path / "sweep", run) == parts
+    assert changed_since(tmp_path / "sweep", run) == parts
 
 
 @pytest.mark.parametrize(("settings", "named"), [(FORCE, "profile.csv"), (OTHER, "other.csv")])
@@ -64,19 +64,19 @@ def test_edit_of_a_file_that_the_run_reads_changes_its_digest(
     run = pinned(tmp_path, settings)
     for name in ("profile.csv", "other.csv"):
         (tmp_path / name).write_text("1,3\n", encoding="utf-8")
-        assert changed_parts(tmp_path / "sweep", run) == ([name] if name == named else [])
+        assert changed_since(tmp_path / "sweep", run) == ([name] if name == named else [])
         (tmp_path / name).write_text("1,2\n", encoding="utf-8")
 
 
 def test_runs_without_digests_or_a_case_that_can_be_read_have_no_changes(tmp_path: Path) -> None:
     run = pinned(tmp_path, FORCE)
     (tmp_path / "case.yaml").write_text("load: {", encoding="utf-8")
-    assert changed_parts(tmp_path / "sweep", run) == []  # the run reports the error
+    assert changed_since(tmp_path / "sweep", run) == []  # the run reports the error
     old = SweepRun(0, "a", "a", FORCE, (), "../case.yaml", "grid")
     [read] = read_manifest(write_manifest(tmp_path / "old", [old]))
     assert "digests" not in (tmp_path / "old" / "runs.jsonl").read_text(encoding="utf-8")
     (tmp_path / "case.yaml").write_text(CASE, encoding="utf-8")
-    assert changed_parts(tmp_path / "old", read) == []
+    assert changed_since(tmp_path / "old", read) == []
     of_python = SweepRun(0, "a", "a", {}, (), "", "cases")
     assert with_digests(tmp_path, [of_python]) == [of_python]
 
@@ -87,7 +87,7 @@ def test_digests_of_ten_thousand_runs_read_each_file_once(
     run = pinned(tmp_path, FORCE)
     read = []
     monkeypatch.setattr(
-        "viscontact.runs.sweep.case_digests.digest", lambda path: read.append(path) or b"1"
+        "viscontact.runs.execution.case_digests.digest", lambda path: read.append(path) or b"1"
     )
     runs = (
         SweepRun(n, "", "", {"load.force": f"{n} N"}, (), run.case, "grid") for n in range(10**4)

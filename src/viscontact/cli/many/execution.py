@@ -37,7 +37,7 @@ def execute_many(request: ManyRequest) -> None:
             workers = opened.enter_context(_workers(request, left, interruption))
             sweep.recorded.write()
         with shown_runs(left, quiet=quiet) as shown:
-            ended = drive(left, workers, interruption, shown)
+            ended = drive(left, workers, interruption, shown, sweep.task)
     _end(request, sweep, ended)
 
 

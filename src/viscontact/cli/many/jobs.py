@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
 
 from viscontact.cli.many.checks import MOST_READ, checked_jobs
 from viscontact.cli.many.common_cells import with_common_cells
@@ -17,6 +19,8 @@ from viscontact.cli.many.recorded_sweep import (
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.terminal.messages import say
 from viscontact.runs import resources
+from viscontact.runs.execution.case_digests import Digests
+from viscontact.runs.executors.task import Task
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.processes.job import Job
@@ -30,6 +34,15 @@ class CheckedSweep:
     jobs: list[Job]
     recorded: RecordedSweep
     keys: tuple[str, ...]  # varied ones
+
+    def task(self, job: Job, token: str) -> Task:
+        """Task of a job, refused if its case changes meanwhile; `token` is that of the command."""
+        return Task(job.request, job.directory, token, digests=self._digests.get(job.directory, {}))
+
+    @cached_property
+    def _digests(self) -> dict[Path, Digests]:
+        runs = self.recorded.runs  # none without a directory for them
+        return {job.directory: run.digests for job, run in zip(self.jobs, runs, strict=False)}
 
 
 def checked_sweep(request: ManyRequest, *, elsewhere: bool) -> CheckedSweep:

@@ -12,7 +12,7 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.runs.sweep import continuation
-from viscontact.runs.sweep.case_digests import changed_parts, with_digests
+from viscontact.runs.sweep.case_digests import changed_since, with_digests
 from viscontact.runs.sweep.continuation import OtherSweepError, continued, has_begun
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import case_name
@@ -61,7 +61,7 @@ class RecordedSweep:
             return self
         if not mixed and any_begun(self.directory, self.earlier):
             for each in self.earlier:
-                if parts := changed_parts(self.directory, each):
+                if parts := changed_since(self.directory, each):
                     refuse(
                         f"{self.directory}: holds runs of the case {Path(each.case).name} before "
                         f"it changed: {', '.join(parts)}; choose another directory with -o "

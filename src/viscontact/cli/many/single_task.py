@@ -24,7 +24,7 @@ from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.case_digests import changed_parts
+from viscontact.runs.sweep.case_digests import changed_since
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 
 
@@ -83,7 +83,7 @@ def _execute(request: RunRequest, file: Path) -> None:
 
 
 def _refuse_changed_case(path: Path, run: SweepRun) -> None:
-    if parts := changed_parts(path.parent, run):
+    if parts := changed_since(path.parent, run):
         refuse(
             f"{_case(path, run)}: has changed since {path} was written: {', '.join(parts)}; "
             "compute the changed case in a new directory, or, if runs of both cases are meant to "

@@ -6,7 +6,7 @@ import threading
 import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol, Self
 
@@ -14,6 +14,7 @@ from viscontact.run_files import ATTEMPT_NAME
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.ending import CommandError
+from viscontact.runs.execution.case_digests import Digests, changed_parts
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.execution import Monitor, execute_checked
 from viscontact.runs.execution.stop_requests import StopRequests
@@ -47,9 +48,19 @@ class Task:
     directory: Path
     token: str
     stop: Path | None = None
+    digests: Digests = field(default_factory=dict)  # of the case; empty if it may change
 
     def compute(self, stops: StopRequests) -> Outcome:
-        """Compute the run, or what is left of it."""
+        """Compute the run, or what is left of it, unless its case has changed."""
+        pairs = (text.partition("=") for text in self.request.settings)
+        settings = {key.strip(): value for key, _, value in pairs}
+        if parts := changed_parts(self.request.case, settings, self.digests):
+            why = (
+                f"{self.request.case}: has changed since the first run began: {', '.join(parts)}; "
+                "compute the changed case in a new directory, or change it back and continue with "
+                "--resume"
+            )
+            return Outcome("refused", STOPPED, (why,))
         return _attempted(self, stops)
 
     def elsewhere(self, stop: Path) -> Self:

@@ -1,30 +1,16 @@
-"""Digests of the cases of a sweep, by which a task notices that its case has been edited.
-
-The digests are those of the parsed sections, so that comments and blanks may change, and of the
-files that a case names. Values that the settings of a run replace are left out.
-"""
+"""Digests of the cases of a sweep, by which a task notices that its case has been edited."""
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from viscontact.case import CaseError
-from viscontact.case.document import read_document
-from viscontact.case.overrides import override
-from viscontact.case.reader import digest
+from viscontact.runs.execution.case_digests import Digests, changed_parts, digests_of
 from viscontact.runs.sweep.manifest import SweepRun
-
-#: Length of a digest [characters].
-_LENGTH = 16
-#: Section without influence on the numbers, and key of the name of a file.
-_TITLE, _FILE = "title", "file"
 
 
 def with_digests(directory: Path, runs: Iterable[SweepRun]) -> list[SweepRun]:
@@ -32,73 +18,23 @@ def with_digests(directory: Path, runs: Iterable[SweepRun]) -> list[SweepRun]:
 
     A case that cannot be read, which its run will report, has no digests.
     """
-    of_case, place = cache(_digests), directory.resolve()
-    found = []
+    of_case, found = cache(digests_of), []
     for run in runs:
-        digests: Mapping[str, str] = {}
+        digests: Digests = {}
         if run.case:
             try:
-                # The directory may not exist yet.
-                digests = of_case(Path(os.path.normpath(place / run.case)))(run.settings)
+                digests = of_case(case_path(directory, run))(run.settings)
             except (CaseError, OSError):
                 digests = {}
         found.append(replace(run, digests=digests))
     return found
 
 
-def changed_parts(directory: Path, run: SweepRun) -> list[str]:
+def changed_since(directory: Path, run: SweepRun) -> list[str]:
     """Return the sections and files of the case of a run that have changed since its digests."""
-    [now] = with_digests(directory, [run])
-    if not (run.digests and now.digests):
-        return []
-    names = {**run.digests, **now.digests}
-    return [name for name in names if run.digests.get(name) != now.digests.get(name)]
+    return changed_parts(case_path(directory, run), run.settings, run.digests)
 
 
-def _digests(case: Path) -> Callable[[Mapping[str, str]], dict[str, str]]:
-    """Return the function that gives the digests of a case with settings."""
-    document = read_document(case)
-    of_file = cache(lambda name: digest(case.parent / name).hex()[:_LENGTH])
-
-    @cache
-    def sections(keys: tuple[str, ...]) -> dict[str, str]:
-        data = override(document, (f"{key}=null" for key in keys)).data
-        return {name: _digest(value) for name, value in data.items() if name != _TITLE}
-
-    @cache
-    def files(settings: tuple[str, ...]) -> dict[str, str]:
-        return {name: of_file(name) for name in _files(override(document, settings).data)}
-
-    def digests(settings: Mapping[str, str]) -> dict[str, str]:
-        named = (f"{key}={value}" for key, value in settings.items())
-        of_files = tuple(text for text in named if _FILE in text)
-        return {**sections(tuple(settings)), **files(of_files)}
-
-    return digests
-
-
-def _files(data: Any) -> Iterator[str]:
-    """Yield the names of files in the data of a case."""
-    entries: Sequence[Any] = data if isinstance(data, list) else ()
-    if isinstance(data, dict):
-        entries = [value for key, value in data.items() if key != _FILE]
-        if isinstance(name := data.get(_FILE), str):
-            yield name
-    for entry in entries:
-        yield from _files(entry)
-
-
-def _digest(value: Any) -> str:
-    text = json.dumps(_plain(value), sort_keys=True, default=str)
-    return hashlib.sha256(text.encode("utf-8", "backslashreplace")).hexdigest()[:_LENGTH]
-
-
-def _plain(value: Any) -> Any:
-    """Value of a case with texts without blanks, and with floats for all numbers."""
-    if isinstance(value, dict):
-        return {str(key): _plain(each) for key, each in value.items()}
-    if isinstance(value, list):
-        return [_plain(each) for each in value]
-    if isinstance(value, str):
-        return "".join(value.split())
-    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+def case_path(directory: Path, run: SweepRun) -> Path:
+    """Path of the case of a run, from the directory of the sweep, which may not exist yet."""
+    return Path(os.path.normpath(directory.resolve() / run.case))
