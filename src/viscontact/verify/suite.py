@@ -10,6 +10,7 @@ from viscontact.verify import (
     fixed_contact,
     growing,
     line_contact,
+    moving_contact,
     periodic,
     unloading,
 )
@@ -23,6 +24,7 @@ CASES: tuple[Case, ...] = (
     *fixed_contact.CASES,
     *periodic.CASES,
     *line_contact.CASES,
+    *moving_contact.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.
