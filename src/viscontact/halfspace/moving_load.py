@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,8 +36,16 @@ Coefficient: TypeAlias = Callable[
     [NDArray[np.float64], NDArray[np.float64], tuple[float, float]], NDArray[np.float64]
 ]
 
-#: Gauss nodes of a panel. Interpolation between them is what limits the accuracy.
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
+
+def _gauss_rule(count: int) -> tuple[Any, Any, Any]:
+    """Nodes and weights of Gauss' rule, and Legendre polynomials at its nodes."""
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    return nodes, weights, np.polynomial.legendre.legvander(nodes, count - 1)
+
+
+#: Rules of a panel: interpolation between their nodes is what limits the accuracy. The short one is
+#: as accurate on panels of a cell that are FAR_CELLS from the loaded one.
+LONG, SHORT, FAR_CELLS = _gauss_rule(10), _gauss_rule(6), 8
 
 #: Panels from an edge of the loaded cell, where L has an infinite slope, to the middle between
 #: edges, each half as long as the one before.
@@ -145,18 +153,22 @@ def _delayed(
         span, length = format_quantity(2 * last, "m"), format_quantity(period, "m")
         raise ValueError(f"a table over {span} is longer than the period of {length}")
     ahead = _panel_edges(count, cell[0], DECAY_LENGTHS * float(lengths.max()), period / 2)
+    samples = _panel_samples(ahead, across, cell, coefficient)
     # L is even: behind the loaded cell lie the same panels and samples in reverse.
-    nodes = ahead[:-1, None] + np.diff(ahead)[:, None] * (1 + NODES) / 2
-    samples = coefficient(nodes[..., None], across, cell)
     behind = len(ahead) - 1 if np.isfinite(period) else int(np.searchsorted(ahead, last))
     edges = np.concatenate([-ahead[behind:0:-1], ahead])
-    samples = np.concatenate([samples[behind - 1 :: -1, ::-1] if behind else samples[:0], samples])
+    samples = [values[::-1] for values in samples[:behind]][::-1] + samples
     table = np.zeros((2 * count - 1, len(across)))
     delayed = np.zeros((len(lengths), len(across)))
+    known: dict[tuple[int, float], NDArray[np.float64]] = {}  # most panels are alike
     # E at an edge is the integral over its panel, plus exp(-h/l) E at the next edge.
     for start, end, values in reversed(list(zip(edges, edges[1:], samples, strict=False))):
+        width = round((end - start) / cell[0], 12)
+        key = len(values), width
+        if key not in known:
+            known[key] = _panel_weights(width * cell[0] / (2 * lengths), len(values))
         delayed *= np.exp(-(end - start) / lengths)[:, None]
-        delayed += np.einsum("ij,jk->ik", _panel_weights((end - start) / (2 * lengths)), values)
+        delayed += np.einsum("ij,jk->ik", known[key], values)
         cells = round(start / cell[0])
         if abs(start / cell[0] - cells) < EDGE_ROUNDING and abs(cells) < count:
             table[cells + count - 1] = np.einsum("i,ij->j", amplitudes, delayed)
@@ -171,23 +183,40 @@ def _delayed(
 def _panel_edges(count: int, cell: float, reach: float, end: float) -> NDArray[np.float64]:
     """Edges of the panels from 0 on, those of the table included, to a reach or before an end."""
     graded = cell / 2 * (1 - 0.5 ** np.arange(GRADED_PANELS))
-    halves = cell / 2 * np.arange(2, 2 * max(count - 1, 2) + 1)
-    edges = np.concatenate([graded, cell - graded[::-1], halves[1:]])
-    edges = np.insert(edges, GRADED_PANELS, cell / 2)
+    edges = np.concatenate([graded, [cell / 2], cell - graded[::-1], [1.5 * cell]])
+    edges = np.append(edges, cell * np.arange(2, max(count - 1, 2) + 1))
     far, end = float(edges[-1]), min(end, float(edges[-1]) + reach)
     growing = far * PANEL_GROWTH ** np.arange(1, max(np.log(end / far) / np.log(PANEL_GROWTH), 0))
     return np.append(np.concatenate([edges[edges < end], growing[growing < end]]), end)
 
 
-def _panel_weights(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
+def _panel_samples(
+    edges: NDArray[np.float64],
+    across: NDArray[np.float64],
+    cell: tuple[float, float],
+    coefficient: Coefficient,
+) -> list[NDArray[np.float64]]:
+    """L at the nodes of each panel: of the short rule on panels that are small and far."""
+    far = (edges[:-1] >= FAR_CELLS * cell[0]) & (np.diff(edges) <= (1 + EDGE_ROUNDING) * cell[0])
+    found: list[NDArray[np.float64]] = [np.empty(0)] * len(far)
+    for chosen, (nodes, _, _) in ((far, SHORT), (~far, LONG)):
+        panels = np.flatnonzero(chosen)
+        places = edges[panels, None] + np.diff(edges)[panels, None] * (1 + nodes) / 2
+        values = coefficient(places.ravel()[:, None], across[None, :], cell)
+        for panel, block in zip(panels, np.split(values, max(len(panels), 1)), strict=False):
+            found[panel] = block
+    return found
+
+
+def _panel_weights(ratio: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     """Weights at the nodes of a panel from 0 to h for ∫ exp(-z/l) f(z) dz/l; ratio is h/(2 l).
 
     Exact for polynomials that Gauss' rule interpolates: exp(-a ξ) in Legendre polynomials has the
     coefficients (2n + 1) (-1)ⁿ i_n(a), modified spherical Bessel functions.
     """
     a = np.minimum(ratio, RELAXED_RATIO)[:, None]
-    order = np.arange(len(NODES))
+    _, weights, polynomials = SHORT if count == len(SHORT[0]) else LONG
+    order = np.arange(count)
     bessel = np.sqrt(np.pi / (2 * a)) * ive(order + 0.5, a)
-    polynomials = np.polynomial.legendre.legvander(NODES, len(NODES) - 1)
     coefficients = a * (2 * order + 1) * (-1.0) ** order * bessel
-    return np.asarray(np.einsum("in,jn->ij", coefficients, polynomials) * WEIGHTS)
+    return np.asarray(np.einsum("in,jn->ij", coefficients, polynomials) * weights)
