@@ -113,6 +113,7 @@ BENCHMARKS = {
     "many-runs": "many_runs.py",
     "start-up": "start_up.py",
     "storing": "storing.py",
+    "steady": "steady.py",
 }
 
 TASKS = {

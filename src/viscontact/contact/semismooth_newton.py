@@ -31,7 +31,7 @@ MAX_STEPS = 12
 
 #: Vectors of GMRES, and the reduction of the residual at which it ends [-]. A set from a less
 #: accurate solution may cycle.
-MAX_VECTORS, REDUCTION = 15, 1e-2
+MAX_VECTORS, REDUCTION = 15, 2e-2
 
 #: Residual of the linear system that is accurate enough, as a part of the tolerance.
 INNER_TOLERANCE = 0.1
@@ -117,7 +117,7 @@ class _LinearSystem:
         """Change of pressure that closes the gap on the set, and the gap after it.
 
         By GMRES, preconditioned from the right, until the norm of the gap on the set is
-        down to an accuracy [m] or a hundredth.
+        down to an accuracy [m] or a fiftieth.
         """
         cells = self.cells
         residual = self._projected(gap)[cells]

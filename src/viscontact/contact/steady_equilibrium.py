@@ -25,7 +25,7 @@ from viscontact.contact.winkler import winkler_contact
 NESTED_TOLERANCE = 1e-4
 
 #: Newton steps from a guess, before the search starts from a coarser grid.
-STEPS_FROM_GUESS = 8
+STEPS_FROM_GUESS = 4
 
 #: First added elastic compliance of the proximal point method, relative to that of a wave as long
 #: as the grid, and its factors after a success and after a failure [-].

@@ -32,6 +32,9 @@ from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.state import resistance_of, rim_of, state_of
 from viscontact.units.formatting import format_quantity
 
+#: Ratio of speeds up to which a contact on the same grid is the guess for the next.
+NEAR = 2.5
+
 
 @dataclass
 class SteadyCurve:
@@ -86,7 +89,7 @@ class SteadyCurve:
         """Contact at one speed with its state and warnings, added to those that are done."""
         solver, tolerance = self.run.solver, self.problem.contact.tolerance
         coarse = solver.coarser(speed, grid, tolerance) if self.errors else None
-        contact = solver.solve(speed, grid, tolerance, coarse or _near(before, grid))
+        contact = solver.solve(speed, grid, tolerance, coarse or _near(before, speed, grid))
         self.work[speed] = contact.solution.work
         if coarse is not None:
             part = coarse.solution.values[0].size / contact.solution.values[0].size
@@ -116,10 +119,11 @@ class SteadyCurve:
         return Measured(state, rim, against)
 
 
-def _near(before: SteadyContact | None, grid: Grid) -> SteadyContact | None:
-    """Contact at the neighbouring speed, if it is on cells of the same size."""
-    same = before is not None and np.allclose(before.grid.cell_size, grid.cell_size, rtol=1e-9)
-    return before if same else None
+def _near(before: SteadyContact | None, speed: float, grid: Grid) -> SteadyContact | None:
+    """Contact at the neighbouring speed, if it is close by: elsewhere a coarser grid helps more."""
+    if before is None or before.grid != grid or before.speed > NEAR * speed:
+        return None
+    return before
 
 
 def _refuse(contact: SteadyContact, tolerance: float) -> None:

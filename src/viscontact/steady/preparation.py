@@ -16,7 +16,7 @@ from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.steady.contact import SteadySolver, gap_on
 from viscontact.steady.moving_law import moving_law
 from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.region import Lattice, Region, find_region, lattice_for
+from viscontact.steady.region import SEARCH_CELLS, Lattice, Region, find_region, lattice_for
 from viscontact.units.formatting import format_quantity
 
 #: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
@@ -81,7 +81,7 @@ def _automatic(
         lattice.grid_over(regions[speed], centred=centred) for speed in problem.speeds.tolist()
     ]
     work = sum(
-        searches[speed] / np.prod(grid.shape)
+        searches[speed] * SEARCH_CELLS**2 / np.prod(grid.shape)
         for speed, grid in zip(problem.speeds.tolist(), grids, strict=True)
     )
     return PreparedRun(solver, tuple(grids), float(work))

@@ -12,6 +12,7 @@ from viscontact.verify import (
     line_contact,
     moving_contact,
     periodic,
+    steady_motion,
     unloading,
 )
 from viscontact.verify.case import Case, Result, run_case
@@ -25,6 +26,7 @@ CASES: tuple[Case, ...] = (
     *periodic.CASES,
     *line_contact.CASES,
     *moving_contact.CASES,
+    *steady_motion.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.
