@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Callable
@@ -287,3 +288,17 @@ def test_result_that_is_not_this_runs_is_refused_and_left_alone(
     assert str(path) in str(refusal.value)
     assert str(refusal.value).endswith("start the run again with --overwrite")
     assert {file.name: file.read_bytes() for file in path.parent.iterdir()} == before
+
+
+def test_disk_without_room_for_a_file_is_not_a_lack_of_permission(path: Path) -> None:
+    # netCDF says "Permission denied" wherever HDF5 cannot write its first bytes.
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
+    try:
+        with pytest.raises(OSError, match="too large") as full:
+            begun(path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert full.value.errno == errno.EFBIG
+    assert list(path.parent.iterdir()) == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -34,6 +35,8 @@ from viscontact.time_integration.run_times import field_instants
 BLOCK = 2**23
 #: Tolerance from which fields are stored in single precision, which rounds by a tenth of it.
 SINGLE_PRECISION = 10 * 2.0**-24
+#: Size of a first write to a file, which finds out why HDF5 cannot create it [bytes].
+_FIRST_BYTES = 4096
 
 
 class Extent(NamedTuple):
@@ -110,7 +113,8 @@ class Contents:
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
     """Create a result without rows and with global attributes, open for appending."""
-    file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
+    with true_cause(path):
+        file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
     file.set_auto_maskandscale(False)
     file.setncatts(attributes)
     file.createDimension("time", None)
@@ -126,6 +130,17 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
     file["outcome"].setncatts(OUTCOME_FLAGS)
     _keep_little(file)
     return file
+
+
+@contextmanager
+def true_cause(path: Path) -> Iterator[None]:
+    """Raise what the system says of a file that netCDF cannot create, such as on a full disk."""
+    try:
+        yield
+    except PermissionError:  # netCDF says so wherever HDF5 cannot write the first bytes
+        with path.open("wb") as file:
+            file.write(bytes(_FIRST_BYTES))
+        raise
 
 
 def _create(

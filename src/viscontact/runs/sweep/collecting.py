@@ -12,6 +12,7 @@ import netCDF4
 import numpy as np
 
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place
+from viscontact.runs.directory.netcdf_layout import true_cause
 from viscontact.runs.sweep.joint_layout import JointLayout, Progress
 from viscontact.runs.sweep.lazy_fields import lazy_fields
 
@@ -29,7 +30,8 @@ def write_joint_result(
         frame = layout.frame()
         if fields:
             frame = frame.assign_coords(lazy_fields(layout).coords)
-        frame.to_netcdf(fresh, format="NETCDF4", engine="netcdf4")
+        with true_cause(fresh):
+            frame.to_netcdf(fresh, format="NETCDF4", engine="netcdf4")
         with netCDF4.Dataset(str(fresh), "a") as file:
             file.set_auto_maskandscale(False)
             _write_scalars(file, layout, progress)
