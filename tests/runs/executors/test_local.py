@@ -284,6 +284,18 @@ def test_run_of_a_sweep_whose_case_is_edited_meanwhile_is_refused(
     assert f"{case}: has changed since the first run began: time; " in capsys.readouterr().err
 
 
+def test_sweep_whose_directory_is_removed_is_not_begun_again_without_its_manifest(
+    case: Path,
+) -> None:
+    sweep = case.parent / "removed"
+    for resume in (False, True):
+        request = RunRequest(case, settings=("time.steps=3",), resume=resume)
+        outcome = perform(Task(request, sweep / "a", "one"))
+        assert (outcome.word, outcome.code) == ("refused", 1)
+        assert "removed has been removed meanwhile" in outcome.said[0]
+    assert not sweep.exists()
+
+
 def test_long_run_is_a_process_of_its_own_and_ends_in_the_same_bits(
     case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -12,7 +12,7 @@ from viscontact.runs.directory.atomic_files import replacing
 
 
 def write_failure(directory: Path, outcome: str, code: int, message: Sequence[str]) -> None:
-    r"""Write how a run has failed, where the disk allows it.
+    r"""Write how a run has failed, where the disk allows it and the directory above exists.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -23,7 +23,7 @@ def write_failure(directory: Path, outcome: str, code: int, message: Sequence[st
     entry = {"outcome": outcome, "code": code, "message": list(message)}
     text = json.dumps(entry, ensure_ascii=False) + "\n"
     with suppress(OSError):
-        directory.mkdir(parents=True, exist_ok=True)
+        directory.mkdir(exist_ok=True)
         with replacing(directory / FAILURE_NAME) as file:
             file.write(text.encode("utf-8", "backslashreplace"))
 

@@ -66,8 +66,8 @@ class RemoteTasks:
         """Request that all tasks finish their step, save and end; then no longer wait for them."""
         self._requests += 1
         if self._requests == 1:
-            self._stop.parent.mkdir(parents=True, exist_ok=True)
-            self._stop.touch()
+            with suppress(FileNotFoundError):  # removed, together with the runs
+                self._stop.touch()
             return
         for future in list(self._futures):
             future.cancel()

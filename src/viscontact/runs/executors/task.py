@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time as clock
 from collections.abc import Iterator
@@ -107,6 +108,10 @@ def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
         clock.sleep(PAUSE)  # the process of an earlier attempt, or of the run itself, is saving
     if stops.requested:
         return Outcome("not begun", INTERRUPTED)
+    above = task.directory.parent
+    if not _is_there(above):  # not made again, without the manifest that it held
+        why = f"{task.directory}: cannot be made: {above} has been removed meanwhile"
+        return Outcome("refused", STOPPED, (why,))
     outcome = task.compute(stops)
     if is_locked(task.directory):
         return outcome  # another run has taken it over: its files are left alone
@@ -115,6 +120,15 @@ def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
     with suppress(OSError):
         (task.directory / ATTEMPT_NAME).unlink(missing_ok=True)
     return outcome
+
+
+def _is_there(directory: Path) -> bool:
+    """Test whether a directory exists that another machine may have made a moment ago."""
+    if directory.is_dir():
+        return True
+    with suppress(OSError):
+        os.scandir(directory.parent).close()  # lets a network file system look for new names
+    return directory.is_dir()
 
 
 def _attempted(task: Task, stops: StopRequests) -> Outcome:
@@ -130,7 +144,7 @@ def _attempted(task: Task, stops: StopRequests) -> Outcome:
             return (
                 outcome if outcome.word != "refused" else _computed(request, task.directory, stops)
             )
-        task.directory.mkdir(parents=True, exist_ok=True)
+        task.directory.mkdir(exist_ok=True)
         mark.write_text(task.token, encoding="utf-8")
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
