@@ -254,7 +254,6 @@ def test_force_on_the_edge_of_a_punch_is_not_known() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"times": vc.adaptive_times(1.0, 1e-3)}, "adaptive steps .* not of the resistance"),
         ({"indenter_material": ZENER}, "rolling=True .* False"),
         ({"motion": vc.Travel([0, 1], y=[0, 9.0])}, "beyond the grid"),
     ],
@@ -284,6 +283,21 @@ def test_given_approach_moves_at_the_height_of_its_force() -> None:
     # Between the times the approach is straight, the force of the first run is not.
     assert given.force.values == pytest.approx(10.0, rel=1e-4)
     assert given.resistance_y.values == pytest.approx(held.resistance_y.values, rel=1e-3, abs=1e-4)
+
+
+@pytest.mark.parametrize("speed", [0.1, 0.03])
+def test_adaptive_steps_see_the_loss_and_meet_whole_cells(speed: float) -> None:
+    grid = vc.Grid((40, 56), (3.2, 4.48), centre=(0.0, 0.64))
+    given, end = (BODY, ZENER, LEVEL, grid), 1.28 / speed
+    options: Any = {"motion": vc.Travel([0.0, end], y=[0.0, 1.28]), "errors": False}
+    fine = vc.simulate(*given, np.linspace(0.0, end, 129), fields="none", **options)
+    found = vc.simulate(*given, vc.adaptive_times(end, 1e-2), fields="none", **options)
+    exact = float(fine.friction_coefficient[-1])
+    assert float(found.friction_coefficient[-1]) == pytest.approx(exact, rel=1e-2)
+    ways = found.position_y.values / 0.08
+    whole = [np.isclose(ways, cell, atol=1e-6).any() for cell in range(17)]
+    assert all(whole) == (np.diff(ways).max() < 2)
+    assert all(whole[-3:])
 
 
 COARSE = AutomaticGrid(0.2, ["approach"])

@@ -24,12 +24,6 @@ def check_motion(problem: Problem) -> None:
     motion = problem.motion
     if motion is None:
         return
-    if problem.adaptive is not None:
-        raise ValueError(
-            "times: adaptive steps control the error of the pressure, not of the resistance, and "
-            "are not available for a moving contact; give times, or leave them out for steps of "
-            "one cell"
-        )
     _check_mate(problem, motion)
 
 

@@ -165,13 +165,14 @@ class Problem:
         """Number of steps, estimated for adaptive ones."""
         if self.adaptive is None:
             return float(len(self.planned_steps))
-        return estimated_steps(self.adaptive, self.load, self.compliance)
+        return estimated_steps(self.adaptive, self.history, self.compliance)
 
-    def steps(self) -> FixedSteps | AdaptiveSteps:
-        """Return the sequence of steps from the start."""
+    def steps(self, cell_size: tuple[float, float]) -> FixedSteps | AdaptiveSteps:
+        """Return the sequence of steps from the start, on cells of a size (dx, dy) [m]."""
         if self.adaptive is None:
             return FixedSteps(self.planned_steps)
-        return AdaptiveSteps(self.adaptive, self.instants, self.load, self.compliance)
+        marks = None if self.motion is None else self.motion.times_at_cells(cell_size)
+        return AdaptiveSteps(self.adaptive, self.instants, self.history, self.compliance, marks)
 
     @property
     def measured_until(self) -> float:

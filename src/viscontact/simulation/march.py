@@ -57,7 +57,7 @@ class March:
         self._run = run
         self._domain = _domain_of(run)
         self._stepper = Stepper(run, self._domain)
-        self._steps = run.problem.steps()
+        self._steps = run.problem.steps(run.grid.cell_size)
         self._observer = Observer(run, warns=warns)
         self.done, self.outcome = 0, Outcome.CONVERGED
         if restart_data is not None:

@@ -71,7 +71,8 @@ def estimated_steps(
 class AdaptiveSteps:
     """Controller that chooses each step by the error of the last one.
 
-    `stops` are times to be hit, in addition to the load's kinks and the end [s].
+    `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
+    which longer steps end, increasing: those at which a moving body has passed whole cells [s].
     """
 
     def __init__(
@@ -80,7 +81,9 @@ class AdaptiveSteps:
         stops: NDArray[np.float64],
         load: LoadHistory,
         compliance: ContactCompliance,
+        marks: NDArray[np.float64] | None = None,
     ) -> None:
+        self._marks = np.empty(0) if marks is None else marks
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
         self._load, self._compliance = load, compliance
         self._touches = set(load.touches.tolist())
@@ -169,14 +172,21 @@ class AdaptiveSteps:
         stop = next(stop for stop in self._stops if stop > self._time)
         way = stop - self._time
         duration = self._duration
-        if self._time < self._load.kinks[-1]:
+        if self._time < self._load.curved_until:
             duration = min(duration, self._load.longest_step)
         # The last two steps before a stop are of equal length, so that none is very short.
         parts = math.ceil(way / duration * (1 - 1e-9))
         duration = way if parts <= 1 else way / 2 if parts == 2 else duration
-        time = stop if parts <= 1 else self._time + duration
+        time = stop if parts <= 1 else self._marked(self._time + duration)
+        duration = duration if parts <= 1 else time - self._time
         jumps = parts <= 1 and stop in self._jumps
         return Step(time, duration, None if jumps else time, smooth, before_jump=jumps)
+
+    def _marked(self, time: float) -> float:
+        """The last mark of a step up to a time, or the time without one [s]."""
+        before = int(np.searchsorted(self._marks, time * (1 + 1e-9))) - 1
+        mark = float(self._marks[before]) if before >= 0 else -math.inf
+        return mark if mark > self._time * (1 + 1e-9) else time
 
     def _first_duration(self) -> float:
         """Duration of a first step, over which the law creeps little [s]."""
