@@ -30,6 +30,8 @@ from viscontact.plot.materials.creep import compare_creep, creep, creep_curve
 from viscontact.plot.materials.fitted import fitted_indentation, fitted_series
 from viscontact.plot.materials.master_curve import master_curve
 from viscontact.plot.materials.material_curves import material_curves
+from viscontact.plot.motion.friction import friction
+from viscontact.plot.motion.motion_profile import motion_profile
 from viscontact.plot.pressure.contact_outline import compare_contact_outlines, contact_outline
 from viscontact.plot.pressure.deformed_surface import deformed_surface
 from viscontact.plot.pressure.line_load import compare_line_loads, line_load
@@ -100,12 +102,14 @@ __all__ = [
     "exact",
     "fitted_indentation",
     "fitted_series",
+    "friction",
     "history",
     "hysteresis",
     "indenter",
     "line_load",
     "master_curve",
     "material_curves",
+    "motion_profile",
     "pressure_map",
     "pressure_profile",
     "pressure_radial",

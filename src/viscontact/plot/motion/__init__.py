@@ -1,0 +1,1 @@
+"""Figures of contacts in steady motion: friction over speed, pressure along the motion."""
