@@ -36,7 +36,7 @@ def test_limits_are_drawn_only_where_they_hold():
     cone = vc.steady(vc.Cone(1.5), RUBBER, LOAD, 0.1, **coarse)
     assert len(friction(cone).axes[0].lines) == 1
     roller = vc.Roller(10.0, 1.0, crown_radius=10.0)
-    crowned = vc.steady(roller, RUBBER, LOAD, 0.1, **coarse)
+    crowned = vc.steady(roller, RUBBER, LOAD, 0.02, **coarse)
     assert len(friction(crowned).axes[0].lines) == 2
     steel = vc.Material(vc.Elastic(500.0), poisson_ratio=0.3)
     soft = vc.steady(BALL, steel, LOAD, 0.1, indenter_material=RUBBER, rolling=True, **coarse)
