@@ -16,6 +16,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.recorded_motion import direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, take_snapshots
 from viscontact.units.formatting import ReadableUnit, readable_unit, time_labels
 
@@ -34,6 +35,9 @@ class ContactCurve:
     values: Callable[[Snapshot], tuple[Array, Array]]
     largest: Callable[[Snapshot], float]  # which its unit is chosen for
     note: str  # of runs whose peak pressure depends on the mesh
+    marks_edges: bool = (
+        False  # with a mark at the leading and the trailing edge of a moving contact
+    )
 
 
 def draw_curves(
@@ -55,7 +59,12 @@ def draw_curves(
         _plot(axes, snapshot, curve, units, color=colour, linewidth=style.LINE_WIDTH)
     lines = axes.get_lines()[-len(snapshots) :]
     _frame(axes, snapshots, curve, units)
-    style.add_heading(axes, _note([results], [s.time for s in snapshots], curve), aside=True)
+    note = _note([results], [s.time for s in snapshots], curve)
+    if curve.marks_edges and motion_axis(results) == curve.along:
+        for snapshot, colour in zip(snapshots, colours, strict=True):
+            _mark_edges(axes, results, snapshot, curve, units, colour)
+        note = "; ".join(filter(None, ("● leading, ○ trailing edge", note)))
+    style.add_heading(axes, note, aside=True)
     style.add_legend(axes, lines, labels)
     return style.figure_of(axes)
 
@@ -110,6 +119,30 @@ class _Units:
 def _plot(axes: Axes, snapshot: Snapshot, curve: ContactCurve, units: _Units, **look: Any) -> None:
     positions, values = curve.values(snapshot)
     axes.plot(units.length(positions), units.values(in_contact(values)), **look)
+
+
+def _mark_edges(
+    axes: Axes,
+    results: xr.Dataset,
+    snapshot: Snapshot,
+    curve: ContactCurve,
+    units: _Units,
+    colour: Any,
+) -> None:
+    """Mark the edges of a moving contact on its curve; none at rest."""
+    positions, values = curve.values(snapshot)
+    pressed = np.flatnonzero(values > 0)
+    direction = direction_at(results, snapshot.time)
+    if direction is None or pressed.size == 0:
+        return
+    ends = [positions[max(pressed[0] - 1, 0)], positions[min(pressed[-1] + 1, len(positions) - 1)]]
+    edges = [(ends[0] + positions[pressed[0]]) / 2, (ends[1] + positions[pressed[-1]]) / 2]
+    if direction["xy".index(curve.along)] > 0:
+        edges.reverse()
+    for edge, fill in zip(edges, (colour, "white"), strict=True):  # the leading one first
+        axes.scatter(
+            units.length(edge), 0.0, s=16, color=fill, edgecolors=[colour], zorder=3, clip_on=False
+        )
 
 
 def _note(runs: Iterable[xr.Dataset], times: ArrayLike, curve: ContactCurve) -> str:

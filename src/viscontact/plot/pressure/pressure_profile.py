@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.plot.layout.page import Width
 from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
 from viscontact.results.recorded_case import across_period
+from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.stated_errors import MESH_DEPENDENT
 
@@ -36,8 +37,8 @@ def pressure_profile(
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.
     along : {"x", "y"}, optional
-        Direction of the line: along a roller, or across it. By default x, or across the period of
-        a grid that is periodic along one axis only.
+        Direction of the line: along a roller, or across it. By default that of a motion, across the
+        period of a grid that is periodic along one axis only, or else x.
     at : float, optional
         Position of the line on the other axis [m]; by default the middle of the grid. Between two
         rows of cells the pressure is interpolated.
@@ -49,7 +50,8 @@ def pressure_profile(
     Returns
     -------
     matplotlib.figure.Figure
-        One line per instant.
+        One line per instant. Along a motion a full marker is at the leading edge of the contact,
+        and a hollow one at the trailing edge.
 
     Raises
     ------
@@ -67,7 +69,7 @@ def pressure_profile(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('x [µm]', 'Pressure [kPa]')
     """
-    along = along or across_period(results) or "x"
+    along = along or motion_axis(results) or across_period(results) or "x"
     return draw_curves(results, _curve(along, at), times, axes, width)
 
 
@@ -118,7 +120,7 @@ def compare_pressure_profiles(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('y [µm]', 'Pressure [kPa]')
     """
-    ways = [along or across_period(run) or "x" for run in runs.values()]
+    ways = [along or motion_axis(run) or across_period(run) or "x" for run in runs.values()]
     return compare_curves(runs, _curve(ways[0] if ways else "x", at), times, width)
 
 
@@ -136,4 +138,5 @@ def _curve(along: Literal["x", "y"], at: float | None) -> ContactCurve:
         lambda snapshot: _beyond_border(snapshot).section(along, at),
         lambda snapshot: float(snapshot.pressure.max()),
         f"peak {MESH_DEPENDENT}",
+        marks_edges=True,
     )

@@ -1,0 +1,51 @@
+"""Figures of moving contacts: direction of the motion, leading and trailing edge."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import to_hex
+from matplotlib.text import Annotation
+
+import viscontact as vc
+from viscontact.plot.pressure.pressure_map import pressure_map
+from viscontact.plot.pressure.pressure_profile import pressure_profile
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+
+@pytest.fixture(scope="module")
+def moved() -> xr.Dataset:
+    """A ball that moves against y, and is at rest at last."""
+    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e6), poisson_ratio=0.5)
+    load = vc.step(0.2, tilt_x=0.0, tilt_y=0.0)
+    grid = vc.Grid((16, 24), (1.6e-3, 2.4e-3), centre=(0.0, -3e-4))
+    path = vc.Travel([0.0, 0.6], y=[0.0, -6e-4])
+    ball = vc.Paraboloid(0.01, 0.01)
+    times = [0.0, 0.3, 0.6, 0.9]
+    return vc.simulate(ball, rubber, load, grid, times, motion=path, errors=False)
+
+
+def test_profile_marks_the_leading_edge_in_the_direction_of_motion(moved: xr.Dataset) -> None:
+    axes = pressure_profile(moved, times=[0.3]).axes[0]
+    assert axes.get_xlabel() == "y [µm]"
+    leading, trailing = axes.collections
+    ahead, behind = (np.asarray(each.get_offsets())[0, 0] for each in (leading, trailing))
+    pressed = moved.y.values[(moved.pressure.sel(time=0.3).values > 0).any(axis=0)] * 1e6
+    assert ahead == pytest.approx(pressed.min() - 50)
+    assert behind == pytest.approx(pressed.max() + 50)
+    assert to_hex(trailing.get_facecolor()[0]) == "#ffffff" != to_hex(leading.get_facecolor()[0])
+
+
+def test_body_at_rest_has_no_edges_marked(moved: xr.Dataset) -> None:
+    assert not pressure_profile(moved, times=[0.9]).axes[0].collections
+    assert not pressure_profile(moved, times=[0.3], along="x").axes[0].collections
+
+
+def test_map_has_an_arrow_along_the_motion(moved: xr.Dataset) -> None:
+    going, resting, _ = pressure_map(moved, times=[0.3, 0.9]).axes
+    (arrow,) = (each for each in going.texts if isinstance(each, Annotation) and each.arrow_patch)
+    assert arrow.xy[0] == pytest.approx(arrow.xyann[0])
+    assert arrow.xy[1] < arrow.xyann[1]
+    assert not [each for each in resting.texts if getattr(each, "arrow_patch", None)]
