@@ -568,3 +568,38 @@ def test_the_line_load_of_a_long_contact_is_drawn(page: Any, server: seen.Server
     seen.run(page, "#coarse")
     page.wait_for_selector("#line-load", state="hidden")
     assert page.locator("#section-y svg").first.is_visible()
+
+
+# A row of balls along x.
+ROW = """\
+indenter: {shape: paraboloid, radius_x: 10 mm, radius_y: 10 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, force: 0.1 N}
+time: {end: 1 s, steps: 1}
+grid:
+  shape: [24, 64]
+  size: [1 mm, 2.4 mm]
+  periodic: [true, false]
+"""
+
+
+@pytest.mark.slow
+def test_each_axis_of_a_period_has_a_box(page: Any, server: seen.Server) -> None:
+    def written() -> str:
+        seen.until_checked(page)
+        return str(page.evaluate("sessionStorage['viscontact.case']"))
+
+    seen.visit(page, server, ROW)
+    boxes = page.locator('[id="field-grid.periodic"] input')
+    assert [box.is_checked() for box in boxes.all()] == [True, False]
+    boxes.nth(1).check()
+    assert "periodic: true" in written()
+    boxes.nth(0).uncheck()
+    assert re.search(r"periodic: \[false, true\]|periodic:\n *- false\n *- true", written())
+    boxes.nth(1).uncheck()
+    assert "periodic" not in written()
+    boxes.nth(0).check()
+    # A cylinder: Hertz with E* = 4 MPa and 100 N/m, 2 b = 1.128 mm on a period of 1 mm.
+    seen.type_into(page, "indenter.radius_x", "infinite")
+    seen.run(page, "#coarse")
+    assert float(seen.fact(page, "Contact area").split()[0]) == pytest.approx(1.128, rel=0.02)

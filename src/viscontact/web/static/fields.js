@@ -31,7 +31,7 @@ function hint(node) {
   const hints = [];
   if (node.kind === "number") hints.push(range(node));
   if (node.words?.length) hints.push(`or ${node.words.map((word) => `“${word}”`).join(", ")}`);
-  if (node.many) hints.push("several with commas between");
+  if (node.many && node.kind !== "axes") hints.push("several with commas between");
   const usual = node.default;
   if (usual !== null && usual !== undefined && !["", true, false].includes(usual) && typeof usual !== "object")
     hints.push(`${asText(usual)} when left out`);
@@ -48,6 +48,7 @@ function range({ whole, least, most, above, below }) {
 function controlFor(path, node, required) {
   if (node.kind === "choice") return choice(path, node, required);
   if (node.kind === "switch") return toggle(path, node);
+  if (node.kind === "axes") return axes(path, node);
   if (node.kind === "set") return choices(path, node);
   if (node.kind === "tuple") return node.items.map((item, index) => entry([...path, index], item, {
     label: `${titleOf(path.at(-1))}, ${index + 1} of ${node.items.length}`, example: node.examples[0]?.[index],
@@ -139,6 +140,26 @@ function toggle(path, node) {
   return box;
 }
 
+// Switches of x and y: true or false where both agree, else a pair.
+function axes(path, node) {
+  const given = valueAt(path) ?? node.default ?? false;
+  const write = () => {
+    const on = boxes.map((box) => box.checked);
+    const value = on[0] === on[1] ? on[0] : on;
+    setValue(path, value === (node.default ?? false) ? undefined : value);
+  };
+  const boxes = ["x", "y"].map((axis, index) => make("input", {
+    type: "checkbox", value: axis, checked: (Array.isArray(given) ? given[index] : given) === true, onchange: write,
+  }));
+  return group(path, boxes, (box) => `along ${box.value}`);
+}
+
+// Boxes with their labels.
+function group(path, boxes, label) {
+  return make("div", { class: "boxes", role: "group", "aria-label": titleOf(path.at(-1)), id: idOf(path), tabIndex: -1 },
+    boxes.map((box) => make("label", {}, box, ` ${label(box)}`)));
+}
+
 function choices(path, node) {
   const write = () => {
     const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
@@ -147,8 +168,7 @@ function choices(path, node) {
   const given = [valueAt(path) ?? []].flat();
   const boxes = node.item.options.map((value) =>
     make("input", { type: "checkbox", value, checked: given.includes(value), onchange: write }));
-  return make("div", { class: "boxes", role: "group", "aria-label": titleOf(path.at(-1)), id: idOf(path), tabIndex: -1 },
-    boxes.map((box) => make("label", {}, box, ` ${titleOf(box.value)}`)));
+  return group(path, boxes, (box) => titleOf(box.value));
 }
 
 function lines(path) {

@@ -29,7 +29,7 @@ const about = (part) => ({
   description: part.description ?? "", default: part.default, examples: part.examples ?? [],
 });
 
-// The kind of a part: constant, choice, switch, number, text, group, mapping, tuple, list,
+// The kind of a part: constant, choice, switch, axes (a switch, or one for x and y each), number, text, group, mapping, tuple, list,
 // variants or lines; text by default.
 function understand(given) {
   const part = resolved(given);
@@ -76,6 +76,8 @@ function tagOf(groups) {
   return names.find((name) => groups.every((each) => "const" in (each.properties[name] ?? {})));
 }
 
+const isSwitch = (node) => node.kind === "switch";
+
 function several(parts) {
   const groups = parts.filter((each) => each.properties);
   if (groups.length && tagOf(groups)) return variants(parts, groups);
@@ -83,6 +85,7 @@ function several(parts) {
   const texts = kinds.filter((each) => each.kind === "text");
   const lists = kinds.filter((each) => ["list", "tuple"].includes(each.kind));
   if (lists.length && texts.length && lists[0].kind === "list") return { kind: "lines" };
+  if (kinds.some(isSwitch) && lists[0]?.items?.every(isSwitch)) return { kind: "axes", many: true };
   const inner = texts[0] ?? lists[0]?.item ?? lists[0]?.items?.[0];
   const numeric = kinds.some((each) => each.kind === "number");
   return { kind: "text", words, numeric, many: lists.length > 0, dimension: inner?.dimension ?? null };
