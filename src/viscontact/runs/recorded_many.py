@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from viscontact.runs.execution.stop_requests import StopRequests
-from viscontact.runs.executors.driver import Active, Workers, drive
+from viscontact.runs.executors.driver import Active, Workers, case_task, drive
 from viscontact.runs.executors.simulation_task import SimulationTask
-from viscontact.runs.executors.task import RecordedTask, Task
+from viscontact.runs.executors.task import RecordedTask
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
@@ -42,11 +43,12 @@ def record_many(
     runs = _recorded(recipes, directory)
     jobs = [_job(run, recipe, directory) for run, recipe in zip(runs, recipes, strict=True)]
     given = {job.directory: recipe for job, recipe in zip(jobs, recipes, strict=True)}
+    digests = {job.directory: run.digests for job, run in zip(jobs, runs, strict=True)}
 
     def task_of(job: Job, token: str) -> RecordedTask:
         recipe = given[job.directory]
         if isinstance(recipe, VariedRun):
-            return Task(job.request, job.directory, token)
+            return replace(case_task(job, token), digests=digests[job.directory])
         assert isinstance(recipe, Mapping)  # checked above
         return SimulationTask(recipe, job.directory)
 
@@ -73,9 +75,10 @@ def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
     place, count = Counter(each.directory for each in found).most_common(1)[0]
     if count > 1:
         raise ValueError(f"runs: {count} of them would go to {directory / place}; give each once")
+    pinned = with_digests(directory, found)
     if found != earlier:
-        write_manifest(directory, with_digests(directory, found))
-    return found
+        write_manifest(directory, pinned)
+    return pinned
 
 
 def _sweep_run(

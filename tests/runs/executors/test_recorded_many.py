@@ -55,6 +55,21 @@ class Broken(Executor):
         return future
 
 
+class Editing(Executor):
+    """Executor that computes each call at once, and then edits a case."""
+
+    def __init__(self, case: Path) -> None:
+        self._case = case
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Return a call that is finished."""
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        text = self._case.read_text(encoding="utf-8")
+        self._case.write_text(text.replace("end: 1 s", "end: 2 s"), encoding="utf-8")
+        return future
+
+
 def loky_executor() -> Executor:
     return pytest.importorskip("loky").ProcessPoolExecutor(1)
 
@@ -240,3 +255,15 @@ def test_mpi_computes_nine_of_ten_runs_and_a_thousand_empty_tasks_in_seconds(
     alone = vc.simulate(**{**runs(0.14)[0], "fields": "none"})
     with vc.open_results(tmp_path / "sweep" / "run9") as ds:
         assert ds.approach.values.tobytes() == alone.approach.values.tobytes()
+
+
+def test_case_that_is_edited_during_the_runs_is_refused(tmp_path: Path) -> None:
+    case = tmp_path / "case.yaml"
+    case.write_text(AUTOMATIC, encoding="utf-8")
+    varied = vc.vary(case, {"load.force": ["0.1 N", "0.2 N"]})
+    with pytest.raises(RuntimeError, match="has changed since the first run began: time; "):
+        vc.simulate_many(varied, executor=Editing(case), directory=tmp_path / "sweep")
+    case.write_text(AUTOMATIC, encoding="utf-8")
+    with ThreadPoolExecutor(1) as executor:
+        ds = vc.simulate_many(varied, executor=executor, directory=tmp_path / "sweep")
+    assert ds.state.values.tolist() == ["done", "done"]

@@ -9,7 +9,7 @@ from viscontact.cli.many.cluster import cluster_tasks
 from viscontact.cli.many.jobs import CheckedSweep, checked_sweep, fitting, resource_warnings
 from viscontact.cli.many.progress import shown_runs
 from viscontact.cli.many.request import ManyRequest
-from viscontact.cli.many.table import print_table
+from viscontact.cli.many.table import first_names, print_table
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
@@ -74,16 +74,12 @@ def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> N
         for line in each.said if each.code else ():
             say(request.options.as_typed(line, sweep.keys))
     failed = [each.job.name for each in runs if state_at_end(each) is State.FAILED]
-    lines = [f"{len(failed)} of {len(runs)} runs failed: {_names(failed)}"] if failed else []
+    named = first_names(failed, _MOST_NAMES)
+    lines = [f"{len(failed)} of {len(runs)} runs failed: {named}"] if failed else []
     if any(each.code == INTERRUPTED for each in runs):
         stop(*lines, "interrupted", f"continue with: {request.resuming}", code=INTERRUPTED)
     if any(each.code == STOPPED for each in runs):
         stop(*lines, *sweep.recorded.change_of_failed())
-
-
-def _names(runs: Sequence[str]) -> str:
-    more = f" and {len(runs) - _MOST_NAMES} more" if len(runs) > _MOST_NAMES else ""
-    return ", ".join(runs[:_MOST_NAMES]) + more
 
 
 def _not_marched(job: Job) -> Ended:

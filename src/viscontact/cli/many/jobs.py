@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.terminal.messages import say
 from viscontact.runs import resources
 from viscontact.runs.execution.case_digests import Digests
+from viscontact.runs.executors.driver import case_task
 from viscontact.runs.executors.task import Task
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
@@ -37,7 +38,7 @@ class CheckedSweep:
 
     def task(self, job: Job, token: str) -> Task:
         """Task of a job, refused if its case changes meanwhile; `token` is that of the command."""
-        return Task(job.request, job.directory, token, digests=self._digests.get(job.directory, {}))
+        return replace(case_task(job, token), digests=self._digests.get(job.directory, {}))
 
     @cached_property
     def _digests(self) -> dict[Path, Digests]:

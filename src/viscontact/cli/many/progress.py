@@ -91,7 +91,8 @@ class _Lines(RunsDisplay):
 
     def end(self, ended: Ended) -> None:
         super().end(ended)
-        say(f"{ended.job.name}: {state_at_end(ended).value}; {self._runs}")
+        if (state := state_at_end(ended)) is not State.WAITING:  # after a request to stop
+            say(f"{ended.job.name}: {state.value}; {self._runs}")
 
 
 class _Bars(RunsDisplay):

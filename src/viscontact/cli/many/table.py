@@ -118,9 +118,14 @@ def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str
     for ended, each in zip(runs, found, strict=True):
         for text in each.warnings if each else ():
             concerned.setdefault(text, []).append(ended.job.name)
-    return [f"{_names(names)}: {text}" for text, names in concerned.items()]
+    return [f"{first_names(names, _NAMED)}: {text}" for text, names in concerned.items()]
 
 
-def _names(names: list[str]) -> str:
-    more = len(names) - _NAMED
-    return ", ".join(names[:_NAMED]) + (f" and {more} more" if more > 0 else "")
+def first_names(names: Sequence[str], most: int) -> str:
+    """List the first of some names, and the number of the others.
+
+    >>> first_names(["a", "b", "c"], 2)
+    'a, b and 1 more'
+    """
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

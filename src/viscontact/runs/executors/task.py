@@ -58,8 +58,7 @@ class Task:
         if parts := changed_parts(self.request.case, settings, self.digests):
             why = (
                 f"{self.request.case}: has changed since the first run began: {', '.join(parts)}; "
-                "compute the changed case in a new directory, or change it back and continue with "
-                "--resume"
+                "compute the changed case in a new directory, or undo the change and continue"
             )
             return Outcome("refused", STOPPED, (why,))
         return _attempted(self, stops)
