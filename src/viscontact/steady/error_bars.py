@@ -16,14 +16,18 @@ SOLVER_ERROR_FACTOR = 3.0
 
 #: Least relative errors of scalars, times the square of the cells across the contact.
 LEAST_ERRORS = {
-    "contact_area": 0.5,
-    "mean_pressure": 0.5,
+    "contact_area": 1.0,
+    "mean_pressure": 1.0,
     "peak_pressure": 1.0,
     "peak_line_load": 4.0,
     "approach": 0.25,
     "resistance_x": 0.3,
     "resistance_y": 0.3,
 }
+
+#: The same of a free tilt; and of the force under a prescribed approach, which adds to that of the
+#: resistance.
+LEAST_TILT, LEAST_FORCE_ERROR = 0.5, 1.2
 
 #: Least error of extents along and across the motion, in cells, and of the place of the resultant,
 #: over the extents and times the square of these cells.
@@ -89,8 +93,15 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     for axis, name in enumerate(("contact_length", "contact_width")):
         part = ALONG_CELLS if axis == problem.axis else ACROSS_CELLS
         least[name] = part * cell[axis]
+    if problem.point.force is None:
+        for name in ("force", "resistance_x", "resistance_y"):
+            least[name] += LEAST_FORCE_ERROR / square * abs(float(getattr(state, name)))
     for axis, side in enumerate("xy"):
-        least[f"resistance_{side}"] += solver * abs(fine.against.value)
+        if (problem.point.tilt_x, problem.point.tilt_y)[axis] is None:
+            tilt, turned = f"tilt_{side}", float(state.displacement.max()) / extents[axis]
+            least[tilt] += LEAST_TILT / square * abs(float(getattr(state, tilt))) + solver * turned
+        across = (LEAST_ERRORS["resistance_x"] / square + solver) * abs(fine.against.value)
+        least[f"resistance_{side}"] = max(least[f"resistance_{side}"], across)
         least[f"eccentricity_{side}"] = (LEAST_ECCENTRICITY / square + solver) * extents[axis]
     return least
 

@@ -56,7 +56,8 @@ def plot(
             metavar="FIGURE",
             help="pressure-map, pressure-3d, pressure-profile, pressure-radial, line-load, "
             "surface-3d, contact-outline, contact-area, history, hysteresis, exact, creep, "
-            "stress-section, von-mises, indenter, or animation; of a sweep: response.",
+            "stress-section, von-mises, indenter, or animation; of a sweep: response; of steady "
+            "motion: friction, motion-profile.",
         ),
     ],
     times: Instants = None,

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.cli.results.compared_runs import compared_runs, note_missing
-from viscontact.cli.results.stored import early_end, opened
+from viscontact.cli.results.stored import early_end, opened, opened_steady
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.runs.sweep.open_many import open_many
@@ -41,12 +41,20 @@ def draw(
 ) -> Path:
     """Draw a figure of one run."""
     plot = plot_package()
-    draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation, RESPONSE: plot.response})
+    steady = {"friction": plot.friction, "motion-profile": plot.motion_profile}
+    others = {ANIMATION: plot.animation, RESPONSE: plot.response}
+    draw_it = _named(figure, {**plot.FIGURES, **steady, **others})
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
     folder = directory if directory.is_dir() else directory.parent
     moves = figure == ANIMATION
     file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
     _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
+    if figure in steady:
+        if instants:
+            refuse(f"--time: does not apply to the figure {figure}")
+        with opened_steady(directory, figure) as ds:
+            save(plot, file, draw_it, ds, **chosen)
+        return file
     if figure == RESPONSE:
         save(plot, file, draw_it, _sweep(directory, instants), **chosen)
         return file

@@ -35,6 +35,11 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
     except (OSError, ValueError) as error:
         refuse(_unreadable(path, error))
     with ds:
+        if "speed" in ds.dims:
+            refuse(
+                f"{path}: is a result of steady motion, over speed; it has the figures friction "
+                "and motion-profile, and vc.open_results reads it in Python"
+            )
         missing = [name for name in ("time", *REQUIRED) if name not in ds]
         if missing:
             refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
@@ -44,6 +49,19 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
             refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over time")
         if not ds.sizes["time"]:
             refuse(f"{path}: the run was stopped before its first instant was complete")
+        yield ds
+
+
+@contextmanager
+def opened_steady(path: Path, figure: str) -> Iterator[xr.Dataset]:
+    """Open a result of steady motion for a figure, or refuse it with a message."""
+    try:
+        ds = open_results(path)
+    except (OSError, ValueError) as error:
+        refuse(_unreadable(path, error))
+    with ds:
+        if "speed" not in ds.dims:
+            refuse(f"{path}: {figure} is a figure of steady motion, and this is a run over time")
         yield ds
 
 
