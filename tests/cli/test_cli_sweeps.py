@@ -21,7 +21,7 @@ from viscontact.run_files import FAILURE_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
 
 SCANNED = """\
-indenter: {shape: height-map, file: a.npy, spacing: [0.05 mm, 0.05 mm], height_unit: m, level: none}
+indenter: {shape: height-map, file: a.x3p, level: none}
 material: {law: elastic, shear_modulus: 400 MPa, poisson_ratio: 0.3}
 load: {kind: step, force: 20 N}
 time: {end: 1 s, steps: 1}
@@ -290,15 +290,18 @@ def test_run_that_fails_is_listed_and_the_others_are_collected(
 def test_surfaces_of_a_folder_are_texts_along_a_dimension(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    program = pytest.importorskip("SurfaceTopography", reason="no wheels of it on this system")
     monkeypatch.chdir(tmp_path)
     Path("scans").mkdir()
     x = np.linspace(-1e-3, 1e-3, 41)
     for name, radius in (("a", 8e-3), ("b", 4e-3)):
-        np.save(f"scans/{name}.npy", -(x[:, None] ** 2 + x**2) / (2 * radius))
+        heights = -(x[:, None] ** 2 + x**2) / (2 * radius)
+        scan = program.Topography(heights, (2.05e-3, 2.05e-3), unit="m")  # 41 pixels of 0.05 mm
+        scan.to_x3p(f"scans/{name}.x3p")
     Path("ball.yaml").write_text(SCANNED, encoding="utf-8")
-    assert main(["run", "ball.yaml", "--vary", "indenter.file=scans/*.npy", "-o", "all", "-q"]) == 0
+    assert main(["run", "ball.yaml", "--vary", "indenter.file=scans/*.x3p", "-o", "all", "-q"]) == 0
     ds = vc.open_many("all")
-    assert ds["indenter.file"].values.tolist() == ["scans/a.npy", "scans/b.npy"]
+    assert ds["indenter.file"].values.tolist() == ["scans/a.x3p", "scans/b.x3p"]
     # Hertz: the approach of a ball grows as its radius to the power of -1/3.
     growth = float(ds.approach[1, 0] / ds.approach[0, 0])
     assert growth == pytest.approx(2 ** (1 / 3), rel=0.03)
