@@ -78,6 +78,12 @@ def test_other_designs_are_those_of_the_command_line(case: Path, kind: str) -> N
     assert lines(runs) == list(read_manifest(Path("out/runs.jsonl")))
 
 
+def test_a_faulty_value_of_a_table_is_named_by_its_line(case: Path) -> None:
+    Path("plan.csv").write_text("load.force\n1 N\n2 mm\n", encoding="utf-8")
+    with pytest.raises(CaseError, match=r"^plan.csv:3: load.force: cannot read '2 mm' as a force"):
+        vc.vary(case, "plan.csv")
+
+
 def test_values_may_be_numbers_lists_and_paths(case: Path, tmp_path: Path) -> None:
     heights = np.zeros((24, 24))
     heights[12, 12] = 1e-6

@@ -139,7 +139,7 @@ def vary(
     path = Path(case)
     chosen = _design(values, design, runs, seed, method, (settings or {}).keys())
     fixed = tuple(f"{key}={_text(value)}" for key, value in (settings or {}).items())
-    own_cells = _keep_own_cells(path, chosen, fixed)
+    own_cells = _keep_own_cells(path, chosen, fixed, str(values))
     added = fixed if own_cells else (*fixed, *_common_cells(path, chosen, fixed))
     whole = path.parent.resolve() / path.name
     return [
@@ -255,14 +255,12 @@ def _text(value: Any) -> str:
     return json.dumps(value.item() if isinstance(value, np.generic) else value)
 
 
-def _keep_own_cells(case: Path, design: Design, settings: Sequence[str]) -> bool:
-    """Test whether runs keep their own cells; they are checked then."""
-    with _case_errors():
-        if not keeps_own_cells(case, design, settings):
-            return False
-        for row in extreme_rows(design):
+def _keep_own_cells(case: Path, design: Design, settings: Sequence[str], table: str) -> bool:
+    """Check runs, and test whether they keep their own cells; problems name the table's line."""
+    for row in extreme_rows(design):
+        with _case_errors(f"{table}:{design.lines[row]}: " if design.lines else ""):
             read_case(case, (*settings, *design.settings(row)))
-    return True
+    return keeps_own_cells(case, design, settings)
 
 
 def _common_cells(case: Path, design: Design, settings: Sequence[str]) -> tuple[str, ...]:
@@ -272,14 +270,15 @@ def _common_cells(case: Path, design: Design, settings: Sequence[str]) -> tuple[
 
 
 @contextmanager
-def _case_errors() -> Iterator[None]:
-    """Raise refusals and faults of a case as a CaseError that names no option."""
+def _case_errors(place: str = "") -> Iterator[None]:
+    """Raise refusals and faults of a case as a CaseError that names a place, but no option."""
     try:
         yield
     except CommandError as error:
-        raise CaseError(*map(_without_option, error.lines)) from None
+        raise CaseError(*(f"{place}{_without_option(line)}" for line in error.lines)) from None
     except CaseError as error:
-        raise CaseError(*map(_without_option, error.problems)) from None
+        lines = (f"{place}{_without_option(line)}" for line in error.problems)
+        raise CaseError(*lines) from None
 
 
 def _without_option(problem: str) -> str:
