@@ -101,3 +101,17 @@ def test_a_row_of_a_table_is_corrected_in_the_table(folder: Path) -> None:
     tasks(["--table", "plan.csv", "--resume"], 0, 0)
     assert written()[:1] == done
     assert vc.open_many("out")["load.force"].values.tolist() == [0.2, 0.4]
+
+
+def test_a_grid_for_a_single_run_replaces_the_common_cells(folder: Path) -> None:
+    case = "\n".join(line for line in CASE.splitlines() if not line.startswith("grid"))
+    (folder / "ball.yaml").write_text(case, encoding="utf-8")
+    vary = ["--vary", "load.force=0.2 N,0.4 N"]
+    tasks(vary, 0)
+    grid = ["--set", "grid.shape=[24, 24]", "--set", "grid.size=[5 mm, 5 mm]"]
+    assert main(["run", "-q", "--task", "1", "out", *grid]) == 0
+    first, second = read_manifest(Path("out/runs.jsonl"))
+    assert "grid.largest_cell" in first.settings
+    assert "grid.largest_cell" not in second.settings
+    tasks([*vary, "--resume"])
+    assert list(read_manifest(Path("out/runs.jsonl"))) == [first, second]

@@ -83,7 +83,7 @@ def test_a_line_is_the_documented_object(tmp_path: Path) -> None:
         (LINE.replace('"name": "force=5N", ', ""), "name: must be text, got nothing"),
         (LINE.replace('"5 N"', "5"), "settings: load.force must be text with its unit, got 5"),
         (LINE.replace('["load.force"]', '["load.kind"]'), "varied: 'load.kind' is none of"),
-        (LINE.replace('["load.force"]', "[[]]"), "varied: [] is none of"),
+        (LINE.replace('["load.force"]', "[[]]"), "varied: must be a list of keys, got []"),
         (LINE.replace('"grid"', '"list"'), "design: must be grid, zip, table, sample, cases"),
         (LINE.replace("a_force=5N", "../a"), "directory: must be the name of a directory in"),
         (LINE.replace("a_force=5N", "C:a"), "directory: must be the name of a directory in"),

@@ -10,9 +10,13 @@ from viscontact.cli.many.design_options import key_of, share_a_branch
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.sweep.case_digests import with_digests
+from viscontact.runs.sweep.common_cells import KEY
 from viscontact.runs.sweep.continuation import has_begun
 from viscontact.runs.sweep.equal_values import comparable
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
+
+#: Keys of a grid that is not automatic, and the key of the common cells of automatic ones.
+_OWN_GRID, _CELLS = {"grid", "grid.shape", "grid.size"}, f"grid.{KEY}"
 
 
 def changed_run(
@@ -38,8 +42,11 @@ def changed_run(
             f"{directory}: has results with other settings; replace them with --overwrite, or "
             "leave --set out"
         )
-    changed = tuple(dict.fromkeys((*run.changed, *given)))
-    return replace(run, settings={**run.settings, **given}, changed=changed)
+    # A grid of its own has no common cells.
+    dropped = {_CELLS} & run.settings.keys() if _OWN_GRID & given.keys() else set()
+    kept = {key: value for key, value in run.settings.items() if key not in dropped}
+    changed = tuple(dict.fromkeys((*run.changed, *dropped, *given)))
+    return replace(run, settings={**kept, **given}, changed=changed)
 
 
 def write_changed(manifest: Path, run: SweepRun) -> None:

@@ -92,8 +92,10 @@ def _renumbered(before: SweepRun, run: SweepRun) -> SweepRun:
 
 def _kept(before: SweepRun, run: SweepRun) -> SweepRun:
     """Run with its new settings, and those that were set for it alone."""
-    own = {key: before.settings[key] for key in before.changed if key not in run.varied}
-    return replace(run, settings={**run.settings, **own}, changed=tuple(own))
+    changed = tuple(key for key in before.changed if key not in run.varied)
+    others = {key: value for key, value in run.settings.items() if key not in changed}
+    own = {key: value for key, value in before.settings.items() if key in changed}
+    return replace(run, settings={**others, **own}, changed=changed)
 
 
 def _change(before: SweepRun, run: SweepRun) -> str:

@@ -33,7 +33,7 @@ class SweepRun:
     varied: tuple[str, ...]  # keys of the settings that differ between the runs of a case
     case: str  # path of the case file
     design: str  # one of `DESIGNS`
-    changed: tuple[str, ...] = ()  # keys of the settings that were set for this run alone
+    changed: tuple[str, ...] = ()  # keys that were set, or left out, for this run alone
     #: Digests of the case's sections and files when the manifest was written; empty if unknown.
     digests: Mapping[str, str] = field(default_factory=dict, compare=False)
 
@@ -99,7 +99,7 @@ def _read(line: str, number: int) -> SweepRun:
         _entry(found, "name", str),
         _entry(found, "directory", str),
         _texts(found, "settings"),
-        _names(found, "varied"),
+        _varied(found),
         _entry(found, "case", str),
         _entry(found, "design", str),
         _names(found, "changed") if "changed" in found else (),
@@ -131,11 +131,19 @@ def _texts(found: dict[str, Any], entry: str) -> dict[str, str]:
     return texts
 
 
+def _varied(found: dict[str, Any]) -> tuple[str, ...]:
+    names = _names(found, "varied")
+    for name in names:
+        if name not in found["settings"]:
+            raise ValueError(f"varied: {name!r} is none of the keys of the settings")
+    return names
+
+
 def _names(found: dict[str, Any], entry: str) -> tuple[str, ...]:
     names = _entry(found, entry, list)
     for name in names:
-        if not isinstance(name, str) or name not in found["settings"]:
-            raise ValueError(f"{entry}: {name!r} is none of the keys of the settings")
+        if not isinstance(name, str):
+            raise ValueError(f"{entry}: must be a list of keys, got {name!r}")
     return tuple(names)
 
 
