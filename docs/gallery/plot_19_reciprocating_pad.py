@@ -10,7 +10,7 @@ loop, whose area is lost as heat in each cycle.
 # Two periods
 # -----------
 #
-# The amplitude is about the radius of the contact. Steps are a cell of way at most, and shorter near
+# The amplitude is about the radius of the contact. Steps are a cell of way at most, shorter near
 # the turning points.
 
 import warnings
