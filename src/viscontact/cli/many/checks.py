@@ -7,7 +7,6 @@ the others. Beyond 1000 runs, only these are checked, and the others as they beg
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
@@ -15,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from viscontact.case import Case, CaseError, read_case
+from viscontact.cli.many.problems import problem_lines
 from viscontact.cli.many.request import ManyRequest, PlannedRun
 from viscontact.cli.terminal.messages import CommandError, refuse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
@@ -23,13 +23,10 @@ from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.designs import Design
 from viscontact.runs.sweep.extremes import extreme_rows
 
 #: Largest number of runs whose cases are all read.
 MOST_READ = 1000
-#: Largest number of problems that are printed, and of places that are named in one.
-_MOST_PROBLEMS, _MOST_PLACES = 50, 5
 
 
 def checked_jobs(
@@ -58,7 +55,7 @@ def checked_jobs(
                 typed = request.options.as_typed(line, keys)
                 problems.setdefault(typed, []).append(planned[number])
     if problems:
-        refuse(*_problems(problems, planned))
+        refuse(*problem_lines(problems, planned))
     found = [jobs[number] for number in range(len(runs))]
     _refuse_shared_directories(found)
     return _named(found)
@@ -137,70 +134,6 @@ def _refuse_in_use(request: RunRequest, directory: Path) -> None:
     # A worker of the command that is resumed may still save; the run waits for its end.
     if not request.resume and (message := in_use(directory)):
         refuse(message)
-
-
-def _problems(problems: dict[str, list[PlannedRun]], planned: Sequence[PlannedRun]) -> list[str]:
-    """Lines of the problems, each with its runs unless all runs of the case have it."""
-    number = Counter(each.request.case for each in planned)
-    common = set.intersection(*(set(each.request.settings) for each in planned))
-    alike: dict[str, dict[str, list[PlannedRun]]] = {}
-    for line, concerned in problems.items():
-        named = _with_heading(line, concerned[0].design)
-        alike.setdefault(_subject(named, concerned[0].design), {})[named] = concerned
-    shown = []
-    for lines in alike.values():
-        first, concerned = next(iter(lines)), [run for runs in lines.values() for run in runs]
-        cases = {each.request.case for each in concerned}
-        is_of_all = len(concerned) == sum(number[case] for case in cases)
-        shown.append(first if is_of_all else _attributed(first, concerned, common))
-    more = len(shown) - _MOST_PROBLEMS
-    return shown[:_MOST_PROBLEMS] + ([f"and {more} more problems"] if more > 0 else [])
-
-
-def _with_heading(line: str, design: Design) -> str:
-    """Problem of a value in a table, with the heading of its column."""
-    for heading in design.headings:
-        line = line.replace(f": {heading.key}: ", f": column {heading.text!r}: ", 1)
-    return line
-
-
-def _subject(line: str, design: Design) -> str:
-    """Problem without its value, where each run may have another value."""
-    if design.kind == "sample" and line.startswith("--range "):
-        return line.partition(": ")[0]
-    if design.kind == "table" and ": column " in line:
-        return re.sub(r"[+-]?\d[\d.]*(e[+-]?\d+)?", "", line)
-    return line
-
-
-def _attributed(line: str, concerned: Sequence[PlannedRun], common: set[str]) -> str:
-    """Problem with its runs: their lines in a table, their numbers, or their values."""
-    design = concerned[0].design
-    if design.lines:
-        numbers = [str(each.design.lines[each.row]) for each in concerned]
-        table, colon, rest = line.partition(": column ")
-        if not colon:
-            return f"{line} [{_listed('line', numbers)} of the table]"
-        others = f" [and in {_listed('line', numbers[1:])}]" if numbers[1:] else ""
-        return f"{table}:{numbers[0]}: column {rest}{others}"
-    if design.kind == "sample":
-        return f"{line} [{_listed('run', [str(each.row) for each in concerned])}]"
-    varied = [[t for t in each.request.settings if t not in common] for each in concerned]
-    if len(varied) == 1 and all(t.partition("=")[2].strip() in line for t in varied[0]):
-        return line
-    return f"{line} [{_listed('', ['with ' + ', '.join(texts) for texts in varied], '; ')}]"
-
-
-def _listed(noun: str, names: Sequence[str], separator: str = ", ") -> str:
-    """Some of the names, behind their noun.
-
-    >>> _listed("line", ["2", "5"])
-    'lines 2, 5'
-    """
-    more = len(names) - _MOST_PLACES
-    shown = separator.join(dict.fromkeys(names[:_MOST_PLACES]))
-    plural = f"{noun}{'s' if len(names) > 1 else ''} " if noun else ""
-    return f"{plural}{shown}{f' and {more} more' if more > 0 else ''}"
 
 
 def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
