@@ -12,6 +12,7 @@ from tests.case.test_case_loads import problem, read
 import viscontact as vc
 from viscontact.case import Case, case_schema
 from viscontact.cli.entry import main
+from viscontact.report.inputs import inputs
 from viscontact.results.summary import summary_scalars
 from viscontact.simulation.setup import prepare_run
 
@@ -125,3 +126,5 @@ def test_run_of_a_moving_contact_is_shown_without_rounding(
     shown = summary_scalars(ds)
     assert {"resistance_y", "friction_coefficient", "heat"} <= set(shown)
     assert "resistance_x" not in shown
+    of_motion = [(each.name, each.value) for each in inputs(ds) if each.part == "Motion"]
+    assert ("y", "0 m, 1 mm") in of_motion

@@ -19,6 +19,7 @@ _PARTS = {
     "material": "Material of the half-space",
     "indenter_material": "Material of the indenter",
     "load": "Load",
+    "motion": "Motion",
     "grid": "Grid",
 }
 

@@ -15,13 +15,14 @@ import numpy as np
 
 from viscontact.laws import Law
 from viscontact.loads import LoadHistory
+from viscontact.loads.motion import Motion
 from viscontact.results.descriptions import STORED_CLASSES
 from viscontact.units.formatting import format_quantity
 
 _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
 #: Classes whose part of the table says what they are.
 _PLAIN = {"Material", "Grid", "AutomaticGrid", "CombinedIndenter", "PlacedIndenter"}
-_PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, LoadHistory)}
+_PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, LoadHistory | Motion)}
 #: Arguments that are left out if this is their value.
 _DEFAULTS: dict[str, tuple[object, ...]] = {
     **dict.fromkeys(["eccentricity_x", "eccentricity_y", "fluidity", "phase"], (0,)),
