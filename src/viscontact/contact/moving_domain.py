@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -21,6 +22,7 @@ from viscontact.halfspace.moving_load import (
 )
 from viscontact.halfspace.periodic_influence import periodic_influence_coefficient
 from viscontact.halfspace.preconditioner import MovingPreconditioner
+from viscontact.halfspace.spectral import MovingPeriodicConvolution
 
 #: Fewest cells of a coarser grid along an axis.
 COARSEST = 32
@@ -31,7 +33,8 @@ class MovingDomain(ContactDomain):
 
     The unit displacement is that of the moving contact over a reference compliance
     (`compliance`): that of a wave as long as the grid, so that it has the size of an elastic one.
-    Only evenness across the motion halves the problem. The grid may be periodic across the motion.
+    Only evenness across the motion halves the problem. The grid may be periodic across the motion,
+    or along both axes, under a body that is periodic itself.
 
     `axis` is that of the motion, which is towards its positive end; `mirrored` means even across
     it. `added` is an elastic compliance added to the operator [1/Pa], for the proximal point
@@ -75,12 +78,16 @@ class MovingDomain(ContactDomain):
     @cached_property
     def elastic(self) -> Operator:
         """Displacement per unit elastic compliance [Pa m] of pressure [Pa] on all cells."""
+        if all(self.grid.periodic):
+            return self._filtered(np.ones_like, self.shape)
         return self._convolved(self._elastic_table, self.shape)
 
     @cached_property
     def loss(self) -> Operator:
         """Slope of the delayed displacement, Σ (Ji/li) (K p - Ei K p) [-], of pressure [Pa]."""
         moving = self.moving_compliance
+        if all(self.grid.periodic):
+            return self._filtered(moving.loss_at_wave_number, self.shape)
         rates = replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
         grid = self.grid
         delayed = moving_influence_table(
@@ -109,6 +116,8 @@ class MovingDomain(ContactDomain):
         )
 
     def _influence_table(self) -> NDArray[np.float64]:
+        if all(self.grid.periodic):
+            return np.empty((0, 0))
         if self._moving_table is None:
             relative = self.moving_compliance.scaled(1 / self.compliance)
             self._moving_table = moving_influence_table(
@@ -121,13 +130,33 @@ class MovingDomain(ContactDomain):
         return self._moving_table + self._added / self.compliance * self._elastic_table
 
     def _preconditioner(self, shape: tuple[int, int]) -> MovingPreconditioner:
-        moving = self.moving_compliance
-        total = replace(moving, instant=moving.instant + self._added).scaled(1 / self.compliance)
+        total = self._relative
         options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
         return MovingPreconditioner(shape, self.grid.cell_size, total, self.axis, **options)
 
+    @property
+    def _relative(self) -> MovingCompliance:
+        """Compliance of the operator over the reference one, with what is added [-]."""
+        moving = self.moving_compliance
+        return replace(moving, instant=moving.instant + self._added).scaled(1 / self.compliance)
+
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
+        if all(self.grid.periodic):
+            return self._filtered(self._relative.at_wave_number, shape, single=single)
         return self._convolved(self._coefficients, shape, single=single)
+
+    def _filtered(
+        self,
+        factor: Callable[[NDArray[np.float64]], NDArray[np.complex128]],
+        shape: tuple[int, int],
+        *,
+        single: bool = False,
+    ) -> MovingPeriodicConvolution:
+        """Operator on a period by the factors of its waves along the motion."""
+        size, transforms = self.grid.cell_size, self._transforms
+        return MovingPeriodicConvolution(
+            shape, size, factor, self.axis, single=single, transforms=transforms
+        )
 
     def _convolved(
         self, table: NDArray[np.float64], shape: tuple[int, int], *, single: bool = False

@@ -104,6 +104,14 @@ class MovingCompliance:
             total += amplitude / (1 - 1j * wave_number * length)
         return total
 
+    def loss_at_wave_number(self, wave_number: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Factor of a wave in Σ (Ji/li) (q - Ei q), the slope of the delayed part [1/(Pa m)]."""
+        total = np.zeros(np.shape(wave_number), complex)
+        for amplitude, length in zip(self.amplitudes, self.lengths, strict=True):
+            delay = 1j * wave_number * length
+            total -= amplitude / length * delay / (1 - delay)
+        return total
+
 
 def moving_influence_table(
     shape: tuple[int, int],

@@ -52,9 +52,5 @@ class MovingPreconditioner(Preconditioner):
         transforms: Transforms | None = None,
     ) -> None:
         super().__init__(shape, cell_size, mirrored=mirrored, transforms=transforms)
-        factor = 1 / compliance.at_wave_number(self._spectra.wave_numbers[axis])
-        # The shortest wave of an even number of cells is its own mirror image.
-        if shape[axis] % 2 == 0:
-            factor[shape[axis] // 2] = factor[shape[axis] // 2].real
-        along = factor[:, None] if axis == 0 else factor[None, :]
+        along = self._spectra.factor_along(axis, lambda wave: 1 / compliance.at_wave_number(wave))
         self._symbol = (self._spectra.half_wave_numbers * along).astype(np.complex64)

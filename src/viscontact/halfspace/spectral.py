@@ -10,6 +10,7 @@ Tribol. 119 (1997) 481.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -53,7 +54,7 @@ class PeriodicConvolution:
         self._spectra = Spectra(shape, cell_size, (False, False), number, transforms)
         half = self._spectra.half_wave_numbers
         half[0, 0] = np.inf  # q = 0: the mean pressure leaves the mean plane where it is
-        self._symbol = (1 / half).astype(number)
+        self._symbol: NDArray[Any] = (1 / half).astype(number)
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
@@ -63,6 +64,28 @@ class PeriodicConvolution:
         The pressure [Pa] is positive in compression; the result is written to `into` if given.
         """
         return self._spectra.filtered(pressure, self._symbol, into)
+
+
+class MovingPeriodicConvolution(PeriodicConvolution):
+    """Surface displacement under a periodic load in steady motion, relative to the mean plane.
+
+    The symbol 2/|q| is multiplied by a complex `factor` for each wave number along the axis of the
+    motion, such as the complex compliance [1/Pa].
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        cell_size: tuple[float, float],
+        factor: Callable[[NDArray[np.float64]], NDArray[np.complex128]],
+        axis: int,
+        *,
+        single: bool = False,
+        transforms: Transforms | None = None,
+    ) -> None:
+        super().__init__(shape, cell_size, single=single, transforms=transforms)
+        along = self._spectra.factor_along(axis, factor)
+        self._symbol = (self._symbol * along).astype(np.complex64 if single else np.complex128)
 
 
 class Spectra:
@@ -101,6 +124,17 @@ class Spectra:
         spectrum = self._forth(self._block)
         spectrum *= symbol
         return np.asarray(np.multiply(self._back(spectrum), size, out=into, dtype=np.float64))
+
+    def factor_along(
+        self, axis: int, factor: Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+    ) -> NDArray[np.complex128]:
+        """Factor of each entry of a spectrum by its wave number along an axis [1/m]."""
+        values = np.asarray(factor(self.wave_numbers[axis]), dtype=np.complex128)
+        # The shortest wave of an even number of cells is its own mirror image.
+        cells = self._block.shape[axis]
+        if cells % 2 == 0:
+            values[cells // 2] = values[cells // 2].real
+        return values[:, None] if axis == 0 else values[None, :]
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
         for axis in self._even:

@@ -113,8 +113,9 @@ class SteadyCurve:
 
     def _measured(self, contact: SteadyContact) -> Measured:
         rim = rim_of(self.problem, contact)
-        against = resistance_of(self.problem, contact, rim)
-        datum = contact.grid.has_datum and not self.run.solver.law.fluidity
+        against = resistance_of(self.problem, contact)
+        flows = self.run.solver.law.fluidity > 0 and not all(contact.grid.periodic)
+        datum = contact.grid.has_datum and not flows
         state = state_of(self.problem, contact, rim, against, datum=datum)
         return Measured(state, rim, against)
 
@@ -158,7 +159,7 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
         found["datum"] = (
             f"the grid is periodic across the motion, and {NO_DATUM}: approach is not defined (NaN)"
         )
-    if run.solver.law.fluidity:
+    if run.solver.law.fluidity and not all(run.grids[0].periodic):
         found["fluid"] = (
             "the material flows, so that the approach grows without limit with the way that the "
             "body has come: approach is not defined (NaN)"

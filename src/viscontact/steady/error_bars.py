@@ -83,7 +83,7 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     """Errors by the rim's place in its cells and by the solver, however well two grids agree."""
     state, rim = fine.state, fine.rim
     cell, extents = rim.grid.cell_size, (rim.length, rim.width)
-    free = [axis for axis in (0, 1) if not rim.grid.periodic[axis]]
+    free = [axis for axis in (0, 1) if not rim.grid.periodic[axis]] or [0, 1]
     square = max(min(extents[axis] / cell[axis] for axis in free), 1.0) ** 2
     solver = SOLVER_ERROR_FACTOR * problem.contact.tolerance
     least = {

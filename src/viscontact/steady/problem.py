@@ -40,6 +40,9 @@ class SteadyProblem:
     @property
     def tilts_freely(self) -> bool:
         """True if the slope along the motion is free of moment."""
+        given = self.contact.grid
+        if isinstance(given, Grid) and given.periodic[self.axis]:
+            return False
         return (self.point.tilt_x, self.point.tilt_y)[self.axis] is None
 
 
@@ -57,11 +60,17 @@ def steady_problem(
         raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
     axis = "xy".index(along)
     speeds = _speeds("speed", speed)
-    if isinstance(contact.grid, Grid) and contact.grid.periodic[axis]:
+    periodic = contact.grid.periodic if isinstance(contact.grid, Grid) else (False, False)
+    if periodic[axis] and not periodic[1 - axis]:
         raise ValueError(
             f"grid.periodic: the body moves along {along}, and a grid that is periodic along it "
-            "would hold other bodies ahead of it and behind it; use a grid that is periodic across "
-            "the motion, or not at all"
+            "only would hold other bodies ahead of it and behind it; use a grid that is periodic "
+            "across the motion, along both axes under a body that repeats, or not at all"
+        )
+    if periodic[axis] and rolling:
+        raise ValueError(
+            "rolling: a body on a grid that is periodic along its motion has no end, and cannot "
+            "roll; give rolling=False"
         )
     _check_bodies(contact, axis, rolling)
     kept = _kept(fields, speeds)

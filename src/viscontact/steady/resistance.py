@@ -70,7 +70,7 @@ def resistance(
 ) -> Resistance:
     """Resistance along the motion, of a pressure on the domain's cells [Pa].
 
-    `tilt` is the body's slope along the motion, `half_length` half the length of the contact [m].
+    `tilt` is the body's slope along the motion, `half_length` half the length of its spots [m].
     """
     whole = domain.expand_by_symmetry(pressure)
     by_slope = slope_force(indenter, domain.grid, whole, domain.axis, tilt)

@@ -67,7 +67,8 @@ def steady(
     grid : Grid or AutomaticGrid, optional
         Cells that carry the pressure, in coordinates relative to the body's axis, or requirements
         on cells that the run chooses; chosen by the run as well when left out, for each speed. A
-        grid that is periodic across the motion holds a line contact, whose approach has no datum.
+        grid that is periodic across the motion holds a line contact, whose approach has no datum;
+        one that is periodic along both axes holds a body that repeats.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
     tolerance : float, optional

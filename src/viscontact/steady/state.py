@@ -6,7 +6,7 @@ import math
 
 from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.line_load import line_load, peak_line_load
-from viscontact.contact.rim import Rim, trace_rim
+from viscontact.contact.rim import Rim, mean_chords, trace_rim
 from viscontact.state import ContactState, Outcome
 from viscontact.steady.contact import SteadyContact
 from viscontact.steady.problem import SteadyProblem
@@ -19,15 +19,16 @@ def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
     return trace_rim(contact.grid, contact.pressure > 0, contact.gap, outline)
 
 
-def resistance_of(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> Resistance:
+def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
     """Resistance along the motion."""
-    axis = problem.axis
+    axis, grid = problem.axis, contact.grid
+    chord = mean_chords(contact.pressure > 0, periodic=grid.periodic)[axis] * grid.cell_size[axis]
     return resistance(
         problem.contact.indenter,
         contact.domain,
         contact.solution.values[0],
         float(contact.solution.motion[1 + axis]),
-        (rim.length, rim.width)[axis] / 2,
+        float(chord) / 2,
     )
 
 
