@@ -126,21 +126,46 @@ def test_error_bars_hold():
     exact = hertz_line(LINE_LOAD, RADIUS, MODULUS)
     missed = total = 0
     for _ in range(40):
-        cells, along = random.uniform(6.0, 40.0), int(random.choice([1, 4, 6]))
-        grid = strip(cells, (along, int(random.integers(0, 2))))
-        grid = vc.Grid(
-            grid.shape,
-            grid.size,
-            periodic=(True, False),
-            centre=(0.0, random.uniform(-0.5, 0.5) * grid.cell_size[1]),
-        )
+        grid = random_strip(random)
         ds = vc.simulate(CYLINDER, ELASTIC, vc.step(LINE_LOAD * PERIOD), grid, [0.0])
         for name, truth in (
             ("contact_area", 2 * exact.half_width * PERIOD),
             ("contact_width", 2 * exact.half_width),
             ("peak_pressure", exact.peak_pressure),
+            ("peak_line_load", LINE_LOAD),
         ):
             missed += abs(float(ds[name][0]) - truth) > float(ds[f"{name}_error"][0])
             total += 1
         assert np.isnan(ds.approach_error.values).all()
     assert missed <= 0.05 * total
+
+
+@pytest.mark.slow
+def test_error_bars_of_creeping_cylinders_hold():
+    """Lee & Radok 1960: b² = 4 R q J(t)/π, or with ∫ J dq under a force that grows."""
+    random, times = np.random.default_rng(11), np.linspace(0.0, 20.0, 21)
+    compliance = np.asarray(CREEPING.contact_compliance()(np.linspace(0.0, 20.0, 2001)))
+    means = np.cumsum((compliance[1:] + compliance[:-1]) / 2) / 2000 * 20.0
+    missed = total = 0
+    for load, effective in (
+        (vc.step(LINE_LOAD * PERIOD), compliance[::100]),
+        (vc.ramp(LINE_LOAD * PERIOD, 20.0), np.append(0.0, means)[::100] / 20.0),
+    ):
+        truth = 2 * np.sqrt(4 * RADIUS * LINE_LOAD * effective / math.pi)
+        for _ in range(6):
+            grid = random_strip(random)
+            ds = vc.simulate(CYLINDER, CREEPING, load, grid, times, fields="none")
+            late = times >= 5.0
+            for name, scale in (("contact_width", 1.0), ("contact_area", PERIOD)):
+                wrong = abs(ds[name].values - truth * scale) > ds[f"{name}_error"].values
+                missed, total = missed + int(wrong[late].sum()), total + int(late.sum())
+    assert missed <= 0.05 * total
+
+
+def random_strip(random):
+    """Cells of any size and place over the strip, one or several along it."""
+    grid = strip(
+        random.uniform(6.0, 40.0), (int(random.choice([1, 4, 6])), int(random.integers(0, 2)))
+    )
+    aside = random.uniform(-0.5, 0.5) * grid.cell_size[1]
+    return vc.Grid(grid.shape, grid.size, periodic=(True, False), centre=(0.0, aside))

@@ -40,6 +40,9 @@ AGREEMENT_TOLERANCE = 1e-6
 #: by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
 TIP_CELLS, TIP_AREA = 0.1, 0.3
 
+#: Least error of the crests of a rim that waves along a period, in its height over half a cell.
+CREST_PART = 2.0
+
 #: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, or is
 #: that much smaller than it has been, the surface that it left is still almost closed and its rim
 #: is found too far outside. Least error of the rim over the way that it has moved, and its smallest
@@ -139,6 +142,7 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     length = run.grid.cell_size[axis]
     few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
     smooth = RIM_CELLS * few + TIP_CELLS * _tip_curvature(run, history)[axis]
+    smooth = np.asarray(smooth + _crest_cells(run, history, axis))
     smooth_or_late = np.maximum(smooth, 2 * _late_cells(run, history))
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
     if min(straight_ends(run)) < np.inf:
@@ -161,6 +165,21 @@ def _tip_curvature(run: RunSetup, history: History) -> Array:
     breadth = np.where(touching, history["contact_area"] / (np.pi * longest / 2), 1.0)
     cells = np.array(run.grid.cell_size)[:, None] * longest / 2 / breadth**2
     return np.asarray(np.where(touching, np.log1p(2 * cells) * (extents / longest) ** 2, 0.0))
+
+
+def _crest_cells(run: RunSetup, history: History, axis: int) -> Array:
+    """Least error of the crests of a rim that waves along the only period of a grid, in cells.
+
+    A crest may lie half a cell beside the lines of cells. The rim counts as one cosine.
+    """
+    grid, along = run.grid, 1 - axis
+    if grid.has_datum or grid.periodic[axis]:
+        return np.zeros(len(history["time"]))
+    extents = [np.nan_to_num(history[name]) for name in EXTENTS]
+    length = np.maximum(extents[along], grid.cell_size[along])
+    wave = np.maximum(extents[axis] - history["contact_area"] / length, 0.0)
+    heights = wave * (1 - np.cos(np.pi * grid.cell_size[along] / length))
+    return np.asarray(CREST_PART * heights / grid.cell_size[axis])
 
 
 def _late_cells(run: RunSetup, history: History) -> Array:
