@@ -51,6 +51,7 @@ def test_slow_and_fast_contacts_are_those_of_hertz_with_the_exact_friction():
             assert here[name] == pytest.approx(value, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_error_bars_hold_the_values_of_a_finer_grid():
     speeds = [0.05, 0.5, 5.0]
     coarse = steady(speeds, errors=True)
@@ -85,6 +86,7 @@ def test_motion_along_y_is_motion_along_x_of_the_turned_body():
     assert abs(float(y.resistance_x[0])) < 1e-12
 
 
+@pytest.mark.slow
 def test_a_prescribed_approach_gives_back_the_force():
     ds = steady(0.1, tolerance=1e-9)
     back = steady(0.1, load=vc.step(approach=float(ds.approach[0]), tilt_x=0.0, tilt_y=0.0))
