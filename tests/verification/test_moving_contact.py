@@ -221,6 +221,16 @@ def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
         assert float(bar[-1] / ds[name][-1]) < 0.6, name
 
 
+def test_nothing_is_uncertain_before_the_first_contact() -> None:
+    load = vc.ForceHistory([0, 1, 4, 5], [0, 10, 10, 0], tilt_x=0.0, tilt_y=0.0)
+    ds = travelled(way=0.64, load=load, errors=True)
+    for name in ("resistance_y", "motion_work", "dissipation", "heat"):
+        assert float(ds[f"{name}_error"][0]) == 0.0
+    apart = (ds.force == 0).values
+    assert (ds.resistance_y_error.values[apart] == 0).all()
+    assert (ds.heat_error.values[apart][1:] > 0).all()
+
+
 def test_coarser_runs_move_by_whole_cells_that_lie_alike() -> None:
     grid = vc.Grid((60, 80), (3.0, 4.0), centre=(0.0, 0.36))
     path = vc.Travel([0.0, 4.0, 8.0], y=[0.0, 0.6, 0.0])

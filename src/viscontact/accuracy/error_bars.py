@@ -54,6 +54,9 @@ ZERO_WITHOUT_CONTACT = (
     *("peak_pressure", "mean_pressure", "peak_line_load"),
 )
 
+#: Of a moving contact those that are zero without contact, and those that are before the first one.
+RESISTANCES, LOSSES = ("resistance_x", "resistance_y"), ("motion_work", "dissipation", "heat")
+
 
 @dataclass(frozen=True, eq=False)
 class ErrorBars:
@@ -130,8 +133,10 @@ def error_bars_from(
     touching = _touching(history, found)
     _bound_by_first_contact(values, history, touching)
     apart = _certainly_separated(run, history, touching)
-    for name in ZERO_WITHOUT_CONTACT:
+    for name in (*ZERO_WITHOUT_CONTACT, *(RESISTANCES if run.problem.motion else ())):
         values[name][apart] = 0.0
+    for name in LOSSES if run.problem.motion else ():
+        values[name][apart & ~np.logical_or.accumulate(touching)] = 0.0
     warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
     return ErrorBars(values, warnings)
 
