@@ -18,7 +18,7 @@ from viscontact.runs.recipes import Recipe, known_memory
 from viscontact.runs.sweep.case_digests import with_digests
 from viscontact.runs.sweep.continuation import OtherSweepError, continued, recorded_runs
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
-from viscontact.runs.sweep.varied_runs import VariedRun, sweep_run, with_recorded_cells
+from viscontact.runs.sweep.varied_runs import VariedRun, case_name, sweep_run
 
 #: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.
 Progress = Callable[[int, int, int], None]
@@ -67,14 +67,17 @@ def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
     if not recipes:
         raise ValueError("runs: there are none to record")
     earlier = recorded_runs(directory)
-    runs = [_sweep_run(n, recipe, directory, earlier) for n, recipe in enumerate(recipes)]
+    place = directory.resolve()
+    cases = {each.case for each in recipes if isinstance(each, VariedRun)}
+    names = {case: case_name(case, place) for case in cases}
+    runs = [_sweep_run(n, recipe, names, earlier) for n, recipe in enumerate(recipes)]
     try:
         found = continued(directory, runs, earlier)
     except OtherSweepError as error:
         raise ValueError(f"{directory}: holds other runs: {error}; choose another one") from None
-    place, count = Counter(each.directory for each in found).most_common(1)[0]
+    name, count = Counter(each.directory for each in found).most_common(1)[0]
     if count > 1:
-        raise ValueError(f"runs: {count} of them would go to {directory / place}; give each once")
+        raise ValueError(f"runs: {count} of them would go to {directory / name}; give each once")
     pinned = with_digests(directory, found)
     if found != earlier:
         write_manifest(directory, pinned)
@@ -82,11 +85,11 @@ def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
 
 
 def _sweep_run(
-    number: int, recipe: Recipe, directory: Path, earlier: Sequence[SweepRun]
+    number: int, recipe: Recipe, names: Mapping[Path, str], earlier: Sequence[SweepRun]
 ) -> SweepRun:
     """Line of the manifest of a run."""
     if isinstance(recipe, VariedRun):
-        return sweep_run(number, with_recorded_cells(recipe, earlier, directory), directory)
+        return sweep_run(number, recipe, names[recipe.case], earlier)
     if isinstance(recipe, Mapping):
         return SweepRun(number, f"run{number}", f"run{number}", {}, (), "", "cases")
     raise ValueError(

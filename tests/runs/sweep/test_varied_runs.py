@@ -13,7 +13,7 @@ import viscontact as vc
 from viscontact.case import CaseError
 from viscontact.cli import main
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
-from viscontact.runs.sweep.varied_runs import VariedRun, sweep_run
+from viscontact.runs.sweep.varied_runs import VariedRun, case_name, sweep_run
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}
@@ -34,7 +34,8 @@ def case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def lines(runs: list[VariedRun]) -> list[SweepRun]:
-    return [sweep_run(number, run, Path("out")) for number, run in enumerate(runs)]
+    place = Path("out").resolve()
+    return [sweep_run(n, run, case_name(run.case, place)) for n, run in enumerate(runs)]
 
 
 def test_runs_are_those_of_the_command_line(case: Path) -> None:

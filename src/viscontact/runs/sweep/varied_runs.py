@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from inspect import signature
 from os import PathLike
 from pathlib import Path
@@ -156,22 +156,14 @@ def vary(
     ]
 
 
-def sweep_run(number: int, run: VariedRun, directory: Path) -> SweepRun:
-    """Line of the manifest of a run in the directory of a sweep."""
-    case = case_name(run.case, directory.resolve())
-    given = (dict(run.settings), run.varied, case, run.design)
-    return SweepRun(number, run.name, run.directory, *given)
-
-
-def with_recorded_cells(run: VariedRun, earlier: Sequence[SweepRun], directory: Path) -> VariedRun:
-    """Return a run with the common cells of the runs of its case in a manifest."""
-    if not run.has_common_cells:
-        return run
-    cells = recorded_cells(earlier, case_name(run.case, directory.resolve()))
-    if cells is None:
-        return run
-    own = {key: value for key, value in run.settings.items() if key != f"grid.{KEY}"}
-    return replace(run, settings={**dict(text.split("=", 1) for text in cells), **own})
+def sweep_run(number: int, run: VariedRun, case: str, earlier: Sequence[SweepRun] = ()) -> SweepRun:
+    """Line of the manifest of a run, whose case has a name there; common cells are kept."""
+    settings = dict(run.settings)
+    cells = recorded_cells(earlier, case) if run.has_common_cells else None
+    if cells is not None:
+        settings.pop(f"grid.{KEY}", None)
+        settings |= dict(text.split("=", 1) for text in cells)
+    return SweepRun(number, run.name, run.directory, settings, run.varied, case, run.design)
 
 
 def case_name(case: Path, place: Path) -> str:
