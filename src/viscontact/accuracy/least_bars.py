@@ -177,7 +177,8 @@ def _crest_cells(run: RunSetup, history: History, axis: int) -> Array:
         return np.zeros(len(history["time"]))
     extents = [np.nan_to_num(history[name]) for name in EXTENTS]
     length = np.maximum(extents[along], grid.cell_size[along])
-    wave = np.maximum(extents[axis] - history["contact_area"] / length, 0.0)
+    wave = extents[axis] - history["contact_area"] / length
+    wave = np.where(wave > ROUNDING * extents[axis], wave, 0.0)
     heights = wave * (1 - np.cos(np.pi * grid.cell_size[along] / length))
     return np.asarray(CREST_PART * heights / grid.cell_size[axis])
 
