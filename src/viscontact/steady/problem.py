@@ -79,10 +79,14 @@ def steady_problem(
 
 def constant_load(load: LoadHistory) -> LoadPoint:
     """The load of a history that does not change after time 0."""
-    sides = [load.at(float(time), side=side) for time in load.kinks for side in ("left", "right")]
     held = load.at(0.0)
-    begins_at_once = [point for point in sides if point.level] or [held]
-    if np.isfinite(load.longest_step) or any(point != held for point in begins_at_once):
+    later = [
+        load.at(float(time), side=side)
+        for time in load.kinks
+        for side in ("left", "right")
+        if time > 0 or side == "right"  # before time 0 there is no load
+    ]
+    if np.isfinite(load.longest_step) or any(point != held for point in later):
         raise ValueError(
             "load: a steady motion has a constant load, and this one changes in time; use "
             "step(force=...) or step(approach=...)"
