@@ -70,3 +70,19 @@ def test_a_prescribed_approach_of_a_line_contact_is_refused():
     load = vc.step(approach=0.01, tilt_y=0.0)
     with pytest.raises(ValueError, match="datum"):
         vc.steady(CYLINDER, rubber(), load, 0.1, grid=line(hunter(0.1)))
+
+
+def test_a_line_contact_on_a_fluid_has_no_steady_state_and_is_refused():
+    """Hunter's friction on a delay that tends to flow grows as the logarithm of its time."""
+    friction = [
+        moving_cylinder(FORCE, RADIUS, 1 / 2000, time / 20000, time, 1.0).friction_coefficient
+        for time in (1e4, 1e7, 1e10)
+    ]
+    assert friction[2] - friction[1] == pytest.approx(friction[1] - friction[0], rel=1e-4)
+    assert friction[1] - friction[0] > 0.5 * friction[0]
+    fluid = vc.Material(vc.Maxwell(500.0, 5000.0), poisson_ratio=0.5)
+    # A law that is no series is found to be a fluid as well.
+    power = vc.Material(vc.PowerLaw(1e-3, 1.0, 1.0, instant=1e-3), poisson_ratio=0.5)
+    for material in (fluid, power):
+        with pytest.raises(ValueError, match="material: the material flows"):
+            vc.steady(CYLINDER, material, LEVEL, 1.0, grid=line(hunter(1.0)))

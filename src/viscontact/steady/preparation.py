@@ -14,7 +14,7 @@ from viscontact.grid import Grid
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.steady.contact import SteadySolver, gap_on
-from viscontact.steady.moving_law import moving_law
+from viscontact.steady.moving_law import MovingLaw, moving_law
 from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.region import SEARCH_CELLS, Lattice, Region, find_region, lattice_for
 from viscontact.units.formatting import format_quantity
@@ -51,8 +51,11 @@ def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
     _refuse_apart(problem)
     if isinstance(given, Grid):
         extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
-        solver = SteadySolver(problem, moving_law(problem, extents), transforms)
-        return PreparedRun(solver, (given,) * len(problem.speeds), 0.0)
+        law = moving_law(problem, extents)
+        _refuse_flow(law, given)
+        return PreparedRun(
+            SteadySolver(problem, law, transforms), (given,) * len(problem.speeds), 0.0
+        )
     speeds = problem.speeds
     fast, slow = (_estimate(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
     law = moving_law(problem, (fast.extents[axis], slow.extents[axis]))
@@ -104,6 +107,17 @@ def _centred(problem: SteadyProblem, reach: NDArray[np.float64]) -> tuple[bool, 
     both = (load.is_even(0), load.is_even(1))
     even = mirrored_axes(around, gap_on(problem, around), both)[across]
     return across == 0 and even, across == 1 and even
+
+
+def _refuse_flow(law: MovingLaw, grid: Grid) -> None:
+    """Refuse a fluid under a line contact, which drags ever more of it along (Stokes' paradox)."""
+    if law.fluidity and not grid.has_datum:
+        raise ValueError(
+            "material: the material flows, and on a grid that is periodic across the motion the "
+            "resistance of a fluid grows without limit with the way that the body has come, so "
+            "that there is no steady state; use a solid, such as a Zener law, or a grid that is "
+            "not periodic"
+        )
 
 
 def _refuse_apart(problem: SteadyProblem) -> None:
