@@ -7,6 +7,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.checks.collector import WarningCollector
+from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import passivity_warnings
 from viscontact.checks.mesh import WARNING_CELLS, cells_across_spots, mesh_warnings
 from viscontact.checks.steps import relative_change
@@ -195,3 +196,14 @@ def test_a_table_of_a_material_causes_no_warning(rows):
         zener,
     ):
         assert passivity_warnings(law, 100.0) == {}
+
+
+def test_the_end_of_a_body_is_followed_across_the_border_along_the_period_only():
+    for periodic, sides in (((False, False), 1), ((True, False), 1), ((False, True), 2)):
+        grid = vc.Grid((4, 8), (4.0, 8.0), periodic=periodic)
+        open_gap = np.zeros(grid.shape)
+        open_gap[:, 0] = np.inf
+        beside = Geometry(vc.FlatPunch(2.0), open_gap, grid).end_cells
+        assert beside[:, 1].all()
+        assert beside.sum() == 4 * sides
+        assert beside[:, -1].all() == (sides == 2)

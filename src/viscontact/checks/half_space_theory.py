@@ -85,7 +85,10 @@ class Geometry:
     @cached_property
     def end_cells(self) -> NDArray[np.bool_]:
         """Cells next to the end of the body."""
-        around = np.pad(self.open_gap, 1, mode="wrap" if self.grid.periodic else "edge")
+        around = self.open_gap
+        for axis, repeats in enumerate(self.grid.periodic):
+            width = [(int(axis == 0),) * 2, (int(axis == 1),) * 2]
+            around = np.pad(around, width, mode="wrap" if repeats else "edge")
         beside = np.logical_or.reduce(end_cells(around, 1), axis=0)
         return np.asarray(beside[1:-1, 1:-1])
 
