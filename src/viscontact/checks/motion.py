@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
-from viscontact.materials.compliance import SeriesCompliance
+from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -17,6 +19,10 @@ LONGEST_WAY = 1 / 8
 
 #: Part of the loss that retardation times shorter than a step may cause.
 UNRESOLVED_LOSS = 0.1
+
+#: Longest contact of a roller over its circumference, and part of the deflection in it that may be
+#: left after a turn.
+CONTACT_OF_TURN, LEFT_AFTER_TURN = 0.1, 0.01
 
 
 def check_motion(problem: Problem) -> None:
@@ -31,9 +37,8 @@ def _check_mate(problem: Problem, motion: Motion) -> None:
     mate = problem.indenter_material
     if mate is None:
         return
-    compliance = mate.contact_compliance()
-    if compliance.settled_after == 0 and isinstance(compliance, SeriesCompliance):
-        return  # elastic
+    if _is_elastic(mate.contact_compliance()):
+        return
     if motion.rolling is None:
         raise ValueError(
             "motion.rolling: the indenter's material creeps, so that it matters whether it flows "
@@ -46,6 +51,65 @@ def _check_mate(problem: Problem, motion: Motion) -> None:
             "not available for a material that creeps; make its material elastic, or give "
             "rolling=True if it rolls"
         )
+    if not _circumference(problem, motion) < math.inf:
+        raise ValueError(
+            "motion.rolling: the indenter has no radius of curvature along the motion, so it "
+            "cannot roll; use a round body, or make its material elastic and give rolling=False"
+        )
+
+
+def _is_elastic(compliance: ContactCompliance) -> bool:
+    return isinstance(compliance, SeriesCompliance) and compliance.settled_after == 0
+
+
+def _way(motion: Motion) -> float:
+    """Distance between the farthest places of a straight path [m]."""
+    along_x, along_y = (high - low for low, high in motion.reach)
+    return math.hypot(along_x, along_y)
+
+
+def _circumference(problem: Problem, motion: Motion) -> float:
+    """Circumference of the indenter in the plane of its motion; inf without curvature [m]."""
+    ways = [high - low for low, high in motion.reach]
+    curvature = sum(
+        curved * (way / _way(motion)) ** 2
+        for curved, way in zip(problem.indenter.curvatures, ways, strict=True)
+    )
+    return 2 * math.pi / curvature if curvature > 0 else math.inf
+
+
+def turn_warnings(problem: Problem) -> dict[str, str]:
+    """Warn of a roller whose material returns to the contact before it has recovered."""
+    motion, mate = problem.motion, problem.indenter_material
+    if motion is None or mate is None or _is_elastic(mate.contact_compliance()):
+        return {}
+    turn = _circumference(problem, motion)
+    left = left_after(mate.contact_compliance(), turn / motion.top_speed)
+    if _way(motion) <= turn or left <= LEFT_AFTER_TURN:
+        return {}
+    return {
+        "turn": (
+            f"motion: the body rolls over {format_quantity(_way(motion), 'm', 3)}, more than its "
+            f"circumference of {format_quantity(turn, 'm', 3)}, and its material returns to the "
+            f"contact with up to {left:.0%} of its deflection left; earlier turns are not "
+            "included, and resistance, approach and pressure are those of a body whose material "
+            "is new in each turn: use a shorter path, or the steady state, which includes them"
+        )
+    }
+
+
+def left_after(compliance: ContactCompliance, turn: float) -> float:
+    """Part of the deflection in the contact that is left after a turn [s]: at most, about.
+
+    It is that after a load during a tenth of the turn, as in a contact as long as a tenth of the
+    circumference. Of a fluid all of the flow is left:
+
+    >>> round(left_after(SeriesCompliance(0.0, [], [], fluidity=2.0), 5.0), 12)
+    1.0
+    """
+    passed = CONTACT_OF_TURN * turn
+    loaded, before, after = compliance(np.array([passed, turn, turn + passed])).tolist()
+    return float((after - before) / loaded) if loaded > 0 else 0.0
 
 
 def check_path(problem: Problem, grid: Grid) -> None:
@@ -65,12 +129,14 @@ def check_path(problem: Problem, grid: Grid) -> None:
 
 def axle_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a tilt along the motion that is free of moment."""
-    if problem.motion is None or (isinstance(problem.grid, Grid) and problem.grid.periodic):
+    if problem.motion is None:
         return {}
+    # A body that repeats itself along an axis is level there.
+    level = problem.grid.periodic if isinstance(problem.grid, Grid) else (False, False)
     free = [
         f"tilt_{name}"
-        for name, moves in zip("xy", problem.motion.moves, strict=True)
-        if moves and getattr(problem.load, f"tilt_{name}") is None
+        for name, moves, repeats in zip("xy", problem.motion.moves, level, strict=True)
+        if moves and not repeats and getattr(problem.load, f"tilt_{name}") is None
     ]
     if not free:
         return {}
