@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Any, Literal
 
@@ -411,3 +412,20 @@ def test_free_tilt_along_the_motion_is_reported_for_a_line_contact_as_well() -> 
     assert "tilt_x" not in messages(body, free, strip, path)
     held = vc.step(10.0, tilt_y=0.0)
     assert "free of moment" not in messages(body, held, strip, path)
+
+
+def test_punch_that_moves_by_parts_of_cells_has_no_pressure_beyond_its_ends() -> None:
+    """A path and its mirror image are alike, on a grid whose cells the ends of the body cross."""
+    ways = []
+    for sign in (1.0, -1.0):
+        path = vc.Travel([0.0, 5.0], y=[0.0, sign * 0.5])
+        grid, times = vc.Grid((16, 24), (4.0, 6.0)), np.linspace(0.0, 5.0, 11)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", RuntimeWarning)
+            states = list(vc.march(vc.FlatPunch(1.0), ZENER, LEVEL, grid, times, motion=path))
+        for state in states:
+            offset = np.hypot(state.grid.x[:, None], state.grid.y - sign * 0.1 * state.time)
+            assert (state.pressure[offset > 1.0] == 0).all()
+            assert state.force == pytest.approx(10.0, rel=1e-6)
+        ways.append([state.approach for state in states])
+    assert ways[0] == pytest.approx(ways[1], rel=1e-5)

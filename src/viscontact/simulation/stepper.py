@@ -198,7 +198,15 @@ class Stepper:
         if self._run.problem.motion is None:
             return _guess(predict(known, step.time, posed.drive), posed.response)
         moved = predict(self._moved(known, step), step.time, posed.point.level)
-        return None if moved is None else Guess(moved.fields[0], moved.fields[1], moved.motion)
+        if moved is None:
+            return None
+        pressure, unit_displacement = moved.fields
+        # Moved by whole cells it may lie beyond the body's end.
+        beyond = np.isinf(posed.problem.open_gap)
+        if pressure[beyond].any():
+            pressure = np.where(beyond, 0.0, pressure)
+            unit_displacement = self._domain.convolution.apply(pressure)
+        return Guess(pressure, unit_displacement, moved.motion)
 
     def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
