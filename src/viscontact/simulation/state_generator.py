@@ -69,7 +69,7 @@ def march(
         Called with (state, done, total) after each instant.
     motion : Travel or Reciprocation, optional
         Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
-        out. It needs a given grid, which is fixed to the surface.
+        out. The grid is fixed to the surface; an automatic one covers the whole path.
 
     Returns
     -------
