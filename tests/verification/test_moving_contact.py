@@ -13,6 +13,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.accuracy.coarser_runs import plan_coarser_runs
 from viscontact.checks.motion import left_after
+from viscontact.contact.resistance import resistance_by_displacement
 from viscontact.grid import AutomaticGrid
 from viscontact.problem.problem import Problem
 from viscontact.runs.directory.recorded_run import RecordedRun
@@ -429,3 +430,37 @@ def test_punch_that_moves_by_parts_of_cells_has_no_pressure_beyond_its_ends() ->
             assert state.force == pytest.approx(10.0, rel=1e-6)
         ways.append([state.approach for state in states])
     assert ways[0] == pytest.approx(ways[1], rel=1e-5)
+
+
+@pytest.mark.parametrize("moving", ["transient", "steady"])
+def test_force_across_the_motion_is_unknown_at_sharp_ends_unless_the_contact_is_even(
+    moving: str,
+) -> None:
+    """Both forms of the resistance agree on a smooth body; at a sharp end neither has a limit.
+
+    By symmetry there is no force across under a level body.
+    """
+    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.5)
+    eccentric = vc.step(5.0, eccentricity_x=1e-3, tilt_y=0.0)
+    level = vc.step(5.0, tilt_x=0.0, tilt_y=0.0)
+    sharp, smooth = vc.Roller(20e-3, 5e-3), vc.Paraboloid(30e-3, 20e-3)
+    grid = vc.Grid((36, 36), (16e-3, 12e-3), centre=(0.0, 0.5e-3))
+
+    def last(body: vc.Indenter, load: Any) -> xr.Dataset:
+        if moving == "steady":
+            return vc.steady(body, rubber, load, 0.05, grid=grid, errors=False).isel(speed=0)
+        path = vc.Travel([0.0, 0.02], y=[0.0, 1e-3])
+        times = [0.0, 0.01, 0.02]
+        ds = vc.simulate(body, rubber, load, grid, times, motion=path, errors=False)
+        return ds.isel(time=-1)
+
+    with pytest.warns(vc.AccuracyWarning, match="end of the body across the motion"):
+        free = last(sharp, eccentric)
+    assert np.isnan(free.resistance_x)
+    assert free.friction_coefficient > 0
+    assert float(last(sharp, level).resistance_x) == pytest.approx(0.0, abs=1e-12)
+    rounded = last(smooth, eccentric)
+    pressure, displacement = rounded.pressure.values, rounded.displacement.values
+    other = resistance_by_displacement(pressure, displacement, grid)[0]
+    slope_part = abs(5.0 * float(rounded.tilt_x))  # cancels almost
+    assert float(rounded.resistance_x) == pytest.approx(other, abs=0.01 * slope_part)

@@ -149,11 +149,18 @@ def axle_warnings(problem: Problem) -> dict[str, str]:
     }
 
 
-def edge_warnings(at_end: bool) -> dict[str, str]:
-    """Warn of a contact that has reached an end of the body along the motion."""
-    if not at_end:
-        return {}
-    return {
+def edge_warnings(*, along: bool, across: bool) -> dict[str, str]:
+    """Warn of a contact that has reached an end of the body, along or across the motion."""
+    found = {}
+    if across:
+        found["edge across"] = (
+            "motion: the contact reaches an end of the body across the motion; the force on this "
+            "edge depends on its rounding and is not computed: the resistance across the motion is "
+            "NaN"
+        )
+    if not along:
+        return found
+    return found | {
         "edge": (
             "motion: the contact reaches an end of the body along the motion, where the pressure "
             "is singular; the force on this edge is not computed: resistance, friction "

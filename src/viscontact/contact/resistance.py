@@ -68,6 +68,20 @@ def reaches_end(pressure: NDArray[np.float64], grid: Grid, indenter: Indenter) -
     return along_x, along_y
 
 
+def is_even(pressure: NDArray[np.float64]) -> tuple[bool, bool]:
+    """Test whether a pressure is even about the middle of the grid along x, and along y.
+
+    An even contact has no force along that axis, at sharp ends either.
+
+    Examples
+    --------
+    >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]))
+    (True, False)
+    """
+    along_x, along_y = (bool((np.flip(pressure, axis) == pressure).all()) for axis in (0, 1))
+    return along_x, along_y
+
+
 def resistance_by_displacement(
     pressure: NDArray[np.float64], displacement: NDArray[np.float64], grid: Grid
 ) -> tuple[float, float]:

@@ -14,6 +14,7 @@ from viscontact.checks.motion import (
     way_warnings,
 )
 from viscontact.contact.resistance import (
+    is_even,
     reaches_end,
     resistance_by_displacement,
     resistance_by_slope,
@@ -54,7 +55,8 @@ class MovingContact:
         self._resistance = np.zeros(2)
         self.work = self._heat = 0.0
         self.added = 0.0  # work of the motion in the last step [J]
-        self._at_end = False  # the contact has reached the body's end along the motion
+        #: Along x and y: the contact has reached an end of the body, with a force that is unknown.
+        self._ends_reached = np.zeros(2, dtype=bool)
         #: Half extent of the largest contact; of the longest steps under at least half of it way
         #: and half extent [m], duration [s] and angular frequency [1/s].
         self._extent, self._way, self._rate = 0.0, (0.0, 1.0), (0.0, 0.0)
@@ -85,7 +87,9 @@ class MovingContact:
             resistance_x=float(resistance[0]),
             resistance_y=float(resistance[1]),
             friction_coefficient=(
-                float(resistance @ velocity) / (speed * force) if slides else math.nan
+                float((resistance * velocity)[velocity != 0].sum()) / (speed * force)
+                if slides
+                else math.nan
             ),
             motion_work=self.work,
             dissipation=solution.power,
@@ -102,9 +106,10 @@ class MovingContact:
         else:
             tilts = float(solution.motion[1]), float(solution.motion[2])
             found = resistance_by_slope(solution.pressure, grid, indenter, tilts)
-        at_end = np.logical_and(motion.moves, reaches_end(solution.pressure, grid, indenter))
-        self._at_end = self._at_end or bool(at_end.any())
-        along_x, along_y = np.where(at_end, math.nan, found).tolist()
+        ends, moves = np.array(reaches_end(solution.pressure, grid, indenter)), motion.moves
+        unknown = ends & (np.array(moves) | np.logical_not(is_even(solution.pressure)))
+        self._ends_reached = self._ends_reached | unknown
+        along_x, along_y = np.where(unknown, math.nan, found).tolist()
         return along_x, along_y
 
     def _half_extents(self, solution: StepSolution) -> tuple[float, float]:
@@ -143,10 +148,17 @@ class MovingContact:
     def warnings(self) -> dict[str, str]:
         """Warnings, by kind, about the steps so far."""
         law = self._run.hereditary.prony_approximation
-        found = way_warnings(*self._way) | edge_warnings(self._at_end)
+        found = way_warnings(*self._way) | self._edge_warnings()
         if self._rate[0] > 0:
             found |= retardation_warnings(law, self._rate[1], self._rate[0])
         return found
+
+    def _edge_warnings(self) -> dict[str, str]:
+        motion = self._run.problem.motion
+        assert motion is not None
+        along = self._ends_reached & motion.moves
+        across = self._ends_reached & ~along
+        return edge_warnings(along=bool(along.any()), across=bool(across.any()))
 
     def restart_data(self) -> RestartData:
         """Return the state after a step as plain data."""
@@ -155,7 +167,7 @@ class MovingContact:
             "resistance": self._resistance,
             "work": self.work,
             "heat": self._heat,
-            "at_end": self._at_end,
+            "ends_reached": self._ends_reached,
             "pace": [self._extent, *self._way, *self._rate],
         }
 
@@ -163,6 +175,6 @@ class MovingContact:
         """Continue the same run from restart data."""
         self._position, self._resistance = restart_data["position"], restart_data["resistance"]
         self.work, self._heat = restart_data["work"], restart_data["heat"]
-        self._at_end = restart_data["at_end"]
+        self._ends_reached = restart_data["ends_reached"]
         self._extent, way, extent, duration, rate = restart_data["pace"]
         self._way, self._rate = (way, extent), (duration, rate)

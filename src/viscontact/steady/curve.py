@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -17,6 +18,7 @@ from viscontact.checks.half_space_theory import (
 )
 from viscontact.checks.material import data_warnings, law_warnings
 from viscontact.checks.mesh import cells_across_spots, mesh_warnings
+from viscontact.checks.motion import edge_warnings
 from viscontact.checks.periodicity import NO_DATUM
 from viscontact.checks.singularities import strain_of
 from viscontact.contact.rim import Rim
@@ -29,7 +31,7 @@ from viscontact.steady.dataset import steady_dataset
 from viscontact.steady.error_bars import Measured, error_bars, unknown_bars
 from viscontact.steady.preparation import PreparedRun
 from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.state import resistance_of, rim_of, state_of
+from viscontact.steady.state import force_across, resistance_of, rim_of, state_of
 from viscontact.units.formatting import format_quantity
 
 #: Ratio of speeds up to which a contact on the same grid is the guess for the next.
@@ -203,4 +205,5 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
         | data_warnings(passed, body.measured_until)
+        | edge_warnings(along=False, across=math.isnan(force_across(problem, contact)))
     )

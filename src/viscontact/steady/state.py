@@ -6,6 +6,7 @@ import math
 
 from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.line_load import line_load, peak_line_load
+from viscontact.contact.resistance import is_even, reaches_end
 from viscontact.contact.rim import Rim, mean_chords, trace_rim
 from viscontact.state import ContactState, Outcome
 from viscontact.steady.contact import SteadyContact
@@ -32,6 +33,15 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
     )
 
 
+def force_across(problem: SteadyProblem, contact: SteadyContact) -> float:
+    """Force across the motion [N]; NaN where the body ends there, unless the contact is even."""
+    across, indenter, grid = 1 - problem.axis, problem.contact.indenter, contact.grid
+    pressure, tilt = contact.pressure, float(contact.solution.motion[1 + across])
+    if reaches_end(pressure, grid, indenter)[across] and not is_even(pressure)[across]:
+        return math.nan
+    return slope_force(indenter, grid, pressure, across, tilt)
+
+
 def state_of(
     problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
 ) -> ContactState:
@@ -44,11 +54,8 @@ def state_of(
     whole = pressure * grid.cell_area
     force, peak = float(whole.sum()), float(pressure.max())
     area, load = max(rim.area, force / peak), line_load(pressure, grid)
-    forces = [
-        slope_force(problem.contact.indenter, grid, pressure, side, float(motion[1 + side]))
-        for side in (0, 1)
-    ]
-    forces[axis] = against.value
+    forces = [against.value, against.value]
+    forces[1 - axis] = force_across(problem, contact)
     # A body that repeats has no centre from which the force could be offset.
     centre_x, centre_y = (math.nan if repeats else 1.0 for repeats in grid.periodic)
     return ContactState(
