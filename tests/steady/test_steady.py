@@ -214,3 +214,18 @@ FLUID = vc.Material(vc.Maxwell(500.0, 5000.0), poisson_ratio=0.5)
 def test_problems_without_a_steady_state_are_refused(options, message):
     with pytest.raises(ValueError, match=message):
         steady(**({"speed": 1.0} | options))
+
+
+def test_speeds_whose_contacts_differ_much_in_size_are_reported():
+    """Hertz: a third power of the ratio of compliances is that of the sizes, here 6.3."""
+    wide = vc.Material(vc.CreepSeries(1e-5, [250e-5], [10.0]), poisson_ratio=0.5)
+    grid = vc.AutomaticGrid(tolerance=0.09)  # 20 cells across
+    # 20 cells times 4/6.3 across the smallest contact.
+    with pytest.warns(
+        vc.AccuracyWarning, match=r"about 0\.2\d in place of 0\.09; compute the fast"
+    ):
+        ds = steady([1e-3, 1e5], material=wide, grid=grid)
+    assert ds.cells_across.values[1] == pytest.approx(20 * 4 / 251 ** (1 / 3), abs=2)
+    wider = vc.Material(vc.CreepSeries(1e-8, [1e-2], [10.0]), poisson_ratio=0.5)
+    with pytest.raises(vc.DomainError, match=r"cells lie across .* different runs"):
+        steady([1e-2, 1e8], material=wider, grid=grid)

@@ -34,6 +34,9 @@ from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.state import force_across, resistance_of, rim_of, state_of
 from viscontact.units.formatting import format_quantity
 
+#: Remedy where chosen grids have too few cells.
+FEWER_SPEEDS = "compute the fast and the slow speeds in different runs"
+
 #: Ratio of speeds up to which a contact on the same grid is the guess for the next.
 NEAR = 2.5
 
@@ -96,7 +99,7 @@ class SteadyCurve:
         if coarse is not None:
             part = coarse.solution.values[0].size / contact.solution.values[0].size
             self.work[speed] += coarse.solution.work * part
-        _refuse(contact, tolerance)
+        _refuse(contact, tolerance, chosen=not isinstance(self.problem.contact.grid, Grid))
         fine = self._measured(contact)
         found = _warnings(self.problem, contact, fine.rim)
         if self.errors:
@@ -129,16 +132,21 @@ def _near(before: SteadyContact | None, speed: float, grid: Grid) -> SteadyConta
     return before
 
 
-def _refuse(contact: SteadyContact, tolerance: float) -> None:
+def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
     """Raise if a contact is not found, reaches the rim, or has too few cells."""
     grid, speed = contact.grid, format_quantity(contact.speed, "m/s", 6)
     solution = contact.solution
     cut = np.logical_and(overrun(contact.pressure), np.logical_not(grid.periodic))
     if cut.any():
+        size = " x ".join(format_quantity(each, "m") for each in grid.size)
+        remedy = (
+            f"Give a grid of your own, larger than {size}"
+            if chosen
+            else f"Enlarge grid.size, now {size}, move grid.centre, or leave the grid out"
+        )
         raise DomainError(
             f"grid: the contact reaches the grid's rim at {speed}; it need not lie at the body's "
-            f"centre. Enlarge grid.size, now {format_quantity(grid.size[0], 'm')} x "
-            f"{format_quantity(grid.size[1], 'm')}, move grid.centre, or leave the grid out"
+            f"centre. {remedy}"
         )
     if not solution.converged:
         raise ConvergenceError(
@@ -160,6 +168,14 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
     if not run.grids[0].has_datum:
         found["datum"] = (
             f"the grid is periodic across the motion, and {NO_DATUM}: approach is not defined (NaN)"
+        )
+    if run.tolerance_reached is not None:
+        requested = problem.contact.automatic_grid
+        assert requested is not None
+        found["lattice"] = (
+            "grid: the contacts at these speeds differ so much in size that in their common cells "
+            f"the smallest has a tolerance of about {run.tolerance_reached:.2g} in place of "
+            f"{requested.tolerance:.2g}; {FEWER_SPEEDS}"
         )
     if run.solver.law.fluidity and not all(run.grids[0].periodic):
         found["fluid"] = (
@@ -184,11 +200,15 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
     """Warnings, by kind, about the contact at one speed."""
     body, grid = problem.contact, contact.grid
     if rim.cells_across < MIN_CELLS_ACROSS:
+        more = (
+            f"use more cells than {grid.shape[0]} x {grid.shape[1]} or a smaller grid.size"
+            if isinstance(body.grid, Grid)
+            else FEWER_SPEEDS
+        )
         raise DomainError(
             f"grid: only {rim.cells_across} cells lie across the contact at "
             f"{format_quantity(contact.speed, 'm/s')} and {MIN_CELLS_ACROSS} are the least (20 or "
-            f"more recommended); use more cells than {grid.shape[0]} x {grid.shape[1]} or a "
-            "smaller grid.size"
+            f"more recommended); {more}"
         )
     geometry = Geometry(
         body.indenter,

@@ -22,6 +22,9 @@ from viscontact.units.formatting import format_quantity
 #: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
 ACROSS, LEAST_ACROSS = 6.0, 20.0
 
+#: Part of these cells that may be lacking.
+LITTLE_LESS = 0.01
+
 #: Samples along each axis by which a body is found to be even.
 EVEN_SAMPLES = 48
 
@@ -40,6 +43,8 @@ class PreparedRun:
     grids: tuple[Grid, ...]
     #: Convolutions of the search for regions, in those of the grids.
     work: float
+    #: Tolerance of a chosen grid, if its cells are too large for the requested one.
+    tolerance_reached: float | None = None
 
 
 def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
@@ -87,7 +92,14 @@ def _automatic(
         searches[speed] * SEARCH_CELLS**2 / np.prod(grid.shape)
         for speed, grid in zip(problem.speeds.tolist(), grids, strict=True)
     )
-    return PreparedRun(solver, tuple(grids), float(work))
+    reached = _cells_across(list(regions.values()), lattice)
+    coarse = (ACROSS / reached) ** 2 if reached < (1 - LITTLE_LESS) * across else None
+    return PreparedRun(solver, tuple(grids), float(work), coarse)
+
+
+def _cells_across(regions: list[Region], lattice: Lattice) -> float:
+    """Cells across the smallest contact, along the axis along which it has fewer."""
+    return min(float((region.extents / lattice.cell_size).min()) for region in regions)
 
 
 def _estimate(problem: SteadyProblem, speed: float) -> ContactEstimate:
