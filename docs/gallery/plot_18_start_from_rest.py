@@ -56,14 +56,14 @@ for speed in (2e-5, 1e-4):
 # The figure
 # ----------
 #
-# The way is given in ways during the retardation time: the start is forgotten after about six.
+# The distance is divided by that during the retardation time: the start is forgotten after six.
 
 figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
 for (speed, ds), colour in zip(runs.items(), ["#0072B2", "#D55E00"], strict=True):
     moved = ds.position_y / (speed * time)
     axes.plot(moved, ds.friction_coefficient, color=colour, label=f"{speed * 1e3:g} mm/s")
     axes.axhline(steady[speed], color=colour, linestyle=":", linewidth=1.0)
-axes.set(xlabel="way in ways during the retardation time", ylabel="friction coefficient")
+axes.set(xlabel="distance / (speed × retardation time)", ylabel="friction coefficient")
 axes.set_ylim(bottom=0.0)
 axes.legend(frameon=False, title="speed (dotted: steady)")
 

@@ -44,8 +44,8 @@ def heat_of_step(
 ) -> float:
     """Energy lost over a step, over the area of a cell [J/m²].
 
-    `variables` are the internal variables at its begin, `parts` its linear parts: duration [s],
-    and pressure and unit displacement at begin and end.
+    `variables` are the internal variables at its beginning, `parts` its linear parts: duration [s],
+    and pressure and unit displacement at both ends.
 
     Examples
     --------
