@@ -197,6 +197,11 @@ FLUID = vc.Material(vc.Maxwell(500.0, 5000.0), poisson_ratio=0.5)
         ({"load": vc.ForceHistory([0, 1], [2, 2], tilt_x=[0, 0.1])}, "changes in time"),
         ({"load": vc.step(0.0)}, "force must be positive"),
         ({"load": vc.step(approach=-1.0, tilt_x=0.0, tilt_y=0.0)}, "does not touch"),
+        ({"load": vc.step(approach=-1.0, tilt_x=0.0)}, "does not touch"),
+        (
+            MATE | {"rolling": True, "grid": vc.Grid((32, 32), (40.0, 40.0))},
+            r"grid\.size: the grid is 40 m long .* half its circumference, 31\.4 m",
+        ),
         ({"fields": [2.0]}, "some of the speeds"),
         ({"rolling": "yes"}, "rolling must be"),
         (MATE, "rolling and sliding differ"),

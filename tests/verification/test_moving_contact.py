@@ -464,3 +464,21 @@ def test_force_across_the_motion_is_unknown_at_sharp_ends_unless_the_contact_is_
     other = resistance_by_displacement(pressure, displacement, grid)[0]
     slope_part = abs(5.0 * float(rounded.tilt_x))  # cancels almost
     assert float(rounded.resistance_x) == pytest.approx(other, abs=0.01 * slope_part)
+
+
+@pytest.mark.parametrize("periodic", [(False, True), (True, False), (False, False), (True, True)])
+def test_bodies_that_follow_each_other_are_reported(periodic: tuple[bool, bool]) -> None:
+    """The track of the body ahead lowers the friction of one that meets it."""
+    grid = vc.Grid((24, 24), (3.2, 3.2), periodic=periodic)
+    load = vc.step(10.0, tilt_x=0.0, tilt_y=0.0)
+    found = messages(BODY, load, grid, vc.Travel([0.0, 1.0], y=[0.0, 0.1]))
+    assert ("meets their tracks" in found) is (periodic == (False, True))
+
+
+def test_heat_that_is_not_known_has_a_reason() -> None:
+    power = vc.Material(vc.PowerLaw(1e-3, 0.3, 1.0, instant=J0), poisson_ratio=0.5)
+    grid, path = vc.Grid((24, 24), (4.0, 4.0)), vc.Travel([0.0, 1.0], y=[0.0, 0.1])
+    state = next(vc.march(BODY, power, LEVEL, grid, motion=path))
+    assert np.isnan(state.heat)
+    assert any("dissipation and heat are not known" in text for text in state.warnings)
+    assert "heat are not known" not in messages(BODY, LEVEL, grid, path)

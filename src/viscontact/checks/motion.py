@@ -149,6 +149,38 @@ def axle_warnings(problem: Problem) -> dict[str, str]:
     }
 
 
+def row_warnings(problem: Problem) -> dict[str, str]:
+    """Warn of a grid that is periodic along the motion only: bodies follow each other."""
+    if problem.motion is None or not isinstance(problem.grid, Grid):
+        return {}
+    for axis, (repeats, moves) in enumerate(
+        zip(problem.grid.periodic, problem.motion.moves, strict=True)
+    ):
+        if repeats and moves and not problem.grid.has_datum:
+            return {
+                "row": (
+                    f"grid.periodic: the body moves along {'xy'[axis]}, along which the grid is "
+                    "periodic: other bodies are ahead of it and behind it at distances of "
+                    f"{format_quantity(problem.grid.size[axis], 'm', 3)}, and it meets their "
+                    "tracks; for a single body use a grid that is not periodic along the motion"
+                )
+            }
+    return {}
+
+
+def heat_warnings(problem: Problem, grid: Grid, compliance: ContactCompliance) -> dict[str, str]:
+    """Warn of a law, in the form that the run uses, whose heat is not known."""
+    known = isinstance(compliance, SeriesCompliance) or not grid.has_datum
+    if problem.motion is None or known:
+        return {}
+    return {
+        "heat": (
+            "the law is no series of exponentials and is summed over all earlier steps: "
+            "dissipation and heat are not known (NaN); a Prony series fitted to it has them"
+        )
+    }
+
+
 def edge_warnings(*, along: bool, across: bool) -> dict[str, str]:
     """Warn of a contact that has reached an end of the body, along or across the motion."""
     found = {}
@@ -163,8 +195,9 @@ def edge_warnings(*, along: bool, across: bool) -> dict[str, str]:
     return found | {
         "edge": (
             "motion: the contact reaches an end of the body along the motion, where the pressure "
-            "is singular; the force on this edge is not computed: resistance, friction "
-            "coefficient and motion work are NaN from there on; dissipation and heat are known"
+            "is singular; the force on this edge is not computed: resistance and friction "
+            "coefficient are NaN there, and motion work from then on; dissipation and heat are "
+            "known"
         )
     }
 

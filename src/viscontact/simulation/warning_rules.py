@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import law_warnings, passivity_warnings
-from viscontact.checks.motion import axle_warnings, turn_warnings
+from viscontact.checks.motion import axle_warnings, heat_warnings, row_warnings, turn_warnings
 from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.steps import (
     relative_change,
@@ -31,7 +31,8 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     warnings |= datum_warnings(run.grid, moving=problem.motion is not None)
     if run.mesh is not None:
         warnings |= run.mesh.warnings
-    warnings |= axle_warnings(problem) | turn_warnings(problem)
+    warnings |= axle_warnings(problem) | turn_warnings(problem) | row_warnings(problem)
+    warnings |= heat_warnings(problem, run.grid, run.hereditary.compliance)
     for body in problem.bodies:
         warnings |= passivity_warnings(body.law, problem.end)
     return warnings

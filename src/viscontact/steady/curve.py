@@ -180,7 +180,7 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
     if run.solver.law.fluidity and not all(run.grids[0].periodic):
         found["fluid"] = (
             "the material flows, so that the approach grows without limit with the way that the "
-            "body has come: approach is not defined (NaN)"
+            "body has come: approach is not defined (NaN), and displacement has an unknown constant"
         )
     if compliance.instant == 0:
         found["instant"] = (

@@ -58,6 +58,7 @@ def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
         extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
         law = moving_law(problem, extents)
         _refuse_flow(law, given)
+        _refuse_long_grid(law, given, axis)
         return PreparedRun(
             SteadySolver(problem, law, transforms), (given,) * len(problem.speeds), 0.0
         )
@@ -132,13 +133,27 @@ def _refuse_flow(law: MovingLaw, grid: Grid) -> None:
         )
 
 
+def _refuse_long_grid(law: MovingLaw, grid: Grid, axis: int) -> None:
+    """Refuse a grid longer than half the circumference of a roller whose material returns."""
+    half, length = float(law.periods.min(initial=np.inf)) / 2, grid.size[axis]
+    if length - grid.cell_size[axis] >= half:
+        raise ValueError(
+            f"grid.size: the grid is {format_quantity(length, 'm', 3)} long along the motion, and "
+            "under a body that rolls it must be shorter than half its circumference, "
+            f"{format_quantity(half, 'm', 3)}: beyond it the surfaces have turned away from each "
+            "other"
+        )
+
+
 def _refuse_apart(problem: SteadyProblem) -> None:
     """Refuse a prescribed approach at which the body does not touch the surface."""
     point, given = problem.point, problem.contact.grid
-    if point.approach is None or point.tilt_x is None or point.tilt_y is None:
+    if point.approach is None:
         return
     touches = point.approach > 0
     if isinstance(given, Grid):
+        if point.tilt_x is None or point.tilt_y is None:
+            return  # found by solving
         slopes = point.tilt_x * given.x[:, None] + point.tilt_y * given.y[None, :]
         touches = bool((gap_on(problem, given) < point.approach + slopes).any())
     if not touches:
