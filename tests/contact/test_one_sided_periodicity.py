@@ -48,6 +48,8 @@ def test_a_pair_is_kept():
     assert pickle.loads(pickle.dumps(STRIP)) == STRIP
     assert rebuild(json.loads(json.dumps(describe(STRIP)))) == STRIP
     assert "periodic=(True, False)" in repr(STRIP)
+    with pytest.raises(ValueError, match=r"\(True, False\) is neither true nor false"):
+        bool(STRIP.periodic)
 
 
 @pytest.mark.parametrize("given", [(True,), (1, 0), (True, None), (True, False, True)])

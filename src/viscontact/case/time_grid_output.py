@@ -167,7 +167,7 @@ class Cells(Section):
                 f"{requests[0]} goes with an automatic grid, which has no {cells[0]} of yours; "
                 "leave out the one or the other"
             )
-        if AxisFlags(self.periodic) and not cells:
+        if any(AxisFlags(self.periodic)) and not cells:
             raise ValueError(
                 "periodic goes with shape and size, an automatic grid knows no period; write e.g. "
                 "'shape: [128, 128]' and 'size: [1 mm, 1 mm]'"

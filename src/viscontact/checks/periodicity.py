@@ -48,7 +48,7 @@ def check_period(
     ...     print(str(error)[:52])
     grid.size: the body does not repeat itself over 3 mm
     """
-    if not grid.periodic:
+    if not any(grid.periodic):
         return
     for name in TAIL:
         if grid.periodic["xy".index(name[-1])] and np.any(getattr(load, name, None) or 0.0):

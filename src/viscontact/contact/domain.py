@@ -242,7 +242,7 @@ class ContactDomain:
 
 def _coefficients(grid: Grid) -> NDArray[np.float64]:
     """Influence coefficients of a grid that is not periodic along both axes [m]."""
-    if not grid.periodic:
+    if not any(grid.periodic):
         return influence_table(grid.shape, grid.cell_size)
     if grid.periodic[0]:
         return periodic_influence_table(grid.shape, grid.cell_size, grid.size[1])

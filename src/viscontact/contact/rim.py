@@ -94,7 +94,7 @@ class Rim:
 
     def cut(self, field: NDArray[Any]) -> NDArray[Any]:
         """The block's part of a field on the grid."""
-        if self.grid.periodic:
+        if any(self.grid.periodic):
             return field[np.ix_(self.rows, self.columns)]
         both = (self.rows, self.columns)
         rows, columns = (slice(int(lines[0]), int(lines[-1]) + 1) for lines in both)
@@ -150,7 +150,7 @@ def trace_rim(
     >>> float(round(rim.along_x[0, 0], 12))
     0.4
     """
-    if grid.periodic:
+    if any(grid.periodic):
         return _trace_around(grid, contact, gap, outline)
     rows, columns = _block(contact, axis=0), _block(contact, axis=1)
     contact, gap = contact[rows, columns], gap[rows, columns]

@@ -45,7 +45,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         "yRange": rounded(length(fields.window.y)),
         "unit": length.symbol,
         "stretch": fields.window.stretch,
-        "periodic": bool(first.periodic),
+        "periodic": any(first.periodic),
         "pressureUnit": pressure.symbol,
         "peak": float(pressure(fields.peak)),
         "steps": STEPS,

@@ -72,7 +72,7 @@ def _period(grid: Grid) -> str:
     """Periodicity of a grid, in words."""
     if all(grid.periodic):
         return ", periodic"
-    return f", periodic along {'xy'[grid.periodic.index(True)]}" if grid.periodic else ""
+    return f", periodic along {'xy'[grid.periodic.index(True)]}" if any(grid.periodic) else ""
 
 
 def _place(grid: Grid) -> str:

@@ -86,7 +86,7 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
 
 
 def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEstimate:
-    if run.grid.periodic:
+    if any(run.grid.periodic):
         return estimate_period(run.problem.indenter, compliance, point, run.grid)
     return locate_contact(run.problem.indenter, compliance, point)
 

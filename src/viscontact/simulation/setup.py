@@ -173,7 +173,7 @@ def _indenter_at(problem: Problem, grid: Grid, time: float) -> Indenter:
     x, y = _position(problem, time)
     if x == y == 0:
         return problem.indenter
-    body = PeriodicBody(problem.indenter, grid) if grid.periodic else problem.indenter
+    body = PeriodicBody(problem.indenter, grid) if any(grid.periodic) else problem.indenter
     return PlacedIndenter(body, x=x, y=y)
 
 

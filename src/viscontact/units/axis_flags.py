@@ -8,7 +8,8 @@ import numpy as np
 class AxisFlags(tuple[bool, bool]):
     """A property that holds or not along x and along y.
 
-    If both agree it compares, prints and hashes as that bool.
+    If both agree it compares, prints and hashes as that bool. If not it has no truth value, since
+    a condition on it would mean one axis or the other.
 
     Raises
     ------
@@ -19,7 +20,7 @@ class AxisFlags(tuple[bool, bool]):
     --------
     >>> AxisFlags(True) == True == AxisFlags((True, True)), AxisFlags((True, False))
     (True, (True, False))
-    >>> bool(AxisFlags(False)), bool(AxisFlags((True, False)))
+    >>> bool(AxisFlags(False)), any(AxisFlags((True, False)))
     (False, True)
     """
 
@@ -41,7 +42,12 @@ class AxisFlags(tuple[bool, bool]):
         return self[0] if self[0] == self[1] else (self[0], self[1])
 
     def __bool__(self) -> bool:
-        return any(self)
+        if self[0] != self[1]:
+            raise ValueError(
+                f"{self.plain} is neither true nor false: x and y differ; use any(...), all(...), "
+                "or the value of one axis"
+            )
+        return self[0]
 
     def __eq__(self, other: object) -> bool:
         return self.plain == other or tuple(self) == other

@@ -28,7 +28,7 @@ _PLACES = (0.2, 0.5, 0.8)
 
 def _moving(body: Indenter, speed: float, grid: Grid) -> xr.Dataset:
     """Contact of a level body at one speed along y [m/s]."""
-    load = step(_LOAD, tilt_x=None if grid.periodic else 0.0, tilt_y=0.0)
+    load = step(_LOAD, tilt_x=None if any(grid.periodic) else 0.0, tilt_y=0.0)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # the approach has no datum
         found = steady(body, _RUBBER, load, speed, grid=grid, errors=False, fields="none")

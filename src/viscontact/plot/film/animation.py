@@ -192,7 +192,7 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
             f"{format_quantity(shown[0], 's')} to {format_quantity(shown[-1], 's')}; choose other "
             "times"
         )
-    window = window_over(boxes, snapshot.borders() if snapshot.periodic else None)
+    window = window_over(boxes, snapshot.borders() if any(snapshot.periodic) else None)
     levels, unit = pressure_levels(highest)
     is_long = window.x[1] - window.x[0] >= window.y[1] - window.y[0]
     along = across_period(results) or ("x" if is_long else "y")
@@ -282,6 +282,6 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
 
 def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Array, Array]:
     """Pressure along the middle line, as drawn."""
-    wide = snapshot.with_border(1) if snapshot.periodic else snapshot
+    wide = snapshot.with_border(1) if any(snapshot.periodic) else snapshot
     positions, pressure = wide.section(scene.along)
     return scene.window.unit(positions), scene.unit(pressure)

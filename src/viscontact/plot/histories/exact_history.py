@@ -75,7 +75,7 @@ def _require_known(
             f"{figure}: needs a sphere or a round paraboloid, for which there is an exact "
             f"solution, got a {kind}; draw history instead"
         )
-    if recorded_grid(results).periodic:
+    if any(recorded_grid(results).periodic):
         raise ValueError(f"{figure}: needs a half-space without period; draw history instead")
     if not isinstance(load, ForceHistory | ApproachHistory):
         raise ValueError(

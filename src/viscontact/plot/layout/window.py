@@ -64,7 +64,7 @@ def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAP
     """
     snapshots = list(snapshots)
     boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
-    borders = snapshots[0].borders() if snapshots[0].periodic else None
+    borders = snapshots[0].borders() if any(snapshots[0].periodic) else None
     return window_over(boxes, borders, slender=slender)
 
 

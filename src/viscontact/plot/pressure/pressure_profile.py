@@ -126,7 +126,7 @@ def compare_pressure_profiles(
 
 def _beyond_border(snapshot: Snapshot) -> Snapshot:
     """The fields, on a periodic grid continued by a cell."""
-    return snapshot.with_border(1) if snapshot.periodic else snapshot
+    return snapshot.with_border(1) if any(snapshot.periodic) else snapshot
 
 
 def _curve(along: Literal["x", "y"], at: float | None) -> ContactCurve:

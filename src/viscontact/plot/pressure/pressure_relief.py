@@ -41,7 +41,7 @@ def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> R
     moved = points + _to_rim(squared) * (x[1] - x[0], y[1] - y[0])
     points = np.where(pressed[..., None], points, moved)
     inside = pressed | _neighbouring(pressed)
-    if snapshot.periodic:
+    if any(snapshot.periodic):
         x_low, x_high, y_low, y_high = snapshot.borders()
         inside &= ((x_low <= x) & (x <= x_high))[:, None] & (y_low <= y) & (y <= y_high)
     height = unit(np.sqrt(np.maximum(squared, 0.0)))

@@ -81,7 +81,7 @@ def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corner
 
 def beyond_period(snapshot: Snapshot) -> Snapshot:
     """Periodic fields with the cells of the next periods that the rim depends on."""
-    return snapshot.with_border(_BEYOND) if snapshot.periodic else snapshot
+    return snapshot.with_border(_BEYOND) if any(snapshot.periodic) else snapshot
 
 
 def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> NDArray[np.float64]:
