@@ -89,12 +89,14 @@ def simulate_many(
     directory : path-like, optional
         Record the runs there, each in a directory of its own, with a manifest ``runs.jsonl``. Then
         results stay on this disk, which all workers must see. The same call again, also with
-        further runs, computes only what is left. The runs are mappings or those of `vary`, whose
-        values are equal however their quantities are written.
+        further runs, computes only what is left. The runs are mappings, which are known by their
+        position, so that further ones are appended; or those of `vary`, whose values are equal
+        however their quantities are written.
     workers : int, optional
         Number of parallel processes; by default the number of cores that this process may use
         (its binding, control group and SLURM job), or fewer if the runs do not fit into the free
-        memory. Each computes on one thread unless the run sets ``threads``.
+        memory. Each computes on one thread unless the run sets ``threads``. An executor or a
+        client has its own number.
     return_exceptions : bool, optional
         Return the exception of a failed run in place of its result, and keep the other results.
         With `directory` a failed run is NaN in the dataset, with its message.
@@ -146,9 +148,11 @@ def simulate_many(
     """
     refuse_import_by_a_worker()
     recipes = checked_recipes(runs)
-    require_executor(executor, client)
+    require_executor(executor, client, workers)
     if directory is not None:
         place, shown = Path(directory), progress or _no_progress
+        if place.exists() and not place.is_dir():
+            raise ValueError(f"directory: {place} is a file; name a directory for the runs")
         with _tasks(recipes, place, executor, client, workers) as tasks:
             record_many(recipes, place, tasks, shown, return_exceptions=return_exceptions)
         return open_many(place)

@@ -42,10 +42,12 @@ def checked_recipes(runs: Iterable[Recipe]) -> list[Recipe]:
     return found
 
 
-def require_executor(executor: object, client: object) -> None:
-    """Raise TypeError or ValueError for an executor or a client that is none, or for both."""
-    if executor is not None and client is not None:
-        raise ValueError("executor and client are both given; give one of them")
+def require_executor(executor: object, client: object, workers: object) -> None:
+    """Raise TypeError or ValueError for an executor or a client that is none, or for several."""
+    given = {"executor": executor, "client": client, "workers": workers}
+    named = [name for name, value in given.items() if value is not None]
+    if len(named) > 1:
+        raise ValueError(f"{' and '.join(named)} are given together; give one of them")
     if executor is not None and not callable(getattr(executor, "submit", None)):
         raise TypeError(
             "executor: must have a method submit, as a ProcessPoolExecutor of concurrent.futures "

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.executors.driver import Active, Workers, case_task, drive
-from viscontact.runs.executors.simulation_task import SimulationTask
+from viscontact.runs.executors.simulation_task import SimulationTask, change_of_results
 from viscontact.runs.executors.task import RecordedTask
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
@@ -78,6 +78,8 @@ def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
     name, count = Counter(each.directory for each in found).most_common(1)[0]
     if count > 1:
         raise ValueError(f"runs: {count} of them would go to {directory / name}; give each once")
+    for run, recipe in zip(found, recipes, strict=True):
+        _refuse_other_results(run, recipe, directory)
     pinned = with_digests(directory, found)
     if found != earlier:
         write_manifest(directory, pinned)
@@ -96,6 +98,23 @@ def _sweep_run(
         f"runs[{number}]: a run in a directory is given by the arguments of simulate or by vary, "
         f"got {recipe!r}"
     )
+
+
+def _refuse_other_results(run: SweepRun, recipe: Recipe, directory: Path) -> None:
+    """Raise ValueError for arguments of `simulate` whose directory has results of others."""
+    if not isinstance(recipe, Mapping):
+        return
+    try:
+        change = change_of_results(recipe, directory / run.directory)
+    except (ValueError, TypeError) as error:
+        kind = TypeError if isinstance(error, TypeError) else ValueError
+        raise kind(f"runs[{run.run}]: {error}") from error
+    if change:
+        raise ValueError(
+            f"{directory}: holds other runs: its {run.directory} has {change}; runs that are given "
+            "as mappings are known by their position: keep their order and append others at the "
+            "end, or choose another directory"
+        )
 
 
 def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:

@@ -27,7 +27,7 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
     }
 
 
-def describe_problem(problem: Problem, grid: Grid) -> dict[str, Any]:
+def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
     """Describe a contact problem, solved on a grid, as plain data."""
     motion = {} if problem.motion is None else {"motion": describe(problem.motion)}
     return {

@@ -129,8 +129,28 @@ def test_recorded_runs_are_not_repeated_and_a_failed_one_is_not_a_number(tmp_pat
         assert np.isfinite(ds.approach[:2]).all()
         with pytest.raises(ValueError, match="run1 has results, and is none of these"):
             vc.simulate_many(given[:1], executor=pool, directory=sweep)
-        with pytest.raises(RuntimeError, match=r"run0: .* holds the result of another run"):
-            vc.simulate_many(runs(0.06, 0.1, 50.0), executor=pool, directory=sweep)
+
+
+def test_other_mappings_in_a_directory_are_refused_before_any_run_begins(tmp_path: Path) -> None:
+    sweep, given = tmp_path / "sweep", runs(0.05, 0.1)
+    softer = vc.Material(vc.Zener(1e6, 1e6, 2e6), poisson_ratio=0.5)
+    with ThreadPoolExecutor(1) as pool:
+        vc.simulate_many(given, executor=pool, directory=sweep)
+        before = {path: path.stat().st_mtime_ns for path in sweep.rglob("*")}
+        for others, said in (
+            (given[::-1], r"its run0 has results of other arguments: load.*was 0\.05, is now 0\.1"),
+            (
+                [*runs(0.02), *given],
+                "its run0 has results of other arguments: .*known by their pos",
+            ),
+            ([{**each, "material": softer} for each in given], "material.*was 1000000.0, is now 2"),
+            ([given[0], {**given[1], "tolerance": -1.0}], r"^runs\[1\]: tolerance"),
+        ):
+            with pytest.raises(ValueError, match=said):
+                vc.simulate_many(others, executor=Broken(), directory=sweep)
+        assert before == {path: path.stat().st_mtime_ns for path in sweep.rglob("*")}
+        ds = vc.simulate_many([*given, *runs(0.02)], executor=pool, directory=sweep)
+    assert ds.state.values.tolist() == ["done"] * 3
 
 
 def test_what_is_no_run_and_no_executor_is_refused(tmp_path: Path) -> None:
@@ -156,9 +176,14 @@ def test_what_is_no_run_and_no_executor_is_refused(tmp_path: Path) -> None:
             vc.simulate_many([dict], executor=pool, directory=tmp_path / "sweep")
         with pytest.raises(ValueError, match="there are none to record"):
             vc.simulate_many([], executor=pool, directory=tmp_path / "sweep")
-        with pytest.raises(ValueError, match="executor and client are both given"):
+        with pytest.raises(ValueError, match="executor and client are given together"):
             vc.simulate_many([], executor=pool, client=object())
-    assert list(tmp_path.iterdir()) == []
+        with pytest.raises(ValueError, match="executor and workers are given together"):
+            vc.simulate_many([], executor=pool, workers=2)
+        (tmp_path / "ball.yaml").touch()
+        with pytest.raises(ValueError, match=r"directory: .*ball.yaml is a file; name a directory"):
+            vc.simulate_many([given], executor=pool, directory=tmp_path / "ball.yaml")
+    assert [path.name for path in tmp_path.iterdir()] == ["ball.yaml"]
 
 
 def test_a_script_without_a_guard_is_told_so_by_its_processes(

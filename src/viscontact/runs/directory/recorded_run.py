@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.fourier import transforms_by
+from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
@@ -52,13 +53,7 @@ class RecordedRun:
     @property
     def case(self) -> dict[str, Any]:
         """Description of the run as plain data, which a run that is resumed must equal."""
-        described = {
-            **describe_problem(self.run.problem, self.run.grid),
-            "fields": describe(self.fields),
-            "errors": self.errors,
-        }
-        plain: dict[str, Any] = json.loads(json.dumps(described))
-        return plain
+        return plain_case(self.run.problem, self.run.grid, self.fields, errors=self.errors)
 
     @property
     def contents(self) -> Contents:
@@ -140,6 +135,21 @@ class RecordedRun:
         """Return the progress log with the lines of a checkpoint, or raise a ValueError."""
         path = self.directory / PROGRESS_NAME
         return ProgressLog.resume(path, saved.lines, saved.reached, self.check)
+
+
+def plain_case(
+    problem: Problem, grid: Grid | None, fields: str | Sequence[float], *, errors: bool
+) -> dict[str, Any]:
+    """Describe a run as plain data; without a grid, all but the grid."""
+    described = {
+        **describe_problem(problem, grid),
+        "fields": describe(fields),
+        "errors": errors,
+    }
+    plain: dict[str, Any] = json.loads(json.dumps(described))
+    if grid is None:
+        del plain["grid"]
+    return plain
 
 
 def remove_restart_files(directory: Path) -> None:

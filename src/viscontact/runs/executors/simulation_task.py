@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -10,11 +11,17 @@ from pathlib import Path
 from typing import Any, Self
 
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
 from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.differences import NOTHING, differences
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock_check import LockCheck
-from viscontact.runs.directory.recorded_run import RecordedRun, remove_restart_files
+from viscontact.runs.directory.recorded_run import (
+    RecordedRun,
+    plain_case,
+    remove_restart_files,
+)
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.runs.ending import CommandError, refuse
@@ -67,13 +74,50 @@ class SimulationTask:
 
 def recorded_simulation(arguments: Mapping[str, Any], directory: Path) -> RecordedRun:
     """Return the checked run of arguments of `simulate`; ValueError or TypeError if refused."""
+    problem, threads, errors = _problem(arguments)
+    run = prepare_run(problem, threads)
+    return RecordedRun(directory, run, problem.fields, errors=errors)
+
+
+def _problem(arguments: Mapping[str, Any]) -> tuple[Problem, int, bool]:
+    """Problem, number of threads, and choice of errors of arguments of `simulate`."""
     given = dict(arguments)
     if given.pop("progress", None) is not None:
         raise ValueError("progress: a run in a directory reports to its progress log")
     threads, errors = given.pop("threads", 1), given.pop("errors", True)
-    problem = Problem(**given)
-    run = prepare_run(problem, threads)
-    return RecordedRun(directory, run, problem.fields, errors=errors)
+    return Problem(**given), threads, errors
+
+
+def _case_at_once(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Describe a run as its result does, but not what follows from the choice of a grid."""
+    problem, _, errors = _problem(arguments)
+    given = problem.grid if isinstance(problem.grid, Grid) else None
+    case = plain_case(problem, given, problem.fields, errors=errors)
+    if problem.awaits_cells:
+        del case["times"]
+    return case
+
+
+def change_of_results(arguments: Mapping[str, Any], directory: Path) -> str:
+    """Difference of arguments from those of the results in a directory; empty without any.
+
+    Results that cannot be read are left to the run. ValueError or TypeError as of the arguments.
+    """
+    if not (directory / RESULT_NAME).exists():
+        return ""
+    try:
+        stored = stored_run(directory / RESULT_NAME)
+    except ValueError:
+        return ""
+    if not stored.rows:
+        return ""
+    if stored.case is None:
+        return "results of another program"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the run will warn
+        case = _case_at_once(arguments)
+    changes = differences({key: stored.case.get(key, NOTHING) for key in case}, case)
+    return f"results of other arguments: {changes[0]}" if changes else ""
 
 
 def _is_finished(recorded: RecordedRun) -> bool:
