@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 
 import pytest
+import xarray as xr
 
 import viscontact as vc
 from viscontact.cli import main
@@ -87,9 +89,36 @@ def test_results_are_not_replaced_by_those_of_other_settings(
     assert "has results with other settings; replace them with --over" in capsys.readouterr().err
     assert main([*task, "--set", "load=5 N"]) == 2
     assert Path("out/runs.jsonl").read_bytes() == kept
+    assert "changed" not in vc.open_many("out")
+    assert main(["collect", "out", "-o", "a.csv", "-q"]) == main(["status", "out"]) == 0
+    assert "own" not in capsys.readouterr().out
+    assert ",changed," not in Path("a.csv").read_text(encoding="utf-8")
     assert main([*task, *LARGER, "--overwrite"]) == 0
     assert main([*task, "--set", "grid.size=[1 cm, 1cm]"]) == 0  # the same lengths
     assert vc.open_results("out/ball_force=0.2N").sizes["time"] == 2
+
+
+def test_runs_with_settings_of_their_own_are_marked(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tasks(["--vary", "load.force=0.2 N,0.4 N"], 0)
+    assert main(["run", "-q", "--task", "1", "out", "--set", "material.shear_modulus=2 MPa"]) == 0
+    own = "material.shear_modulus=2 MPa"
+    assert vc.open_many("out").changed.values.tolist() == ["", own]
+    assert main(["collect", "out", "-o", "a.csv", "-q"]) == 0
+    head, *rows = csv.reader(Path("a.csv").read_text(encoding="utf-8").splitlines())
+    assert [row[head.index("changed")] for row in rows] == ["", own]
+    assert main(["collect", "out", "-o", "a.nc", "-q"]) == main(["status", "out"]) == 0
+    assert capsys.readouterr().out.splitlines()[-2:] == [
+        "1 run has settings of its own:",
+        f"  force=0.4N  {own}",
+    ]
+    with xr.open_dataset("a.nc") as ds:
+        assert ds.changed.values.tolist() == ["", own]
+    assert main(["plot", "out", "response", "-o", "a.png"]) == 0
+    assert "out: 1 run has settings of its own; `viscontact status" in capsys.readouterr().err
+    assert main(["report", "out"]) == 0
+    assert f"force=0.4N: with its own {own}" in Path("out/report.html").read_text(encoding="utf-8")
 
 
 def test_a_row_of_a_table_is_corrected_in_the_table(folder: Path) -> None:

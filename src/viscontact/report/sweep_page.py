@@ -58,7 +58,7 @@ def sweep_page(ds: xr.Dataset, *, title: str) -> str:
 
 
 def _body(ds: xr.Dataset, title: str) -> Iterator[Element]:
-    yield element("header", element("h1", title), _states(ds), _reasons(ds))
+    yield element("header", element("h1", title), _states(ds), _reasons(ds), _changes(ds))
     if (ds["state"] == "done").any():
         yield element("section", element("h2", "Response"), *_figure(ds))
     yield element("section", element("h2", "Runs"), *_table(ds))
@@ -92,11 +92,25 @@ def _figure(ds: xr.Dataset) -> Iterator[Element]:
 def _reasons(ds: xr.Dataset) -> Element | None:
     """List of the runs with a message; None without any."""
     states, messages, names = (ds[name].values.ravel() for name in ("state", "message", "name"))
-    numbers = np.flatnonzero(messages != "")
-    if not numbers.size:
+    numbers = np.flatnonzero(messages != "").tolist()
+    return _listed([f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers])
+
+
+def _changes(ds: xr.Dataset) -> Element | None:
+    """List of the runs with settings of their own; None without any."""
+    if "changed" not in ds:
         return None
-    said = [f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers[:MOST_REASONS]]
-    if (more := numbers.size - MOST_REASONS) > 0:
+    names, settings = (ds[name].values.ravel() for name in ("name", "changed"))
+    numbers = np.flatnonzero(settings != "").tolist()
+    return _listed([f"{names[run]}: with its own {settings[run]}" for run in numbers])
+
+
+def _listed(lines: list[str]) -> Element | None:
+    """List of the first lines; None without any."""
+    if not lines:
+        return None
+    said = lines[:MOST_REASONS]
+    if (more := len(lines) - MOST_REASONS) > 0:
         said.append(f"... and {more} more")
     return element("div", element("ul", *(element("li", text) for text in said)), class_="warnings")
 

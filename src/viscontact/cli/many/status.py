@@ -44,6 +44,13 @@ def status_lines(directory: Path, status: SweepStatus) -> Iterator[str]:
             yield "  ".join(filter(None, (f"  {state.value:8}{each.name}", _part(each), said)))
         if (more := status.counts[state] - LISTED) > 0:
             yield f"  {state.value:8}... and {more} more"
+    if status.changes:
+        runs = "1 run has" if status.changes == 1 else f"{status.changes} runs have"
+        yield f"{runs} settings of {'its' if status.changes == 1 else 'their'} own:"
+        for name, settings in status.changed:
+            yield f"  {name}  {shorten(settings, _MESSAGE, placeholder=' ...')}"
+        if (more := status.changes - LISTED) > 0:
+            yield f"  ... and {more} more"
 
 
 def _time_left(status: SweepStatus) -> str:

@@ -38,9 +38,11 @@ def _runs(path: Path) -> Iterator[Path]:
 def _finished(sweep: Path) -> list[Path]:
     """Directories of the finished runs of a sweep; the others are left out with a note."""
     try:
-        places = [sweep / run.directory for run in read_manifest(sweep / MANIFEST_NAME)]
+        runs = list(read_manifest(sweep / MANIFEST_NAME))
     except (ValueError, OSError) as error:
         refuse(str(error))
+    places = [sweep / run.directory for run in runs]
+    note_changed(sweep, sum(bool(run.changed) for run in runs))
     found = [place for place in places if run_state(place).state is State.DONE]
     note_missing(sweep, len(places) - len(found), len(places))
     return found
@@ -53,3 +55,10 @@ def note_missing(sweep: Path, missing: int, total: int) -> None:
             f"{sweep}: {missing} of {total} runs {'is' if missing == 1 else 'are'} not done and "
             f"left out; `viscontact status {sweep}` shows their states"
         )
+
+
+def note_changed(sweep: Path, changed: int) -> None:
+    """Print how many runs have settings of their own, and the command that lists them."""
+    if changed:
+        which = "run has settings of its" if changed == 1 else "runs have settings of their"
+        say(f"{sweep}: {changed} {which} own; `viscontact status {sweep}` shows them")

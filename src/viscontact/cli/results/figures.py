@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from viscontact.cli.results.compared_runs import compared_runs, note_missing
+from viscontact.cli.results.compared_runs import compared_runs, note_changed, note_missing
 from viscontact.cli.results.stored import early_end, opened, opened_steady
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
@@ -77,6 +77,8 @@ def _sweep(directory: Path, instants: list[float] | None) -> xr.Dataset:
         ds = open_many(directory)
     except (OSError, ValueError) as error:
         refuse(f"{directory}: {RESPONSE} is a figure of a sweep: {error}")
+    if "changed" in ds:
+        note_changed(directory, int((ds["changed"] != "").sum()))
     note_missing(directory, int((ds["state"] != State.DONE.value).sum()), ds["state"].size)
     return ds
 

@@ -60,6 +60,11 @@ class JointLayout:
         return [n for n, each in enumerate(self.states) if each.state is State.DONE]
 
     @property
+    def has_changed(self) -> bool:
+        """True if any run has settings of its own."""
+        return any(each.changed for each in self.runs)
+
+    @property
     def scalar_dims(self) -> tuple[str, ...]:
         """Dimensions of a scalar."""
         return (*self.axes.dims, self.time_dim)
@@ -103,6 +108,9 @@ class JointLayout:
             "state": ([each.state.value for each in self.states], "state of the run"),
             "message": ([each.message for each in self.states], "reason why the run has no result"),
         }
+        if self.has_changed:
+            own = [each.own_settings for each in self.runs]
+            about["changed"] = (own, "settings of the run alone")
         texts = {
             name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
             for name, (values, title) in about.items()

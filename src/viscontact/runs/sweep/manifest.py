@@ -46,6 +46,20 @@ class SweepRun:
         """
         return tuple(f"{key}={value}" for key, value in self.settings.items())
 
+    @property
+    def own_settings(self) -> str:
+        """Settings that were given, or left out, for this run alone; empty without any.
+
+        >>> settings = {"load.force": "5 kN", "grid.size": "[9 mm, 9 mm]"}
+        >>> changed = ("grid.size", "grid.largest_cell")
+        >>> SweepRun(0, "", "a", settings, (), "a.yaml", "grid", changed).own_settings
+        'grid.size=[9 mm, 9 mm], without grid.largest_cell'
+        """
+        return ", ".join(
+            f"{key}={self.settings[key]}" if key in self.settings else f"without {key}"
+            for key in self.changed
+        )
+
 
 def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
     """Write the manifest of a sweep atomically, and return its path; the directory is made."""

@@ -38,7 +38,8 @@ def open_many(directory: str | Path, *, tree: bool = False) -> xr.Dataset | xr.D
         ``step`` and the coordinate ``time`` over both, filled up with NaN; nothing is
         interpolated. The variables ``state`` (waiting, running, stopped, failed or done) and
         ``message`` belong to each run; scalars and fields are NaN unless it is done. Fields are
-        included if all finished runs store them at the same instants on the same grid.
+        included if all finished runs store them at the same instants on the same grid. If any run
+        was computed with settings of its own, ``changed`` has them as text, empty for the others.
 
     Raises
     ------

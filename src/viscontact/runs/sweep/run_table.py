@@ -32,7 +32,8 @@ def write_run_table(layout: JointLayout, file: IO[str], progress: Progress) -> N
             state = layout.states[run]
             about = (run, layout.runs[run].name, *(each[run].item() for each in along))
             scalars = _scalars(layout, names, values[run - runs.start])
-            writer.writerow([*about, state.state.value, *scalars, state.message])
+            changed = [layout.runs[run].own_settings] if layout.has_changed else []
+            writer.writerow([*about, state.state.value, *scalars, *changed, state.message])
         progress(runs.stop, len(layout.runs))
 
 
@@ -55,6 +56,8 @@ def _header(layout: JointLayout, names: list[str]) -> Iterator[str]:
             yield _with_unit(column, SCALARS[name].units)
             if error_name(name) in layout.columns:
                 yield _with_unit(f"error of {column}", SCALARS[name].units)
+    if layout.has_changed:
+        yield "changed"
     yield "message"
 
 

@@ -43,6 +43,9 @@ class SweepStatus:
     listed: dict[State, list[ListedRun]] = field(
         default_factory=lambda: {state: [] for state in _LISTED_STATES}
     )
+    #: Names and settings of the first runs that have settings of their own, and their number.
+    changed: list[tuple[str, str]] = field(default_factory=list)
+    changes: int = 0
     #: Sum of the finished parts of all runs; a failed run counts as ended.
     parts: float = 0.0
     #: Sum of the parts that are to be computed by waiting and running runs.
@@ -73,9 +76,13 @@ class SweepStatus:
         """True if no run is running or waiting."""
         return not (self.counts[State.RUNNING] or self.counts[State.WAITING])
 
-    def add(self, name: str, directory: Path) -> None:
+    def add(self, run: SweepRun, directory: Path) -> None:
         """Take a run into account."""
         found = run_state(directory)
+        if run.changed:
+            self.changes += 1
+            if len(self.changed) < LISTED:
+                self.changed.append((run.name, run.own_settings))
         state = found.state
         ended = state in (State.DONE, State.FAILED)
         part = 1.0 if ended else 0.0 if state is State.WAITING else finished_part(directory)
@@ -86,7 +93,7 @@ class SweepStatus:
         if state in (State.DONE, State.RUNNING):
             self.durations.extend(_durations(directory, state, part))
         if state in self.listed and len(self.listed[state]) < LISTED:
-            self.listed[state].append(ListedRun(name, found, part))
+            self.listed[state].append(ListedRun(run.name, found, part))
 
 
 def sweep_status(place: Path) -> SweepStatus:
@@ -97,7 +104,7 @@ def sweep_status(place: Path) -> SweepStatus:
     manifest = place if place.name == MANIFEST_NAME else place / MANIFEST_NAME
     status = SweepStatus()
     for run in _runs(manifest):
-        status.add(run.name, manifest.parent / run.directory)
+        status.add(run, manifest.parent / run.directory)
     return status
 
 
