@@ -120,6 +120,12 @@ def test_the_printed_command_names_all_options() -> None:
         (["--zip"], "--zip pairs the values of two --vary or more"),
         (["--zip", "--vary", "load.force=1N,2N"], "--zip pairs the values of two --vary"),
         (["--vary", "a=1,2", "--vary", "b=1", "--zip"], "--zip: pairs need equal numbers"),
+        (["--vary", "load.force=1N,2N,1000 mN"], "--vary load.force=1N and load.force=1000 mN are"),
+        (
+            ["--vary", "load.force=1N,1 N", "--vary", "time.end=1 s,1000 ms", "--zip"],
+            "--vary load.force=1N, time.end=1 s and load.force=1 N, time.end=1000 ms are equal",
+        ),
+        (["--scheduler", ""], "--scheduler: is empty; give the address or the file"),
         (["--sample", "4"], "--sample 4: name a range"),
         (["--range", "a=1:2"], "--range: goes with --sample N"),
         (["--vary", "load.force=1N,2N", "--seed", "0"], "--seed: goes with --sample N"),

@@ -144,7 +144,7 @@ def test_one_case_that_is_refused_keeps_all_from_beginning(
         (["--vary", "load.force=2N,,3N"], "--vary load.force=2N,,3N: write KEY=VALUE,VALUE,..."),
         (["--vary", "load.force=2N", "--vary", "load.force=3N"], "load.force: is given twice"),
         (["--vary", "load.force=2N", "--set", "load.force=3N"], "load.force: is given twice"),
-        (["--vary", "load.force=2N,2 N"], "2 of the runs would go there"),
+        (["--vary", "load.force=2N,2 N"], "force=2N and load.force=2 N are equal"),
         # one name where the case of letters does not count
         (["--vary", "load.force=2mN,2MN"], "2 of the runs would go there"),
         (["--vary", "load.force=2N,3N", "--resume", "--overwrite"], "give one of them"),

@@ -235,8 +235,11 @@ def test_further_runs_of_a_case_are_added_on_the_same_cells(tmp_path: Path) -> N
     assert set(done) < set(written.values())
     with pytest.raises(ValueError, match=r"has results with the time\.end of its case, not 2 s"):
         compute("0.05 N", "200mN", "0.4N", **{"time.end": "2 s"})
-    with pytest.raises(ValueError, match=r"2 of them would go to .*0.4N; give each once"):
+    with pytest.raises(ValueError, match=r"=0.4 N and load.force=400 mN are equal; give each once"):
         compute("0.05 N", "0.2 N", "0.4 N", "400 mN")
+    given = vc.vary(case, {"load.force": ["0.05 N", "0.2 N", "0.4 N"]})
+    with pytest.raises(ValueError, match=r"2 of them would go to .*0.4N; give each once"):
+        vc.simulate_many([*given, given[-1]], workers=1, directory=sweep)
 
 
 MPI = """\

@@ -126,14 +126,14 @@ def run(
         typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
     ] = 1,
     scheduler: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--scheduler",
             metavar="ADDRESS|FILE|local",
             help="Compute the runs on a Dask cluster: the address or the file of its scheduler; "
             "local starts -j N workers here.",
         ),
-    ] = "",
+    ] = None,
     threads: Threads = 1,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
@@ -161,7 +161,9 @@ def run(
                 seed,
                 None if method is None else method.value,
             )
-            request = ManyRequest(tuple(cases), common, options, jobs, scheduler)
+            if scheduler is not None and not scheduler.strip():
+                refuse("--scheduler: is empty; give the address or the file of one, or local")
+            request = ManyRequest(tuple(cases), common, options, jobs, scheduler or "")
             if scheduler and (task is not None or array is not None):
                 refuse("--scheduler computes the runs; --array and --task do not go with it")
             if task is not None:

@@ -14,7 +14,13 @@ from viscontact.case.yaml_source import SourceError, parse_value
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.processes.request import no_option
 from viscontact.runs.sweep.design_table import read_design
-from viscontact.runs.sweep.designs import NOTHING_VARIED, Design, grid_design, paired_design
+from viscontact.runs.sweep.designs import (
+    NOTHING_VARIED,
+    Design,
+    EqualValuesError,
+    grid_design,
+    paired_design,
+)
 from viscontact.runs.sweep.sampling import Method, Range, read_range, sample_design
 
 _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
@@ -113,6 +119,8 @@ class DesignOptions:
             return NOTHING_VARIED
         try:
             return paired_design(values) if self.zipped else grid_design(values)
+        except EqualValuesError as error:
+            refuse(f"--vary {error}")
         except ValueError as error:
             refuse(f"--zip: {error}; leave it out for all combinations")
 

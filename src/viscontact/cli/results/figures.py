@@ -174,7 +174,9 @@ def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float 
 
 
 def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
-    """Refuse a file of another format before any work is done for it."""
+    """Refuse a file of another format, or in no directory, before any work is done for it."""
+    if not file.absolute().parent.is_dir():
+        refuse(f"{file}: there is no directory {file.parent}")
     try:
         plot.require_suffix(file, suffixes)
     except ValueError as error:

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+
+from viscontact.runs.sweep.equal_values import comparable
+
+
+class EqualValuesError(ValueError):
+    """Values that are equal, however they are written, so that two runs would be the same."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +61,8 @@ def grid_design(values: Mapping[str, Sequence[str]]) -> Design:
     >>> found.settings(1), found.name(1)
     (('load.force=10 kN', 'grid.shape=[32, 32]'), 'force=10kN_shape=32-32')
     """
+    for key, given in values.items():
+        _refuse_equal((key,), [(value,) for value in given])
     return Design("grid", tuple(values), tuple(product(*values.values())))
 
 
@@ -68,7 +76,20 @@ def paired_design(values: Mapping[str, Sequence[str]]) -> Design:
     if len(set(count.values())) > 1:
         numbers = ", ".join(f"{number} of {key}" for key, number in count.items())
         raise ValueError(f"pairs need equal numbers of values, got {numbers}")
-    return Design("zip", tuple(values), tuple(zip(*values.values(), strict=True)))
+    rows = tuple(zip(*values.values(), strict=True))
+    _refuse_equal(tuple(values), rows)
+    return Design("zip", tuple(values), rows)
+
+
+def _refuse_equal(keys: Sequence[str], rows: Sequence[tuple[str, ...]]) -> None:
+    """Raise ValueError for two rows of equal values, which would be the same run twice."""
+    seen: dict[Hashable, str] = {}
+    for row in rows:
+        pairs = list(zip(keys, row, strict=True))
+        text = ", ".join(f"{key}={value}" for key, value in pairs)
+        before = seen.setdefault(tuple(comparable(key, value) for key, value in pairs), text)
+        if before is not text:
+            raise EqualValuesError(f"{before} and {text} are equal; give each once")
 
 
 def _short_names(keys: Sequence[str]) -> list[str]:

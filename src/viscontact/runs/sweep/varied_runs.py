@@ -25,7 +25,7 @@ from viscontact.runs.sweep.common_cells import (
     recorded_cells,
 )
 from viscontact.runs.sweep.design_table import read_design
-from viscontact.runs.sweep.designs import Design, grid_design, paired_design
+from viscontact.runs.sweep.designs import Design, EqualValuesError, grid_design, paired_design
 from viscontact.runs.sweep.extremes import extreme_rows
 from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.runs.sweep.sampling import (
@@ -192,7 +192,10 @@ def _design(
         found = _sample(values, runs, seed, method)
     else:
         texts = {key: _texts(key, given) for key, given in values.items()}
-        found = grid_design(texts) if design == "grid" else _pairs(texts)
+        try:
+            found = grid_design(texts) if design == "grid" else _pairs(texts)
+        except EqualValuesError as error:
+            raise ValueError(f"values: {error}") from None
     for key in fixed:
         if key in found.keys:
             raise ValueError(f"settings: {key}: is varied, too; leave one of them out")
@@ -202,6 +205,8 @@ def _design(
 def _pairs(texts: Mapping[str, Sequence[str]]) -> Design:
     try:
         return paired_design(texts)
+    except EqualValuesError:
+        raise
     except ValueError as error:
         raise ValueError(f"values: {error}; leave design='zip' out for all combinations") from None
 
