@@ -159,6 +159,10 @@ def test_the_printed_command_names_all_options() -> None:
             "--range load.force: cannot read '",
         ),
         (
+            ["--sample", "4", "--range", "load.force=1:4"],
+            "--range load.force: 1 has no unit, a force is wanted",
+        ),
+        (
             ["--sample", "16", "--range", "material.poisson_ratio=0.4:0.6"],
             " and 3 more]",
         ),

@@ -10,7 +10,10 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact.cli import main
+from viscontact.cli.many import single_task
+from viscontact.cli.terminal.messages import INTERRUPTED, stop
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.sweep.manifest import read_manifest
 
 CASE = """\
@@ -57,15 +60,18 @@ def test_a_setting_of_one_task_repairs_its_run_alone(
     said = capsys.readouterr().err.splitlines()
     path = Path("out") / MANIFEST_NAME
     change = f"viscontact run --task 1 {path} --set KEY=VALUE"
-    assert said[-2:] == [
+    again = "repeat the command with another value and --resume"
+    correct = f"to correct the load.force of ball_force=9N: {again}"
+    assert said[-3:] == [
         "1 of 3 runs failed: ball_force=9N",
+        correct,
         f"to change only ball_force=9N: {change}",
     ]
     done = written()
     assert sweep(*vary, *LARGER, "--resume") == 2
-    first, second = capsys.readouterr().err.splitlines()
+    first, *others = capsys.readouterr().err.splitlines()
     assert "ball_force=0.2N has results with the grid.size of its case, not [10 mm, 10 mm]" in first
-    assert second == f"to change only ball_force=9N: {change}"
+    assert others == [correct, f"to change only ball_force=9N: {change}"]
     kept = path.read_bytes()
     assert main([*task, "--set", "grid.sizes=[10 mm, 10 mm]"]) == 2
     assert main([*task, "--set", "load.force=1 N"]) == 2
@@ -119,6 +125,39 @@ def test_runs_with_settings_of_their_own_are_marked(
     assert "out: 1 run has settings of its own; `viscontact status" in capsys.readouterr().err
     assert main(["report", "out"]) == 0
     assert f"force=0.4N: with its own {own}" in Path("out/report.html").read_text(encoding="utf-8")
+
+
+def test_advice_to_add_runs_is_given_where_it_works(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "disc.yaml").write_text(CASE.replace("10 mm", "9 mm"), encoding="utf-8")
+    tasks(["--vary", "load.force=0.2 N,0.4 N"], 0)
+    other = ["--vary", "load.force=0.3 N"]
+    capsys.readouterr()
+    assert sweep(*other) == 2
+    assert "or add runs to it: with --resume, and all values of both" in capsys.readouterr().err
+    assert main(["run", "disc.yaml", "-o", "out", *other]) == 2
+    assert sweep("--vary", "grid.tolerance=1 %") == sweep(*LARGER, *other) == 2
+    said = capsys.readouterr().err
+    assert "holds another sweep" in said
+    assert "add runs" not in said
+
+
+def test_an_interrupted_task_is_continued_by_its_number(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tasks(["--vary", "load.force=0.2 N,0.4 N"], 0)
+
+    def interrupted(request: RunRequest) -> None:
+        stop("interrupted", f"continue with: {request.resuming}", code=INTERRUPTED)
+
+    monkeypatch.setattr(single_task, "execute", interrupted)
+    task = ["run", "--task", "1", "out/runs.jsonl"]
+    for options in ([], ["--threads", "2", "--quiet", "--resume"]):
+        capsys.readouterr()
+        assert main([*task, *options]) == INTERRUPTED
+        words = " ".join(["viscontact run --task 1", str(Path("out/runs.jsonl")), *options])
+        assert capsys.readouterr().err.splitlines()[-1] == f"continue with: {words}"
 
 
 def test_a_row_of_a_table_is_corrected_in_the_table(folder: Path) -> None:

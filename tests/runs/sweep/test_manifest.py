@@ -219,7 +219,8 @@ def test_runs_without_results_may_change_and_be_left_out(tmp_path: Path) -> None
     with pytest.raises(CommandError) as refused:
         other.continued(resume=True)
     place = tmp_path / MANIFEST_NAME
-    assert f"viscontact run --task 2 {place} --set KEY=VALUE" in refused.value.lines[1]
+    assert f"viscontact run --task 2 {place} --set KEY=VALUE" in refused.value.lines[2]
+    assert refused.value.lines[1].startswith("to correct the load.force of a_200N: repeat the")
     (tmp_path / "a_1N" / STATE_NAME).unlink()
     assert other.continued(resume=True).runs == other.runs
 

@@ -90,8 +90,18 @@ class DesignOptions:
         named = re.split(r"[:=\s]", rest, maxsplit=1)[0]
         if option != "--set" or not any(share_a_branch(named, key) for key in keys):
             return line
-        place = {"--table": f"{self.table}:", "--sample": "--range"}.get(self.option, "--vary")
+        if self.option == "--sample":
+            return self._as_range(named, rest)
+        place = {"--table": f"{self.table}:"}.get(self.option, "--vary")
         return f"{place}{blank}{rest}"
+
+    def _as_range(self, key: str, rest: str) -> str:
+        """Message about a sampled value of a key, with the bound that has no unit as typed."""
+        for text in self.ranges:
+            if key_of(text) == key:
+                low = text.partition("=")[2].partition(":")[0].strip()
+                rest = re.sub(r"(?<=: )[-+.\de]+(?= has no unit)", low, rest, count=1)
+        return f"--range {rest}"
 
     def _refuse_contradictions(self) -> None:
         given = {"--vary": self.varied, "--table": self.table, "--sample": self.sample is not None}

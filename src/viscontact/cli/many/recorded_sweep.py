@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NoReturn
@@ -13,7 +13,9 @@ from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.runs.sweep import continuation
 from viscontact.runs.sweep.case_digests import changed_since, with_digests
+from viscontact.runs.sweep.common_cells import KEY
 from viscontact.runs.sweep.continuation import OtherSweepError, continued, has_begun
+from viscontact.runs.sweep.equal_values import comparable
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import case_name
 
@@ -46,10 +48,10 @@ class RecordedSweep:
                     "replace it with --overwrite",
                     *replace(self, runs=self.earlier).change_of_failed(),
                 )
-            self._refuse_another()
+            self._refuse_another(is_added=error.is_left_out)
         is_new = found.runs != self.earlier
         if is_new and not resume and any_begun(self.directory, self.earlier):
-            self._refuse_another()
+            self._refuse_another(is_added=True)
         return found
 
     def with_digests(self, *, mixed: bool) -> RecordedSweep:
@@ -88,12 +90,23 @@ class RecordedSweep:
         except OSError as error:
             refuse(f"{self.directory / MANIFEST_NAME}: cannot be written: {error}")
 
-    def _refuse_another(self) -> NoReturn:
-        refuse(
+    def _refuse_another(self, *, is_added: bool) -> NoReturn:
+        """Refuse other runs; `is_added`: their difference does not prevent that they are added."""
+        holds = (
             f"{self.directory}: holds another sweep, the {len(self.earlier)} runs of its "
-            f"{MANIFEST_NAME}; choose another directory with -o DIR, replace it with "
-            "--overwrite, or add runs to it: with --resume, and all values of both"
+            f"{MANIFEST_NAME}; choose another directory with -o DIR"
         )
+        if is_added and self._is_alike:
+            refuse(
+                f"{holds}, replace it with --overwrite, or add runs to it: with --resume, and all "
+                "values of both"
+            )
+        refuse(f"{holds}, or replace it with --overwrite")
+
+    @property
+    def _is_alike(self) -> bool:
+        """True if the runs vary the same keys of the same cases as earlier ones."""
+        return set(map(_kind, self.runs)) <= set(map(_kind, self.earlier))
 
     @property
     def _same_sample(self) -> str:
@@ -110,8 +123,25 @@ class RecordedSweep:
                 path = self.directory / MANIFEST_NAME
                 words = ["--task", str(each.run), no_option(path), "--set", "KEY=VALUE"]
                 again = ["--overwrite"] if has_begun(place) else []
-                return [f"to change only {each.directory}: {command(*words, *again)}"]
+                alone = f"to change only {each.directory}: {command(*words, *again)}"
+                return [*_correction(each, place), alone]
         return []
+
+
+def _kind(run: SweepRun) -> tuple[Hashable, ...]:
+    """Case, design, varied keys, and settings that all runs of a sweep share."""
+    own = {*run.varied, *run.changed, f"grid.{KEY}"}
+    shared = {key: comparable(key, text) for key, text in run.settings.items() if key not in own}
+    return run.case, run.design, run.varied, frozenset(shared.items())
+
+
+def _correction(run: SweepRun, place: Path) -> list[str]:
+    """Line that says how a varied value of a failed run is corrected; empty where it cannot be."""
+    if not run.varied or run.design == "sample" or has_begun(place):
+        return []
+    keys = " or ".join(run.varied)
+    again = "repeat the command with another value and --resume"
+    return [f"to correct the {keys} of {run.directory}: {again}"]
 
 
 def recorded_runs(directory: Path | None) -> list[SweepRun]:

@@ -23,7 +23,7 @@ from viscontact.run_files import MANIFEST_NAME, RESULT_NAME, STOP_NAME
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.execution.checked_run import checked_run
-from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.runs.sweep.case_digests import changed_since
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 
@@ -58,7 +58,7 @@ def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
     if common.settings:
         run = _changed(path, run, common)
     with _recorded_failure(directory):
-        _execute(_request(path, run, common), path.parent / STOP_NAME)
+        _execute(_request(path, run, common), path.parent / STOP_NAME, _again(path, run, common))
 
 
 @contextmanager
@@ -73,13 +73,28 @@ def _recorded_failure(directory: Path) -> Iterator[None]:
         raise
 
 
-def _execute(request: RunRequest, file: Path) -> None:
-    """Compute a run, which a file in the directory of the sweep may stop."""
+def _execute(request: RunRequest, file: Path, again: str) -> None:
+    """Compute a run, which a file in the directory of the sweep may stop.
+
+    Messages name the command of the task, `again`, in place of that of the run alone.
+    """
     if file.exists():
         stop(f"{file} asks the runs of this sweep to stop; remove it first", code=INTERRUPTED)
     with watched_interruption() as interruption:
         interruption.file = file
-        execute(request)
+        try:
+            execute(request)
+        except CommandError as end:
+            lines = tuple(line.replace(request.resuming, again) for line in end.lines)
+            raise CommandError(end.code, lines) from end
+
+
+def _again(path: Path, run: SweepRun, common: RunRequest) -> str:
+    """Command that continues a task; it keeps settings that were given before."""
+    words = ["--task", str(run.run), no_option(path)]
+    if common.threads != 1:
+        words += ["--threads", str(common.threads)]
+    return command(*words, *(["--quiet"] * common.quiet), *(["--resume"] * common.resume))
 
 
 def _refuse_changed_case(path: Path, run: SweepRun) -> None:

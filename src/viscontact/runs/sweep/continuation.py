@@ -18,7 +18,11 @@ _NAMED_BY_VALUES = ("grid", "zip")
 
 
 class OtherSweepError(ValueError):
-    """Run in the directory of a sweep that has results with other settings."""
+    """Run in the directory of a sweep that has results, with other settings or left out."""
+
+    def __init__(self, message: str, *, is_left_out: bool = False) -> None:
+        super().__init__(message)
+        self.is_left_out = is_left_out
 
 
 def recorded_runs(directory: Path) -> list[SweepRun]:
@@ -69,7 +73,9 @@ def continued(
         found.append(_kept(before, run) if change else _renumbered(before, run))
     for each in earlier:
         if each.directory not in kept and has_begun(directory / each.directory):
-            raise OtherSweepError(f"its run {each.directory} has results, and is none of these")
+            raise OtherSweepError(
+                f"its run {each.directory} has results, and is none of these", is_left_out=True
+            )
     return found
 
 
