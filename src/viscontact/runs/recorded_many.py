@@ -15,8 +15,13 @@ from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
 from viscontact.runs.recipes import Recipe, known_memory
-from viscontact.runs.sweep.case_digests import with_digests
-from viscontact.runs.sweep.continuation import OtherSweepError, continued, recorded_runs
+from viscontact.runs.sweep.case_digests import changed_since, with_digests
+from viscontact.runs.sweep.continuation import (
+    OtherSweepError,
+    continued,
+    has_begun,
+    recorded_runs,
+)
 from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import VariedRun, case_name, sweep_run
 
@@ -81,6 +86,8 @@ def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
     for run, recipe in zip(found, recipes, strict=True):
         _refuse_other_results(run, recipe, directory)
     pinned = with_digests(directory, found)
+    for before, now in zip(found, pinned, strict=True):
+        _refuse_changed_case(before, now, directory)
     if found != earlier:
         write_manifest(directory, pinned)
     return pinned
@@ -114,6 +121,17 @@ def _refuse_other_results(run: SweepRun, recipe: Recipe, directory: Path) -> Non
             f"{directory}: holds other runs: its {run.directory} has {change}; runs that are given "
             "as mappings are known by their position: keep their order and append others at the "
             "end, or choose another directory"
+        )
+
+
+def _refuse_changed_case(before: SweepRun, now: SweepRun, directory: Path) -> None:
+    """Raise ValueError for a run with results, by its digests of a case that has changed since."""
+    if before.digests == now.digests or not has_begun(directory / before.directory):
+        return
+    if parts := changed_since(directory, before):
+        raise ValueError(
+            f"{directory}: holds runs of the case {Path(before.case).name} before it changed: "
+            f"{', '.join(parts)}; choose another directory, or undo the change"
         )
 
 

@@ -291,6 +291,10 @@ def test_case_that_is_edited_during_the_runs_is_refused(tmp_path: Path) -> None:
     varied = vc.vary(case, {"load.force": ["0.1 N", "0.2 N"]})
     with pytest.raises(RuntimeError, match="has changed since the first run began: time; "):
         vc.simulate_many(varied, executor=Editing(case), directory=tmp_path / "sweep")
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "sweep").rglob("*")}
+    with pytest.raises(ValueError, match=r"holds runs of the case case.yaml before it changed: ti"):
+        vc.simulate_many(varied, executor=Broken(), directory=tmp_path / "sweep")
+    assert before == {path: path.stat().st_mtime_ns for path in (tmp_path / "sweep").rglob("*")}
     case.write_text(AUTOMATIC, encoding="utf-8")
     with ThreadPoolExecutor(1) as executor:
         ds = vc.simulate_many(varied, executor=executor, directory=tmp_path / "sweep")
