@@ -326,11 +326,14 @@ def test_number_of_workers_is_checked() -> None:
 
 
 ORPHANS = """\
+import sys
 import time
 import viscontact as vc
 
 def wait():
-    print("begun", flush=True)
+    # One write: print writes the end of its line apart, between which another may write.
+    sys.stdout.write("begun\\n")
+    sys.stdout.flush()
     time.sleep(1000)
 
 if __name__ == "__main__":
