@@ -44,6 +44,7 @@ def in_one_process(case: Path, directory: Path, count: int) -> tuple[float, floa
     """Wall-clock and CPU time [s] of all runs in this process."""
     settings = [f"load.force={force}" for force in forces(count)]
     names = [f"case_force={force}" for force in forces(count)]
+    directory.mkdir()
     perform(Task(RunRequest(case, settings=("load.force=1N",)), directory / "first", ""))
     began, used = time.perf_counter(), time.process_time()
     for name, setting in zip(names, settings, strict=True):
