@@ -11,6 +11,7 @@ from scipy.special import gamma
 
 from viscontact.laws import Maxwell as MaxwellLaw
 from viscontact.laws import PowerLaw, TabulatedCreep, TabulatedRelaxation, Zener
+from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
 from viscontact.time_integration.plan import plan_hereditary_integral
 from viscontact.time_integration.prony_approximation import as_exponentials
@@ -131,3 +132,17 @@ def test_a_measured_creep_compliance_is_used_as_it_is_and_a_modulus_converted():
     assert creep.law.inversion_error > 0.1
     assert creep.contact_compliance().inversion_error == 0.0
     assert relaxation.contact_compliance().inversion_error == relaxation.law.inversion_error > 0.0
+
+
+@pytest.mark.parametrize(
+    ("compliance", "is_elastic"),
+    [
+        (SeriesCompliance(1e-9, [], []), True),
+        (SeriesCompliance(1e-9, [1e-9], [1.0]), False),
+        (SeriesCompliance(0.0, [], [], fluidity=1e-9), False),  # a dashpot has no time of its own
+    ],
+)
+def test_a_body_is_elastic_without_creep_and_flow(
+    compliance: SeriesCompliance, is_elastic: bool
+) -> None:
+    assert compliance.is_elastic == is_elastic

@@ -37,7 +37,7 @@ def _check_mate(problem: Problem, motion: Motion) -> None:
     mate = problem.indenter_material
     if mate is None:
         return
-    if _is_elastic(mate.contact_compliance()):
+    if mate.contact_compliance().is_elastic:
         return
     if motion.rolling is None:
         raise ValueError(
@@ -56,10 +56,6 @@ def _check_mate(problem: Problem, motion: Motion) -> None:
             "motion.rolling: the indenter has no radius of curvature along the motion, so it "
             "cannot roll; use a round body, or make its material elastic and give rolling=False"
         )
-
-
-def _is_elastic(compliance: ContactCompliance) -> bool:
-    return isinstance(compliance, SeriesCompliance) and compliance.settled_after == 0
 
 
 def _way(motion: Motion) -> float:
@@ -81,7 +77,7 @@ def _circumference(problem: Problem, motion: Motion) -> float:
 def turn_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a roller whose material returns to the contact before it has recovered."""
     motion, mate = problem.motion, problem.indenter_material
-    if motion is None or mate is None or _is_elastic(mate.contact_compliance()):
+    if motion is None or mate is None or mate.contact_compliance().is_elastic:
         return {}
     turn = _circumference(problem, motion)
     left = left_after(mate.contact_compliance(), turn / motion.top_speed)

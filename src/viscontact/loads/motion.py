@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads.history import Control, Cycle, LoadHistory
+from viscontact.units.numbers import store
 
 #: Relative difference below which a kink of the path is taken at a kink of the load.
 SAME_TIME = 1e-9
@@ -81,10 +82,11 @@ class MovingLoad(LoadHistory):
     load: LoadHistory
     motion: Motion
 
-    @property
-    def control(self) -> Control:  # type: ignore[override]
-        """Quantity that the load prescribes."""
-        return self.load.control
+    #: Quantity that the load prescribes.
+    control: Control = field(init=False)
+
+    def __post_init__(self) -> None:
+        store(self, control=self.load.control)
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""

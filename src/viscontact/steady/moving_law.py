@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.steady.problem import SteadyProblem, is_elastic
+from viscontact.steady.problem import SteadyProblem
 from viscontact.time_integration.prony_approximation import as_exponentials
 
 #: Times of the exponentials that approximate a law, over the time in which half the contact is
@@ -72,7 +72,7 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
     if mate is None:
         return law
     compliance = mate.contact_compliance()
-    if problem.rolling and not is_elastic(compliance):
+    if problem.rolling and not compliance.is_elastic:
         curvature = problem.contact.indenter.curvatures[problem.axis]
         return _with_roller(law, compliance, 2 * np.pi / curvature, first, last)
     relaxed = _relaxed(compliance, last, "slides")

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory, LoadPoint
-from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -99,17 +98,10 @@ def constant_load(load: LoadHistory) -> LoadPoint:
     return held
 
 
-def is_elastic(compliance: ContactCompliance) -> bool:
-    """True for a body without creep."""
-    if not isinstance(compliance, SeriesCompliance):
-        return False
-    return not (compliance.amplitudes.size or compliance.fluidity)
-
-
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
     """Refuse a viscoelastic indenter that is not known to roll or slide, or that cannot roll."""
     mate = contact.indenter_material
-    if mate is None or is_elastic(mate.contact_compliance()):
+    if mate is None or mate.contact_compliance().is_elastic:
         return
     if rolling is None:
         raise ValueError(

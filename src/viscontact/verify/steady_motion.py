@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from functools import partial
 
 import xarray as xr
 
@@ -55,18 +56,6 @@ def _cylinder(speed: float, cells: int) -> tuple[Comparison, ...]:
     return with_mean_error(frictions), with_mean_error(widths)
 
 
-def _slow(cells: int) -> tuple[Comparison, ...]:
-    return _cylinder(0.01, cells)
-
-
-def _lossy(cells: int) -> tuple[Comparison, ...]:
-    return _cylinder(0.1, cells)
-
-
-def _fast(cells: int) -> tuple[Comparison, ...]:
-    return _cylinder(10.0, cells)
-
-
 def _fast_sphere(cells: int) -> tuple[Comparison, ...]:
     """Friction coefficient and approach; both limits are reached to 1e-6 at this speed."""
     speed, creep_rate = 1e5, _DELAYED / _TIME
@@ -98,7 +87,7 @@ CASES: tuple[Case, ...] = (
             Quantity("half width", "m", 1e-2, 2e-3),
         ),
         (32, 64, 128),
-        _slow,
+        partial(_cylinder, 0.01),
     ),
     Case(
         "cylinder in steady motion, V τ/a = 0.24",
@@ -108,7 +97,7 @@ CASES: tuple[Case, ...] = (
             Quantity("half width", "m", 3e-4, 1e-4),
         ),
         (32, 64, 128),
-        _lossy,
+        partial(_cylinder, 0.1),
     ),
     Case(
         "cylinder in fast steady motion, V τ/a = 40",
@@ -118,7 +107,7 @@ CASES: tuple[Case, ...] = (
             Quantity("half width", "m", 3e-5, 1e-5),
         ),
         (32, 64, 128),
-        _fast,
+        partial(_cylinder, 10.0),
     ),
     Case(
         "sphere in fast steady motion",

@@ -31,6 +31,11 @@ class ContactCompliance(CreepFunction):
         Zero for an elastic body, inf where it is unknown.
         """
 
+    @property
+    def is_elastic(self) -> bool:
+        """True of a body that is known neither to creep nor to flow."""
+        return False
+
     @abstractmethod
     def __add__(self, other: ContactCompliance) -> ContactCompliance:
         """Return the compliance of two bodies pressed on each other."""

@@ -79,6 +79,11 @@ class SeriesCompliance(ContactCompliance):
             times.append(self.instant / self.fluidity)
         return 5 * max(times, default=0.0)
 
+    @property
+    def is_elastic(self) -> bool:
+        """True without creep and flow."""
+        return not (self.amplitudes.size or self.fluidity)
+
     def scaled(self, factor: float) -> SeriesCompliance:
         """Return the compliance times a factor."""
         amplitudes = factor * self.amplitudes
