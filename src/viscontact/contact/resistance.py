@@ -20,7 +20,9 @@ def resistance_by_slope(
     indenter: Indenter,
     tilts: tuple[float, float],
 ) -> tuple[float, float]:
-    """Resistance along x and y [N] from the body's slopes under the pressure.
+    """Resistance along x and y [N] from the body's slopes under the pressure, means over each cell.
+
+    Where the body ends in a cell, the slope is the mean from its centre to the edge inside.
 
     Examples
     --------
@@ -33,17 +35,19 @@ def resistance_by_slope(
     (0.3, 0.0)
     """
     i, j = np.nonzero(pressure)
-    if i.size == 0:
-        return 0.0, 0.0
-    x, y, (dx, dy) = grid.x[i], grid.y[j], grid.cell_size
-    force = pressure[i, j] * grid.cell_area
+    x, y, cell = grid.x[i], grid.y[j], grid.cell_size
+    force, centre = pressure[i, j] * grid.cell_area, indenter.gap(x, y)
     found = []
-    for (shift_x, shift_y), cell, tilt in zip(((dx, 0.0), (0.0, dy)), (dx, dy), tilts, strict=True):
-        ahead, behind = (
-            indenter.gap(x + part * shift_x, y + part * shift_y) for part in (0.5, -0.5)
-        )
-        rise = np.nan_to_num(ahead - behind, posinf=0.0, neginf=0.0)
-        found.append(float(force @ (rise / cell - tilt)))
+    for along, tilt, (half_x, half_y) in (
+        (cell[0] / 2, tilts[0], (cell[0] / 2, 0.0)),
+        (cell[1] / 2, tilts[1], (0.0, cell[1] / 2)),
+    ):
+        behind, ahead = (indenter.gap(x + way * half_x, y + way * half_y) for way in (-1, 1))
+        inside = np.isfinite(behind), np.isfinite(ahead)
+        rise = np.where(inside[1], ahead, centre) - np.where(inside[0], behind, centre)
+        length = along * (inside[0] + inside[1].astype(float))
+        slope = np.divide(rise, length, out=np.zeros_like(rise), where=length > 0)
+        found.append(float(force @ (slope - tilt)))
     return found[0], found[1]
 
 

@@ -1,4 +1,4 @@
-"""Resistance of a half-space against a body in steady motion, in two forms."""
+"""Resistance of a half-space against a body in steady motion, by slope and by dissipation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.moving_domain import MovingDomain
-from viscontact.grid import Grid
+from viscontact.contact.resistance import reaches_end, resistance_by_slope
 from viscontact.indenters import Indenter
 
 #: Retardation lengths beyond so many half lengths of the contact: the dissipation is the more
@@ -42,42 +42,23 @@ class Resistance:
         return abs(self.by_slope - self.by_dissipation)
 
 
-def slope_force(
-    indenter: Indenter, grid: Grid, pressure: NDArray[np.float64], axis: int, tilt: float
-) -> float:
-    """Force against +x (axis 0) or +y: ∫ p (∂h/∂ξ - tilt) dA, with means of ∂h/∂ξ over cells [N].
-
-    Where the body ends in a cell, from the centre to the inner edge.
-    """
-    half = grid.cell_size[axis] / 2
-    x, y = grid.x[:, None], grid.y[None, :]
-    places = [(x + way * half, y) if axis == 0 else (x, y + way * half) for way in (-1, 0, 1)]
-    behind, middle, ahead = (indenter.gap(*place) for place in places)
-    first = np.where(np.isfinite(behind), behind, middle)
-    last = np.where(np.isfinite(ahead), ahead, middle)
-    length = half * (np.isfinite(behind).astype(float) + np.isfinite(ahead))
-    touched = (pressure > 0) & (length > 0)
-    slope = (last[touched] - first[touched]) / length[touched] - tilt
-    return float((pressure[touched] * slope).sum()) * grid.cell_area
-
-
 def resistance(
     indenter: Indenter,
     domain: MovingDomain,
     pressure: NDArray[np.float64],
-    tilt: float,
+    tilts: tuple[float, float],
     half_length: float,
 ) -> Resistance:
     """Resistance along the motion, of a pressure on the domain's cells [Pa].
 
-    `tilt` is the body's slope along the motion, `half_length` half the length of its spots [m].
+    `tilts` are those of the body along x and y, `half_length` is half the length of its spots [m].
     """
     whole = domain.expand_by_symmetry(pressure)
-    by_slope = slope_force(indenter, domain.grid, whole, domain.axis, tilt)
+    by_slope = resistance_by_slope(whole, domain.grid, indenter, tilts)[domain.axis]
     lost = float((pressure * domain.loss.apply(pressure)).sum())
     lost *= domain.grid.cell_area * domain.symmetry_count
-    ends = _reaches_end(indenter, domain.grid, whole)
-    return Resistance(by_slope, lost, _slope_weight(domain, half_length), at_end=ends)
+    at_end = reaches_end(whole, domain.grid, indenter)[domain.axis]
+    return Resistance(by_slope, lost, _slope_weight(domain, half_length), at_end=at_end)
 
 
 def _slope_weight(domain: MovingDomain, half_length: float) -> float:
@@ -98,13 +79,3 @@ def _lossy_length(domain: MovingDomain, half_length: float) -> float:
     loss = moving.amplitudes * turn / (1 + turn**2)
     total = float(loss.sum())
     return float(np.exp(loss @ np.log(moving.lengths) / total)) if total else 0.0
-
-
-def _reaches_end(indenter: Indenter, grid: Grid, pressure: NDArray[np.float64]) -> bool:
-    """True if there is pressure beside the body's end, where its slope has no limit."""
-    outside = np.isinf(indenter.gap(grid.x[:, None], grid.y[None, :]))
-    if not outside.any():
-        return False
-    near = np.pad(outside, 1)
-    beside = near[:-2, 1:-1] | near[2:, 1:-1] | near[1:-1, :-2] | near[1:-1, 2:]
-    return bool((pressure[beside] > 0).any())

@@ -6,12 +6,12 @@ import math
 
 from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.line_load import line_load, peak_line_load
-from viscontact.contact.resistance import is_even, reaches_end
+from viscontact.contact.resistance import is_even, reaches_end, resistance_by_slope
 from viscontact.contact.rim import Rim, mean_chords, trace_rim
 from viscontact.state import ContactState, Outcome
 from viscontact.steady.contact import SteadyContact
 from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.resistance import Resistance, resistance, slope_force
+from viscontact.steady.resistance import Resistance, resistance
 
 
 def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
@@ -28,7 +28,7 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
         problem.contact.indenter,
         contact.domain,
         contact.solution.values[0],
-        float(contact.solution.motion[1 + axis]),
+        _tilts(contact),
         float(chord) / 2,
     )
 
@@ -36,10 +36,15 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
 def force_across(problem: SteadyProblem, contact: SteadyContact) -> float:
     """Force across the motion [N]; NaN where the body ends there, unless the contact is even."""
     across, indenter, grid = 1 - problem.axis, problem.contact.indenter, contact.grid
-    pressure, tilt = contact.pressure, float(contact.solution.motion[1 + across])
+    pressure = contact.pressure
     if reaches_end(pressure, grid, indenter)[across] and not is_even(pressure)[across]:
         return math.nan
-    return slope_force(indenter, grid, pressure, across, tilt)
+    return resistance_by_slope(pressure, grid, indenter, _tilts(contact))[across]
+
+
+def _tilts(contact: SteadyContact) -> tuple[float, float]:
+    tilt_x, tilt_y = contact.solution.motion[1:].tolist()
+    return tilt_x, tilt_y
 
 
 def state_of(
