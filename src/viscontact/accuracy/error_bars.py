@@ -34,7 +34,6 @@ from viscontact.accuracy.levels import (
     rises_to_ends,
     spots_across,
 )
-from viscontact.accuracy.moving_bars import SOLVER_ERROR_FACTOR
 from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings, unbounded_peak
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
@@ -54,8 +53,9 @@ ZERO_WITHOUT_CONTACT = (
     *("peak_pressure", "mean_pressure", "peak_line_load"),
 )
 
-#: Of a moving contact those that are zero without contact, and those that are before the first one.
-RESISTANCES, LOSSES = ("resistance_x", "resistance_y"), ("motion_work", "dissipation", "heat")
+#: The same of a moving contact, and those that are zero before the first contact.
+ZERO_WITHOUT_MOVING_CONTACT = ("resistance_x", "resistance_y")
+ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,10 +133,16 @@ def error_bars_from(
     touching = _touching(history, found)
     _bound_by_first_contact(values, history, touching)
     apart = _certainly_separated(run, history, touching)
-    for name in (*ZERO_WITHOUT_CONTACT, *(RESISTANCES if run.problem.motion else ())):
+    for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
-    for name in LOSSES if run.problem.motion else ():
-        values[name][apart & ~np.logical_or.accumulate(touching)] = 0.0
+    if run.problem.motion is not None:
+        before = apart & ~np.logical_or.accumulate(touching)
+        for names, where in (
+            (ZERO_WITHOUT_MOVING_CONTACT, apart),
+            (ZERO_BEFORE_CONTACT, before),
+        ):
+            for name in names:
+                values[name][where] = 0.0
     warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
     return ErrorBars(values, warnings)
 
@@ -188,7 +194,7 @@ def _bar(
     cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
     relative = _around(cells * _over(by_cells, scale)) / cells
     relative += np.nan_to_num(_over(levels.by_steps, scale))
-    relative += SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
+    relative += run.problem.solver_error + run.hereditary.error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     return np.where(np.isnan(own), np.nan, bar)

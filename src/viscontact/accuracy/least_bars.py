@@ -9,12 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import straight_ends
 from viscontact.accuracy.coarser_runs import History, creeps
-from viscontact.accuracy.moving_bars import (
-    RESISTANCES,
-    SOLVER_ERROR_FACTOR,
-    entry_rise,
-    least_resistance_bar,
-)
+from viscontact.accuracy.moving_bars import RESISTANCES, entry_rise, least_resistance_bar
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
@@ -265,8 +260,7 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
     extent = np.nan_to_num(history[axis])
     slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(extent, TINY)
     lever = extent if name.startswith("eccentricity") else slope
-    tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
-    return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))
+    return np.asarray(np.where(extent > 0, run.problem.solver_error * lever, 0.0))
 
 
 def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:

@@ -10,9 +10,6 @@ from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
 
-#: Errors of the scalars, in tolerances of the solver, which bounds the gap.
-SOLVER_ERROR_FACTOR = 3.0
-
 #: Scalars that vanish for an elastic body.
 RESISTANCES = ("resistance_x", "resistance_y", "friction_coefficient", "motion_work")
 
@@ -28,7 +25,7 @@ def least_resistance_bar(run: RunSetup, name: str, history: History) -> Array:
     assert motion is not None
     extent = np.fmax(history["contact_length"], history["contact_width"])
     slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(np.nan_to_num(extent), TINY)
-    coefficient = np.where(extent > 0, SOLVER_ERROR_FACTOR * run.problem.tolerance * slope, 0.0)
+    coefficient = np.where(extent > 0, run.problem.solver_error * slope, 0.0)
     if name == "friction_coefficient":
         return np.asarray(coefficient)
     force = np.nan_to_num(history["force"]) * coefficient

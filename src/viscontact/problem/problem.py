@@ -26,6 +26,9 @@ from viscontact.units.numbers import as_real
 #: Range of tolerances [-]: smaller ones are below rounding, larger ones give no solution.
 FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
 
+#: Relative errors of the scalars in tolerances of the solver, which bounds the gap.
+SOLVER_ERROR_FACTOR = 3.0
+
 
 #: Edge of the cell of an automatic grid that is not chosen yet [m].
 UNKNOWN_CELL = 1e100
@@ -87,6 +90,11 @@ class Problem:
         if number is None or not FINEST_TOLERANCE <= number <= COARSEST_TOLERANCE:
             raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {self.tolerance!r}")
         object.__setattr__(self, "tolerance", number)
+
+    @property
+    def solver_error(self) -> float:
+        """Bound of the relative errors of scalars caused by the tolerance of the solver [-]."""
+        return SOLVER_ERROR_FACTOR * self.tolerance
 
     @property
     def bodies(self) -> tuple[Material, ...]:

@@ -11,9 +11,6 @@ from viscontact.steady.dataset import WITH_ERROR
 from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.resistance import Resistance
 
-#: Least relative error of a scalar, in tolerances of the solver.
-SOLVER_ERROR_FACTOR = 3.0
-
 #: Least relative errors of scalars, times the square of the cells across the contact.
 LEAST_ERRORS = {
     "contact_area": 1.0,
@@ -85,7 +82,7 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     cell, extents = rim.grid.cell_size, (rim.length, rim.width)
     free = [axis for axis in (0, 1) if not rim.grid.periodic[axis]] or [0, 1]
     square = max(min(extents[axis] / cell[axis] for axis in free), 1.0) ** 2
-    solver = SOLVER_ERROR_FACTOR * problem.contact.tolerance
+    solver = problem.contact.solver_error
     least = {
         name: (LEAST_ERRORS.get(name, 0.0) / square + solver) * abs(float(getattr(state, name)))
         for name in WITH_ERROR
@@ -108,7 +105,7 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
 
 def unknown_bars(problem: SteadyProblem) -> dict[str, float]:
     """Error bars of a contact without one on a coarser grid: NaN, but for what is prescribed."""
-    point, tolerance = problem.point, SOLVER_ERROR_FACTOR * problem.contact.tolerance
+    point, tolerance = problem.point, problem.contact.solver_error
     given = {"force": point.force, "approach": point.approach}
     given |= {"tilt_x": point.tilt_x, "tilt_y": point.tilt_y}
     known = {name: tolerance * abs(value) for name, value in given.items() if value is not None}
