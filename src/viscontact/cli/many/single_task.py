@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,7 +23,7 @@ from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.processes.request import RunRequest, command, no_option
-from viscontact.runs.sweep.case_digests import changed_since
+from viscontact.runs.sweep.case_digests import case_path, changed_since
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 
 
@@ -100,7 +99,8 @@ def _again(path: Path, run: SweepRun, common: RunRequest) -> str:
 def _refuse_changed_case(path: Path, run: SweepRun) -> None:
     if parts := changed_since(path.parent, run):
         refuse(
-            f"{_case(path, run)}: has changed since {path} was written: {', '.join(parts)}; "
+            f"{case_path(path.parent, run)}: has changed since {path} was written: "
+            f"{', '.join(parts)}; "
             "compute the changed case in a new directory, or, if runs of both cases are meant to "
             "be in this one, with --resume"
         )
@@ -118,7 +118,7 @@ def _changed(path: Path, run: SweepRun, common: RunRequest) -> SweepRun:
 
 def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:
     return RunRequest(
-        _case(path, run),
+        case_path(path.parent, run),
         path.parent / run.directory,
         common.overwrite,
         not common.overwrite,
@@ -126,10 +126,6 @@ def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:
         common.threads,
         common.quiet,
     )
-
-
-def _case(path: Path, run: SweepRun) -> Path:
-    return Path(os.path.normpath(path.parent / run.case))
 
 
 def _numbered(path: Path, number: int) -> SweepRun:
