@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,6 +135,15 @@ def axle_warnings(problem: Problem) -> dict[str, str]:
         for name, moves, repeats in zip("xy", problem.motion.moves, level, strict=True)
         if moves and not repeats and getattr(problem.load, f"tilt_{name}") is None
     ]
+    return free_tilt_warnings(free)
+
+
+def free_tilt_warnings(free: Sequence[str]) -> dict[str, str]:
+    """Warn of tilts along the motion, by name, that are free of moment.
+
+    >>> list(free_tilt_warnings(["tilt_y"]))
+    ['axle']
+    """
     if not free:
         return {}
     given = " and ".join(f"{name} = 0" for name in free)

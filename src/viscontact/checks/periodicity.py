@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -87,19 +87,22 @@ def check_endless(indenter: Indenter, grid: Grid | None) -> None:
             )
 
 
-def datum_warnings(grid: Grid, *, moving: bool = False) -> dict[str, str]:
+def datum_warnings(grid: Grid, undefined: Sequence[str]) -> dict[str, str]:
     """Warn that the approach has no datum on a grid that is periodic along one axis only.
 
-    >>> list(datum_warnings(Grid((1, 8), (1e-3, 1e-3), periodic=(True, False))))
+    It and all that follows from it, by name, is then `undefined`.
+
+    >>> list(datum_warnings(Grid((1, 8), (1e-3, 1e-3), periodic=(True, False)), ["approach"]))
     ['datum']
     """
     if grid.has_datum:
         return {}
-    undefined = "approach, work, dissipation, heat" if moving else "approach, work"
+    *others, last = undefined
+    named = f"{', '.join(others)} and {last} are" if others else f"{last} is"
     return {
         "datum": (
             f"the grid is periodic along {'xy'[grid.periodic.index(True)]} only, and {NO_DATUM}: "
-            f"{undefined} and loss per cycle are not defined (NaN)"
+            f"{named} not defined (NaN)"
         )
     }
 

@@ -28,7 +28,8 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     """Return the warnings, by kind, that hold for a whole run: law, conversion, chosen mesh."""
     problem = run.problem
     warnings = law_warnings(run.hereditary.error, problem.compliance.inversion_error)
-    warnings |= datum_warnings(run.grid, moving=problem.motion is not None)
+    lost = ("dissipation", "heat") if problem.motion is not None else ()
+    warnings |= datum_warnings(run.grid, ("approach", "work", *lost, "loss per cycle"))
     if run.mesh is not None:
         warnings |= run.mesh.warnings
     warnings |= axle_warnings(problem) | turn_warnings(problem) | row_warnings(problem)

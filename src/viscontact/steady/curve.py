@@ -18,8 +18,8 @@ from viscontact.checks.half_space_theory import (
 )
 from viscontact.checks.material import data_warnings, law_warnings
 from viscontact.checks.mesh import cells_across_spots, mesh_warnings
-from viscontact.checks.motion import edge_warnings
-from viscontact.checks.periodicity import NO_DATUM
+from viscontact.checks.motion import edge_warnings, free_tilt_warnings
+from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.singularities import strain_of
 from viscontact.contact.rim import Rim
 from viscontact.errors import ConvergenceError, DomainError
@@ -165,10 +165,7 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
     """Warnings, by kind, that hold for all speeds."""
     compliance, law = problem.contact.compliance, run.solver.law
     found = law_warnings(law.error, compliance.inversion_error)
-    if not run.grids[0].has_datum:
-        found["datum"] = (
-            f"the grid is periodic across the motion, and {NO_DATUM}: approach is not defined (NaN)"
-        )
+    found |= datum_warnings(run.grids[0], ("approach",))
     if run.tolerance_reached is not None:
         requested = problem.contact.automatic_grid
         assert requested is not None
@@ -188,11 +185,7 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
             "depend on the mesh"
         )
     if problem.tilts_freely:
-        name = f"tilt_{problem.along}"
-        found["tilt"] = (
-            f"the body is free to tilt along its motion, and turns until that moment vanishes; "
-            f"for a body on an axle give {name}=0.0"
-        )
+        found |= free_tilt_warnings([f"tilt_{problem.along}"])
     return found
 
 
