@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -98,9 +99,9 @@ def _again(path: Path, run: SweepRun, common: RunRequest) -> str:
 
 def _refuse_changed_case(path: Path, run: SweepRun) -> None:
     if parts := changed_since(path.parent, run):
+        case = os.path.relpath(case_path(path.parent, run))
         refuse(
-            f"{case_path(path.parent, run)}: has changed since {path} was written: "
-            f"{', '.join(parts)}; "
+            f"{case}: has changed since {path} was written: {', '.join(parts)}; "
             "compute the changed case in a new directory, or, if runs of both cases are meant to "
             "be in this one, with --resume"
         )
