@@ -10,8 +10,8 @@ loop, whose area is lost as heat in each cycle.
 # Two periods
 # -----------
 #
-# The amplitude is about the radius of the contact. Steps are a cell of way at most, shorter near
-# the turning points.
+# The amplitude is about the radius of the contact. The body moves by a cell a step at most, less
+# near the turning points.
 
 import warnings
 

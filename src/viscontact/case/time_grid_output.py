@@ -57,7 +57,7 @@ class Time(Section):
     spacing: Literal["uniform", "log", "adaptive", "cells"] = Field(
         default="uniform",
         description="adaptive: each step as long as the tolerance allows; cells: with a motion, "
-        "a cell of way each",
+        "a step for each cell that the body passes",
     )
     first: Duration | None = Field(
         default=None,

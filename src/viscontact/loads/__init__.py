@@ -4,8 +4,9 @@ from viscontact.loads.approach import ApproachHistory
 from viscontact.loads.force import ForceHistory
 from viscontact.loads.harmonic import HarmonicHistory, harmonic
 from viscontact.loads.history import LoadHistory, LoadPoint
+from viscontact.loads.reciprocation import Reciprocation, reciprocating
 from viscontact.loads.standard import ramp, step, triangle
-from viscontact.loads.travel import Reciprocation, Travel, reciprocating
+from viscontact.loads.travel import Travel
 
 __all__ = [
     "ApproachHistory",

@@ -15,6 +15,9 @@ from viscontact.units.numbers import store
 #: Relative difference below which a kink of the path is taken at a kink of the load.
 SAME_TIME = 1e-9
 
+#: Upper limit on the cells that the body passes.
+MOST_CELLS = 1_000_000
+
 
 class Motion(ABC):
     """Position of the body's axis over time, along x and y.
@@ -131,3 +134,19 @@ class MovingLoad(LoadHistory):
     def touches(self) -> NDArray[np.float64]:
         """Instants between kinks at which undeformed bodies come to touch, increasing [s]."""
         return self.load.touches
+
+
+def checked_rolling(rolling: bool | None) -> bool | None:
+    """Return whether the bodies roll; raise ValueError if that is not true, false or None."""
+    if rolling is None or isinstance(rolling, bool | np.bool_):
+        return None if rolling is None else bool(rolling)
+    raise ValueError(f"rolling must be true or false, got {rolling!r}")
+
+
+def refuse_long_path(cells: float) -> None:
+    """Raise ValueError if a path crosses too many cells to be stepped over one by one."""
+    if cells > MOST_CELLS:
+        raise ValueError(
+            f"times: the path crosses {cells:.3g} cells, and at most {MOST_CELLS} are stepped "
+            "over one by one; give times, or a shorter path"
+        )

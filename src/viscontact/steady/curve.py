@@ -176,8 +176,8 @@ def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
         )
     if run.solver.law.fluidity and not all(run.grids[0].periodic):
         found["fluid"] = (
-            "the material flows, so that the approach grows without limit with the way that the "
-            "body has come: approach is not defined (NaN), and displacement has an unknown constant"
+            "the material flows, so that the approach grows without limit with the distance "
+            "travelled: approach is not defined (NaN), and displacement has an unknown constant"
         )
     if compliance.instant == 0:
         found["instant"] = (

@@ -127,7 +127,7 @@ def _refuse_flow(law: MovingLaw, grid: Grid) -> None:
     if law.fluidity and not grid.has_datum:
         raise ValueError(
             "material: the material flows, and on a grid that is periodic across the motion the "
-            "resistance of a fluid grows without limit with the way that the body has come, so "
+            "resistance of a fluid grows without limit with the distance travelled, so "
             "that there is no steady state; use a solid, such as a Zener law, or a grid that is "
             "not periodic"
         )

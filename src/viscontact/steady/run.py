@@ -95,9 +95,8 @@ def steady(
 
         On chosen grids the fields of all speeds are on the smallest grid that holds their grids;
         beyond its own, pressure is 0, and gap and displacement are NaN. On a fluid the approach is
-        NaN: it grows without limit with the way that the body has come, and the displacement holds
-        an unknown constant. A line contact on a fluid
-        has no steady state and is refused.
+        NaN: it grows without limit with the distance travelled, and the displacement holds an
+        unknown constant. A line contact on a fluid has no steady state and is refused.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Times of a moving contact for which none are given: a cell of way each, and times at rest."""
+"""Times of a moving contact if none are given: one for each cell passed, and times at rest."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SAME_TIME = 1e-9
 
 @dataclass(frozen=True)
 class CellTimes:
-    """Request for steps of a cell of way up to an end [s], on a grid that is chosen later."""
+    """Request for a step for each cell passed, up to an end [s], on a grid that is chosen later."""
 
     end: float
 
