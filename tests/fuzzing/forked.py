@@ -15,7 +15,7 @@ from typing import NamedTuple
 from viscontact.cli import main
 
 #: What the commands import where they need it.
-LOADED = ("viscontact.cli.run.execution", "pint")
+LOADED = ("viscontact.cli.run.execution", "viscontact.cli.run.summary", "pint")
 
 _FORKS = multiprocessing.get_context("forkserver")
 _FORKS.set_forkserver_preload(["viscontact.cli.shell", *LOADED])

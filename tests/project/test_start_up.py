@@ -23,7 +23,11 @@ SLOW_PARTS = ("scipy.interpolate", "scipy.optimize", "scipy.special", "scipy.ndi
         ("import viscontact", (*HEAVY, "pydantic", "typer", "rich")),
         ("from viscontact.cli import main; main(['--help'])", HEAVY),
         ("from viscontact.cli import main; main(['run', '--help'])", HEAVY),
-        (f"from viscontact.case import read_case; read_case({str(CASE)!r})", SLOW_PARTS),
+        (
+            f"from viscontact.case import read_case; read_case({str(CASE)!r})",
+            (*SLOW_PARTS, "pint"),
+        ),
+        (f"from viscontact.cli import main; main(['check', {str(CASE)!r}])", ("xarray", "pint")),
         (
             "import viscontact as vc; vc.simulate",
             ("scipy.interpolate", "scipy.optimize", "pint", "rich"),

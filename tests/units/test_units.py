@@ -10,12 +10,14 @@ from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
+import pint
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import viscontact
 from viscontact.results.stated_errors import is_rounding_tilt
+from viscontact.units.common_units import COMMON_UNITS
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity
@@ -159,10 +161,22 @@ def test_tilt_is_rounding_by_what_it_moves_not_by_its_size() -> None:
     assert not is_rounding_tilt([np.nan, -5e-10], contact_length=[0.0, 1.0], approach=[0, 1e-8])
 
 
-def test_pint_is_imported_only_when_a_quantity_is_parsed() -> None:
-    code = "import sys, viscontact.units.parsing; print('pint' in sys.modules)"
+def test_pint_is_imported_only_for_a_unit_that_is_not_common() -> None:
+    code = (
+        "import sys\nfrom viscontact.units.parsing import parse_quantity\n"
+        "for text in ('5 mm', '2 um', '2 furlong'):\n"
+        "    print(parse_quantity(text, 'length'), 'pint' in sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
+    imported = [line.split()[1] for line in done.stdout.splitlines()]
+    assert imported == ["False", "False", "True"]
+
+
+@pytest.mark.parametrize("unit", COMMON_UNITS)
+def test_common_unit_has_the_value_and_dimension_that_pint_gives(unit: str) -> None:
+    factor, base = COMMON_UNITS[unit]
+    one = pint.get_application_registry()(unit if unit[0] != "/" else f"1 {unit}").to_base_units()
+    assert (float(one.magnitude), str(one.units)) == (factor, base)
 
 
 # A number that is formatted by so many digits and followed by an SI unit: "1.04e-09 m".

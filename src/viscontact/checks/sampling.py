@@ -78,9 +78,9 @@ class Sampling:
         As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
         """
         x, y = self.indenter.sample_points
-        missed = np.zeros(self.grid.shape)
-        if x.size:
-            missed = np.maximum(*(height_over_neighbours(self.open_gap, axis) for axis in (0, 1)))
+        if not x.size:
+            return np.zeros(self.grid.shape)
+        missed = np.maximum(*(height_over_neighbours(self.open_gap, axis) for axis in (0, 1)))
         places = [
             (along - lines[0]) / cell
             for along, lines, cell in zip(

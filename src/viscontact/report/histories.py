@@ -15,14 +15,13 @@ from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import (
-    MESH_DEPENDENT,
     NOT_DRAWN,
     drawn_values,
     errors_of,
     is_centred,
     lacks_curve,
 )
-from viscontact.results.variables import SCALARS, Place, shown_in
+from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
 from viscontact.units.formatting import format_compact, format_quantity, readable_unit
 
 Floats = NDArray[np.float64]

@@ -24,9 +24,8 @@ from viscontact.report.shown_fields import ShownFields
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.shown_scalars import is_long, shown_labels
-from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.results.summary import headline
-from viscontact.results.variables import Place
+from viscontact.results.variables import MESH_DEPENDENT, Place
 from viscontact.units.formatting import format_quantity
 
 _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))

@@ -19,6 +19,7 @@ from viscontact.results.variables import (
     LINES,
     OUTCOME_FLAGS,
     error_name,
+    field_axis,
     scalar_attributes,
     scalars_of,
 )
@@ -52,18 +53,6 @@ def to_dataset(
     if kept:
         dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields)))
     return dataset.assign_attrs(attributes)
-
-
-def field_axis(fields: str | Sequence[float]) -> str:
-    """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
-
-    Examples
-    --------
-    >>> field_axis("all"), field_axis([0.0, 2.0])
-    ('time', 'field_time')
-    """
-    # An array is not to be compared with a word.
-    return "time" if isinstance(fields, str) and fields == "all" else "field_time"
 
 
 def _coordinates(grid: Grid, times: NDArray[np.float64]) -> dict[str, Any]:

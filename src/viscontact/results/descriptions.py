@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
+import json
 import math
 from dataclasses import Field, fields, is_dataclass
 from inspect import isabstract
@@ -66,6 +68,15 @@ def describe(obj: Any) -> Any:
 def _is_left_out(item: Field[Any], obj: Any) -> bool:
     """True for a field that is recorded only if it differs from its default."""
     return item.metadata.get("recorded") == "if given" and getattr(obj, item.name) == item.default
+
+
+@functools.lru_cache(maxsize=8)
+def parse_case(text: str) -> dict[str, Any]:
+    """Parse the attribute ``case`` of a result; ValueError if it is no JSON object."""
+    case = json.loads(text)
+    if not isinstance(case, dict):
+        raise ValueError("the recorded case is no JSON object")
+    return case
 
 
 def rebuild(description: Any) -> Any:

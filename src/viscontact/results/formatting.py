@@ -6,8 +6,8 @@ import math
 
 import xarray as xr
 
-from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of
-from viscontact.results.variables import SCALARS
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import MESH_DEPENDENT, SCALARS
 from viscontact.units.formatting import ReadableUnit, format_number, format_quantity, readable_unit
 
 #: Significant digits of an error that are worth printing (GUM, 7.2.6); of a number in a table;

@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-import functools
-import json
 from typing import Any, Literal
 
 import xarray as xr
 
 from viscontact.grid import Grid
-from viscontact.results.descriptions import STORED_CLASSES, rebuild
+from viscontact.results.descriptions import STORED_CLASSES, parse_case, rebuild
 from viscontact.units.axis_flags import AxisFlags
-
-
-@functools.lru_cache(maxsize=8)
-def parse_case(text: str) -> dict[str, Any]:
-    """Parse the attribute ``case`` of a result; ValueError if it is no JSON object."""
-    case = json.loads(text)
-    if not isinstance(case, dict):
-        raise ValueError("the recorded case is no JSON object")
-    return case
 
 
 def case_of(ds: xr.Dataset) -> dict[str, Any]:

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
 
-#: Of a value whose stated error is infinite, and why it is.
-MESH_DEPENDENT = "depends on the mesh"
 #: In place of its curve over time.
 NOT_DRAWN = "not drawn: smaller cells give more"
+#: Why the stated error of a value is infinite.
 WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller cells give more"
 #: Exactly centred loads leave eccentricities of rounding size [m].
 _ROUNDING_ECCENTRICITY = 1e-12

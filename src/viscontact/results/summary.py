@@ -17,13 +17,12 @@ from viscontact.results.formatting import (
 )
 from viscontact.results.shown_scalars import is_shown, lacks_datum
 from viscontact.results.stated_errors import (
-    MESH_DEPENDENT,
     LargestError,
     errors_of,
     is_rounding,
     largest_error,
 )
-from viscontact.results.variables import SCALARS, scalars_with_error
+from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: Legend of the columns.

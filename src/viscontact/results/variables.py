@@ -7,7 +7,7 @@ the netCDF and CSV files, the tables, cards, pages and figures read the table.
 
 from __future__ import annotations
 
-from collections.abc import Container, Hashable
+from collections.abc import Container, Hashable, Sequence
 from dataclasses import dataclass
 from enum import Flag, auto
 from typing import Any
@@ -227,6 +227,9 @@ OUTCOME_FLAGS = {
     "flag_meanings": " ".join(outcome.name.lower() for outcome in Outcome),
 }
 
+#: Said of a value whose stated error is infinite.
+MESH_DEPENDENT = "depends on the mesh"
+
 _BAR = "half width of the error bar: inf where the value depends on the mesh, NaN where unknown"
 
 
@@ -263,3 +266,15 @@ def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     if errors and SCALARS[name].has_error:
         attributes["ancillary_variables"] = error_name(name)
     return attributes
+
+
+def field_axis(fields: str | Sequence[float]) -> str:
+    """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
+
+    Examples
+    --------
+    >>> field_axis("all"), field_axis([0.0, 2.0])
+    ('time', 'field_time')
+    """
+    # An array is not to be compared with a word.
+    return "time" if isinstance(fields, str) and fields == "all" else "field_time"

@@ -11,7 +11,7 @@ from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.grid import Grid
 from viscontact.meshing.elastic_estimate import ContactEstimate
-from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.simulation.setup import RunSetup

@@ -19,8 +19,9 @@ from viscontact.loads import LoadHistory
 from viscontact.loads.motion import Motion
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
-from viscontact.results.dataset import field_axis, to_dataset
+from viscontact.results.dataset import to_dataset
 from viscontact.results.enlarged_grid import enlargements
+from viscontact.results.variables import field_axis
 from viscontact.simulation.provenance import run_attributes
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import Progress, march_run

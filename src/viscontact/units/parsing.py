@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
+from viscontact.units.common_units import COMMON_UNITS
 from viscontact.units.dimensions import DIMENSIONS, OTHER_DIMENSIONS, Dimension
 from viscontact.units.formatting import quoted
 from viscontact.units.temperatures import ZERO_CELSIUS
@@ -24,7 +25,8 @@ _DEGREES = {
 
 _OFFSET = " above another zero"
 
-_COMMON_UNITS = (
+#: Units that an unknown one may have been meant to be.
+_SUGGESTED_UNITS = (
     *("nm", "um", "µm", "mm", "cm", "m", "in"),
     *("us", "ms", "s", "min", "h", "d"),
     *("uN", "mN", "N", "kN", "MN", "lbf"),
@@ -185,7 +187,7 @@ def _factor(unit: str, text: str, wanted: Dimension) -> float:
             f"cannot read {quoted(text)} as {wanted.name}: unknown unit {quoted(unit)}"
             f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
         ) from error
-    if base != _si_base(wanted.unit):
+    if base != _conversion(wanted.unit)[1]:
         raise ValueError(
             f"cannot read {quoted(text)} as {wanted.name} (got {_dimension_name(base)}); "
             f"write e.g. {wanted.example!r}"
@@ -196,6 +198,8 @@ def _factor(unit: str, text: str, wanted: Dimension) -> float:
 @functools.lru_cache(maxsize=256)
 def _conversion(unit: str) -> tuple[float, str]:
     """Factor of a unit to SI base units, and these."""
+    if unit in COMMON_UNITS:
+        return COMMON_UNITS[unit]
     plain = re.sub(r"[·×]", "*", unit)
     if plain.startswith("/"):
         plain = "1" + plain
@@ -205,7 +209,7 @@ def _conversion(unit: str) -> tuple[float, str]:
 
 
 def _nearest_unit(unit: str) -> str:
-    by_lower_case = {known.lower(): known for known in _COMMON_UNITS}
+    by_lower_case = {known.lower(): known for known in _SUGGESTED_UNITS}
     near = difflib.get_close_matches(unit.lower(), by_lower_case, n=1)
     return f" (did you mean {by_lower_case[near[0]]!r}?)" if near else ""
 
@@ -223,19 +227,14 @@ def _in_base_units(unit: Any) -> tuple[float, str]:
 
 def _dimension_name(base: str) -> str:
     base = base.removesuffix(_OFFSET)
-    known = {_si_base(d.unit): d.name for d in DIMENSIONS.values()}
-    known |= {_si_base(unit): name for unit, name in OTHER_DIMENSIONS.items()}
+    known = {_conversion(each.unit)[1]: each.name for each in DIMENSIONS.values()}
+    known |= {_conversion(unit)[1]: name for unit, name in OTHER_DIMENSIONS.items()}
     return known.get(base, f"a quantity in {base}" if base != "dimensionless" else "a plain ratio")
-
-
-@functools.lru_cache(maxsize=64)
-def _si_base(unit: str) -> str:
-    return _in_base_units(_registry().parse_units(unit))[1]
 
 
 @functools.lru_cache(maxsize=1)
 def _registry() -> Any:
-    # Half a second of unit definitions: only when a quantity is parsed.
+    # Half a second of unit definitions, for units that are not common.
     import pint
 
     return pint.UnitRegistry(cache_folder=None)

@@ -193,14 +193,19 @@ def check(
     settings: Settings = None,
 ) -> None:
     """Check a case, and estimate its size, its computing time and its results."""
-    from viscontact.cli.results.figures import chosen_width
-    from viscontact.cli.run.check import draw_body, print_forecast
+    from viscontact.cli.run.check import print_forecast
     from viscontact.runs.execution.checked_run import prepare
 
     if figure is not None and not plot:
         refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")
-    page = chosen_width(width, drawn=plot, switch="--plot")
+    page = None
+    if plot or width is not None:  # figures take a second to import
+        from viscontact.cli.results.figures import chosen_width
+
+        page = chosen_width(width, drawn=plot, switch="--plot")
     prepared = prepare(case, settings or [])
     expected = print_forecast(prepared)
     if plot:
+        from viscontact.cli.run.drawing import draw_body
+
         draw_body(prepared, expected, figure, page)

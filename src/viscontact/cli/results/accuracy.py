@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike
 
 from viscontact.results.formatting import format_bound
 from viscontact.results.stated_errors import (
-    MESH_DEPENDENT,
     WHY_MESH_DEPENDENT,
     largest_error,
 )
-from viscontact.results.variables import error_name
+from viscontact.results.variables import MESH_DEPENDENT, error_name
 
 #: First words of the description of an exact hereditary integral, which needs no line.
 _EXACT = "recursion, exact"

@@ -1,18 +1,14 @@
-"""Report and drawing of `check`."""
+"""Report of `check`."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from viscontact.case import CaseError
-from viscontact.cli.results.figures import plot_package, save
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.check_report import (
-    drawn_size,
     expectations,
     needs,
     verdict,
@@ -43,22 +39,6 @@ def print_forecast(prepared: PreparedRun) -> Forecast:
         console.print(title, soft_wrap=True)
         console.print(_listed(rows))
     return expected
-
-
-def draw_body(
-    prepared: PreparedRun,
-    expected: Forecast,
-    picture: Path | None,
-    width: str | float | None = None,
-) -> None:
-    """Draw the indenter on the grid and around it, with the expected contact shaded."""
-    plot, found, run = plot_package(), expected.estimate, prepared.run
-    contact = found and (found.centre_x, found.centre_y, found.length, found.width)
-    path = prepared.case.document.path
-    file = picture or path.with_name(f"{path.stem}-indenter.png")
-    size = drawn_size(run)
-    options = {"size": size, "contact": contact, "width": width}
-    save(plot, file, plot.draw_indenter, run.problem.indenter, **options)
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:

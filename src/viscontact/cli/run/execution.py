@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from viscontact.cli.run.summary import print_summary
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import refuse, say, stop
 from viscontact.cli.terminal.progress import shown_progress
@@ -34,6 +33,9 @@ def _ignore(line: str) -> None:
 
 def _print_summary(directory: Path) -> None:
     """Print the summary of a finished run; an output that cannot be written is no failure."""
+    # Its dataset takes half a second to import, here after the run instead of before it.
+    from viscontact.cli.run.summary import print_summary
+
     try:
         with printing():
             print_summary(directory)

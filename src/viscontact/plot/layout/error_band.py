@@ -14,7 +14,8 @@ from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.layout import style
-from viscontact.results.stated_errors import MESH_DEPENDENT, mesh_dependent
+from viscontact.results.stated_errors import mesh_dependent
+from viscontact.results.variables import MESH_DEPENDENT
 
 #: Legend texts: all bands are visible, some are, none is.
 BAND = "band: error estimate"

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.plot.layout.page import Width
 from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
 from viscontact.results.snapshots import Snapshot
-from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.results.variables import MESH_DEPENDENT
 
 
 def line_load(

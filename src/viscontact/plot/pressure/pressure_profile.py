@@ -15,7 +15,7 @@ from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves
 from viscontact.results.recorded_case import across_period
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.snapshots import Snapshot
-from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.results.variables import MESH_DEPENDENT
 
 
 def pressure_profile(

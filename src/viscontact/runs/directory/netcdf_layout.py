@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
-from viscontact.results.dataset import field_axis
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
     COORDINATES,
@@ -24,6 +23,7 @@ from viscontact.results.variables import (
     SCALARS,
     Variable,
     error_name,
+    field_axis,
     scalar_attributes,
     scalars_of,
     scalars_with_error,

@@ -11,7 +11,7 @@ import netCDF4
 import numpy as np
 
 from viscontact.grid import Grid
-from viscontact.results.recorded_case import parse_case
+from viscontact.results.descriptions import parse_case
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
 

@@ -1,0 +1,26 @@
+"""Drawing of the indenter of a checked case."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from viscontact.cli.results.figures import plot_package, save
+from viscontact.runs.check_report import drawn_size
+from viscontact.runs.forecast import Forecast
+from viscontact.runs.preparation import PreparedRun
+
+
+def draw_body(
+    prepared: PreparedRun,
+    expected: Forecast,
+    picture: Path | None,
+    width: str | float | None = None,
+) -> None:
+    """Draw the indenter on the grid and around it, with the expected contact shaded."""
+    plot, found, run = plot_package(), expected.estimate, prepared.run
+    contact = found and (found.centre_x, found.centre_y, found.length, found.width)
+    path = prepared.case.document.path
+    file = picture or path.with_name(f"{path.stem}-indenter.png")
+    size = drawn_size(run)
+    options = {"size": size, "contact": contact, "width": width}
+    save(plot, file, plot.draw_indenter, run.problem.indenter, **options)
