@@ -39,6 +39,11 @@ def demo(args: list[str]) -> int:
     return run(["-m", "viscontact", "demo", *args])
 
 
+def viscontact(args: list[str]) -> int:
+    """Run any command of viscontact: ./go viscontact run my.yaml."""
+    return run(["-m", "viscontact", *args], Path.cwd())
+
+
 def test(args: list[str]) -> int:
     """Run the tests in two processes; --slow adds the slow tests; other options go to pytest."""
     chosen = ["-m", ""] if "--slow" in args else []
@@ -118,6 +123,7 @@ BENCHMARKS = {
 
 TASKS = {
     "demo": demo,
+    "viscontact": viscontact,
     "test": test,
     "lint": lint,
     "docs": docs,
@@ -195,9 +201,9 @@ def clean() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name not in foreign}
 
 
-def run(args: list[str]) -> int:
-    """Run the Python of the environment and return its exit status as a shell does."""
-    child = subprocess.Popen([str(PYTHON), *args], cwd=ROOT, env=clean())
+def run(args: list[str], folder: Path = ROOT) -> int:
+    """Run the Python of the environment in a folder, and return its exit status as a shell does."""
+    child = subprocess.Popen([str(PYTHON), *args], cwd=folder, env=clean())
     # The child receives Ctrl-C, too; it finishes its step and saves: wait for it.
     signal.signal(signal.SIGINT, lambda *_: None)
     for name in ("SIGTERM", "SIGHUP"):
@@ -215,7 +221,7 @@ def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> in
     """Run the task named by the first argument, with the other arguments."""
     if not argv or argv[0] in ("-h", "--help"):
         print("usage: ./go TASK [ARGUMENTS]\n")
-        print("\n".join(f"  {name:6} {task.__doc__}" for name, task in TASKS.items()))
+        print("\n".join(f"  {name:10} {task.__doc__}" for name, task in TASKS.items()))
         return 0
     try:
         if argv[0] not in TASKS:

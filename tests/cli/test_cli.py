@@ -57,7 +57,7 @@ grid:
 """
 COMMANDS = (
     *("run", "check", "show", "export", "plot", "compare", "schema", "example", "demo"),
-    *("fit", "material", "report", "verify"),
+    *("fit", "material", "report", "verify", "doctor", "cite"),
 )
 
 

@@ -157,15 +157,29 @@ def test_an_unknown_task_is_refused_with_the_known_ones(
     go: ModuleType, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert go.main(["tset"]) == 2
-    assert "no task 'tset'; there are demo, test, lint" in capsys.readouterr().err
+    assert "no task 'tset'; there are demo, viscontact, test, lint" in capsys.readouterr().err
 
 
 def test_without_a_task_all_are_listed() -> None:
     said = subprocess.run(
         [sys.executable, ROOT / "go"], text=True, capture_output=True, check=True
     ).stdout
-    for task in ("demo", "test", "lint", "docs", "bench", "build", "lock"):
+    for task in ("demo", "viscontact", "test", "lint", "docs", "bench", "build", "lock"):
         assert re.search(rf"^  {task} +\w", said, re.MULTILINE)
+
+
+def test_commands_of_viscontact_run_where_they_are_typed(
+    go: ModuleType,
+    installer: Installer,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    ran: list[tuple[list[str], Path]] = []
+    monkeypatch.setattr(go, "run", lambda args, folder: ran.append((args, folder)) or 0)
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    monkeypatch.chdir(elsewhere)
+    assert go.main(["viscontact", "run", "my.yaml", "--help"]) == 0
+    assert ran == [(["-m", "viscontact", "run", "my.yaml", "--help"], elsewhere)]
 
 
 def test_arguments_reach_pytest_and_slow_means_all(

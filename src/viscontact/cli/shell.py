@@ -10,6 +10,7 @@ from viscontact import __version__
 from viscontact.cli.commands.cases import demo, example, schema
 from viscontact.cli.commands.drawing import compare, plot
 from viscontact.cli.commands.fitting import fit
+from viscontact.cli.commands.installation import cite, doctor
 from viscontact.cli.commands.materials import material
 from viscontact.cli.commands.running import check, run
 from viscontact.cli.commands.serving import serve
@@ -19,7 +20,6 @@ from viscontact.cli.commands.sweeps import collect, status
 app = typer.Typer(
     name="viscontact",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -43,6 +43,8 @@ _COMMANDS = (
     (report, "viscontact report heavier -o heavier.html"),
     (serve, "viscontact serve --dir my-runs"),
     (verify, "viscontact verify --fast"),
+    (doctor, "viscontact doctor"),
+    (cite, "viscontact cite --bibtex"),
 )
 for _command, _example in _COMMANDS:
     app.command(epilog=f"Example:  {_example}")(_command)

@@ -17,19 +17,10 @@ from viscontact import __version__
 from viscontact.notebook.html import element
 from viscontact.report import accuracy, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
+from viscontact.results.citation import citations
 from viscontact.results.summary import LEGEND
 from viscontact.run_files import CASE_NAME
 from viscontact.units.formatting import format_quantity
-
-#: Citation of the package, as in CITATION.cff, which installed packages lack.
-_PACKAGE = (
-    "The viscontact developers: viscontact: contact of creeping bodies. Version {version}, MIT."
-)
-#: The paper that it grew from.
-_PAPER = (
-    "Spinu, S.; Cerlinca, D.: Viscoelastic contact modelling: application to the finite length "
-    "line contact. 2018."
-)
 
 
 def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
@@ -115,7 +106,7 @@ def about_chapter(ds: xr.Dataset) -> Iterator[Element]:
     yield _account(lines)
     yield element("h3", "How to cite")
     yield element("p", "If this result is published, please cite the program and the paper:")
-    cited = (element("li", text) for text in (_PACKAGE.format(version=version), _PAPER))
+    cited = (element("li", text) for text in citations(version))
     yield element("ul", *cited)
 
 

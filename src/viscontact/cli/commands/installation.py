@@ -1,0 +1,63 @@
+"""`doctor` and `cite`: the installation, and how to cite it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from viscontact import __version__
+
+
+def doctor() -> None:
+    """Print what is installed and what this machine offers, for a report of a problem."""
+    import platform
+    import sys
+
+    from rich.console import Console
+    from rich.table import Table
+
+    from viscontact.fourier import fastest_transforms
+    from viscontact.runs.machine.cores import usable_cores
+    from viscontact.runs.machine.memory import available_memory
+    from viscontact.runs.machine.packages import packages
+
+    rows = [
+        ("viscontact", __version__),
+        ("Python", f"{platform.python_version()}, {sys.executable}"),
+        ("system", platform.platform()),
+        ("cores", str(usable_cores())),
+        ("free memory", f"{available_memory() / 1e9:.3g} GB"),
+        ("Fourier transforms", fastest_transforms()),
+    ]
+    missing: dict[str, list[str]] = {}
+    for package in packages():
+        if package.installed is None:
+            missing.setdefault(",".join(package.extras[:1]), []).append(package.name)
+        extra = f" ({', '.join(package.extras)})" if package.extras else ""
+        rows.append((package.name, f"{package.installed or 'not installed'}{extra}"))
+    table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
+    for row in rows:
+        table.add_row(*row)
+    console = Console()
+    console.print(table, highlight=False)
+    for extra, names in missing.items():
+        wanted = f"viscontact[{extra}]" if extra else "viscontact"
+        console.print(
+            f"{', '.join(names)} missing; to install: pip install '{wanted}'",
+            highlight=False,
+            markup=False,
+            soft_wrap=True,
+        )
+
+
+def cite(
+    bibtex: Annotated[bool, typer.Option("--bibtex", help="As BibTeX.")] = False,
+) -> None:
+    """Print how to cite the program and the paper on which it is based."""
+    from viscontact.results import citation
+
+    if bibtex:
+        print(citation.bibtex(__version__))
+        return
+    print("\n".join(citation.citations(__version__)))
