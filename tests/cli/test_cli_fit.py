@@ -70,6 +70,70 @@ def test_several_temperatures_give_shift_factors_and_the_law_at_any_of_them(sets
     np.testing.assert_allclose(at_17, wanted, rtol=0.03)
 
 
+@pytest.fixture
+def contradiction(tmp_path: Path) -> Path:
+    """Losses on another scale than the storage."""
+    omega = np.geomspace(0.01, 100.0, 25)
+    modulus = E.complex_modulus(omega) / 1e6
+    heads = ("omega [rad/s]", "E' [MPa]", "E'' [MPa]")
+    return written(tmp_path / "dma.csv", heads, omega, modulus.real, 5 * modulus.imag)
+
+
+def test_a_fit_that_misses_its_data_warns_and_says_so_in_the_written_law(
+    contradiction, relaxation, tmp_path, capsys
+):
+    out = tmp_path / "m.yaml"
+    command = ["--poisson-ratio", "0.3", "--yaml", str(out)]
+    assert main(["fit", str(contradiction), *command]) == 0
+    printed = capsys.readouterr()
+    [warning] = printed.err.splitlines()
+    assert warning.startswith("warning: the fit misses storage by ")
+    assert "Kramers-Kronig" in warning
+    assert "weights of the relative residuals: storage " in printed.out
+    comment = out.read_text(encoding="utf-8")
+    assert comment.startswith("material:\n  # warning: the fit misses storage by ")
+    assert isinstance(read_material(out).law, RelaxationSeries)
+    assert main(["fit", str(relaxation), *command]) == 0
+    assert capsys.readouterr().err == ""
+    assert "warning" not in out.read_text(encoding="utf-8")
+
+
+def test_weights_are_those_given_for_a_table_and_for_a_master_curve(
+    contradiction, tmp_path, capsys
+):
+    text = contradiction.read_text(encoding="utf-8").splitlines()
+    rows = [f"{row},{celsius}" for celsius in (20, 25) for row in text[1:]]
+    several = tmp_path / "several.csv"
+    several.write_text("\n".join([f"{text[0]},T [°C]", *rows]), encoding="utf-8")
+    for file in (contradiction, several):
+        command = ["fit", str(file), "--poisson-ratio", "0.3", "--weight", "storage=20"]
+        assert main(command) == 0
+        printed = capsys.readouterr().out
+        assert "weights of the relative residuals: storage 20, loss 1\n" in printed
+        [residual] = [line for line in printed.splitlines() if "relative residual " in line]
+        assert float(residual.split()[2]) < 0.05
+
+
+@pytest.mark.parametrize(
+    ("weight", "said"),
+    [
+        ("storage", "--weight: 'storage' is not a weight; write e.g. storage=2"),
+        ("compliance=2", "weights are those of storage and loss, got one of 'compliance'"),
+        ("storage=-1", "the weight of storage must be above 0, got -1.0"),
+    ],
+)
+def test_weights_that_cannot_be_used_are_refused(weight, said, contradiction, capsys):
+    command = ["fit", str(contradiction), "--poisson-ratio", "0.3", "--weight", weight]
+    assert main(command) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_weights_of_a_single_column_are_refused(relaxation, capsys):
+    command = ["fit", str(relaxation), "--poisson-ratio", "0.3", "--weight", "modulus=2"]
+    assert main(command) == 2
+    assert "of modulus alone, all rows have the same weight" in capsys.readouterr().err
+
+
 def test_an_indentation_record_gives_its_material(tmp_path, capsys):
     t = np.linspace(0.0, 4.0, 41)
     d = 1e-6 * np.minimum(t, 4 - t) / 2

@@ -68,6 +68,7 @@ def oscillating():
     return 1.0 + (a**2 / (1 + a**2)) @ KNOWN_STRENGTHS, (a / (1 + a**2)) @ KNOWN_STRENGTHS
 
 
+@pytest.mark.filterwarnings("ignore:the fit misses")
 @pytest.mark.parametrize("seed", range(3))
 def test_each_column_of_an_oscillation_weighs_by_the_inverse_of_its_scatter(seed):
     """The best linear estimate (Aitken 1936) of both moduli is better than the better column.
@@ -126,6 +127,7 @@ def test_oscillation_and_relaxation_of_a_power_law_agree_on_the_law():
     np.testing.assert_allclose(one.relaxation(between), between**-n, rtol=2e-3)
 
 
+@pytest.mark.filterwarnings("ignore:the fit misses")
 def test_a_given_number_of_terms_is_kept_and_more_never_fit_worse():
     measured = scattered(relaxing(T, 1.0), 0.01, 3)
     fits = [fit_relaxation(T, measured, data="shear", terms=n) for n in range(6)]

@@ -108,3 +108,18 @@ def test_an_indentation_fit_shows_record_and_residuals(given, tmp_path):
     np.testing.assert_allclose(rest.lines[1].get_ydata(), 100 * fit.residuals)
     assert over_time.get_ylabel() == ("Force [µN]" if given == "approach" else "Approach [µm]")
     save_figure(figure, tmp_path / "record.png")
+
+
+@pytest.mark.filterwarnings("ignore:the fit misses")
+def test_a_misfit_and_its_reason_stand_above_the_figure():
+    omega = np.geomspace(0.01, 100.0, 15)
+    modulus = LAW.complex_modulus(omega)
+    missing = fit_dynamic(omega, modulus.real, 5 * modulus.imag, data="shear")
+    heading = fitted_series(missing).axes[0].get_title(loc="left")
+    assert heading.endswith("Misses the data: no series has such storage and loss together")
+    meeting = fit_dynamic(omega, modulus.real, modulus.imag, data="shear")
+    assert fitted_series(meeting).axes[0].get_title(loc="left") == ""
+    isotherm = Isotherm(293.15, omega, missing.measured)
+    curve = build_master_curve([isotherm], 293.15, WLF(293.15, 12.0, 70.0))
+    panel = master_curve(curve, fit=missing).axes[2]
+    assert "Misses the data" in panel.get_title(loc="left")

@@ -10,6 +10,7 @@ from viscontact.identification.master_curve import (
     fit_master_curve,
 )
 from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.identification.quality import Misfit, Reason
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.section import material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
@@ -20,6 +21,8 @@ __all__ = [
     "IndentationRecord",
     "Isotherm",
     "MasterCurve",
+    "Misfit",
+    "Reason",
     "ShiftFit",
     "build_master_curve",
     "fit_arrhenius",

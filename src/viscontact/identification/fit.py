@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
+from viscontact.identification.quality import Misfit
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 Array = NDArray[np.float64]
@@ -36,6 +37,11 @@ class Fit(Displayable):
     measured : mapping of str to ndarray
         The measured columns by name: ``compliance`` [1/Pa], ``modulus`` [Pa], or ``storage``
         and ``loss`` [Pa].
+    weights : mapping of str to float
+        Weight of the relative residuals of each of these columns [-].
+    misfit : Misfit or None
+        Size, reason and remedy of a misfit beyond 10 % (root mean square) or 25 % (largest) of a
+        column; None for a fit within these limits.
     poisson_ratio, bulk_modulus : float or None
         Bulk behaviour used to convert uniaxial data [-, Pa].
 
@@ -53,6 +59,8 @@ class Fit(Displayable):
     data: str
     points: Array
     measured: Mapping[str, Array]
+    weights: Mapping[str, float]
+    misfit: Misfit | None = None
     poisson_ratio: float | None = None
     bulk_modulus: float | None = None
 
@@ -112,8 +120,16 @@ class Fit(Displayable):
             f"at {points[0]:.4g} to {points[-1]:.4g} {unit}\n"
             f"     relative residual {self._rms()} (root mean square), "
             f"largest {largest:.2e} ({column}, row {row})\n"
+            f"{self._weights()}"
             f"     {_in_short(self.law)}"
         )
+
+    def _weights(self) -> str:
+        """Line with the weights, where there are several columns."""
+        if len(self.weights) == 1:
+            return ""
+        each = ", ".join(f"{name} {value:.3g}" for name, value in self.weights.items())
+        return f"     weights of the relative residuals: {each}\n"
 
     def _rms(self) -> str:
         """Root mean square in words, of each column where there are two."""

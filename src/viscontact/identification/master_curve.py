@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Unpack
 
@@ -15,8 +15,9 @@ from viscontact.identification.columns import positive_column, require_trend
 from viscontact.identification.fit import Fit
 from viscontact.identification.isotherm import KINDS_OF_TEST, Isotherm
 from viscontact.identification.overlap import log_shift
-from viscontact.identification.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
+from viscontact.identification.prony import FitOptions
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+from viscontact.identification.table_fit import fit_measured
 from viscontact.laws import Shift, TabulatedShift
 
 Array = NDArray[np.float64]
@@ -168,13 +169,20 @@ def build_master_curve(
     return MasterCurve(float(reference), ordered, factors, mismatches, found)
 
 
-def fit_master_curve(curve: MasterCurve, **options: Unpack[FitOptions]) -> Fit:
+def fit_master_curve(
+    curve: MasterCurve,
+    *,
+    weights: Mapping[str, float] | None = None,
+    **options: Unpack[FitOptions],
+) -> Fit:
     """Return the Prony series of a master curve.
 
     Parameters
     ----------
     curve : MasterCurve
         From `build_master_curve`.
+    weights : mapping of str to float, optional
+        Those of `fit_dynamic`, for an oscillation.
     **options
         Those of `fit_creep`, `fit_relaxation` or `fit_dynamic`, by the kind of test; `data` is
         needed.
@@ -196,12 +204,7 @@ def fit_master_curve(curve: MasterCurve, **options: Unpack[FitOptions]) -> Fit:
     >>> bool(abs(fit.law(1e4) / (1e-9 * 1e5**0.2) - 1) < 0.02)
     True
     """
-    points, measured = curve.points, curve.measured
-    if "compliance" in measured:
-        return fit_creep(points, measured["compliance"], **options)
-    if "modulus" in measured:
-        return fit_relaxation(points, measured["modulus"], **options)
-    return fit_dynamic(points, measured["storage"], measured["loss"], **options)
+    return fit_measured(curve.points, curve.measured, weights=weights, **options)
 
 
 def _ordered(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Mapping
 from typing import Required, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.errors import AccuracyWarning
 from viscontact.identification.columns import positive_column, require_rows, require_trend
 from viscontact.identification.conventions import CREEP, MODULI, bulk_arguments, shear_law
 from viscontact.identification.fit import Fit
+from viscontact.identification.quality import Misfit, misfit_of
 from viscontact.identification.responses import (
     CreepResponse,
     DynamicResponse,
@@ -19,10 +23,10 @@ from viscontact.identification.spectrum import (
     Observed,
     Spectrum,
     parsimonious_spectrum,
-    scatter_weighted,
     spectrum_of,
     unweighted,
 )
+from viscontact.identification.weights import given_weights, scatter_weights, weighted
 from viscontact.laws import CreepSeries, RelaxationSeries
 from viscontact.units.numbers import whole
 
@@ -31,7 +35,7 @@ _EXCESS, _TOLERANCE = 1.05, 1e-3
 
 
 class FitOptions(TypedDict, total=False):
-    """Options of `fit_creep`, `fit_relaxation` and `fit_dynamic`."""
+    """Options that `fit_creep`, `fit_relaxation` and `fit_dynamic` have in common."""
 
     data: Required[str]
     poisson_ratio: float | None
@@ -90,6 +94,12 @@ def fit_creep(
         If a value is no positive number, naming its row; if the compliance falls as a whole; if
         an option is out of range.
 
+    Warns
+    -----
+    AccuracyWarning
+        If the series misses the data by more than 10 % (root mean square) or 25 % (largest), with
+        the reason; `Fit.misfit` keeps it.
+
     Notes
     -----
     Phi(t) = J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t with J_0, J_i, φ >= 0 minimises the sum of
@@ -113,13 +123,14 @@ def fit_creep(
     make = shear_law(owner, CREEP, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(CreepResponse(instants, fluid), values)
-    found = _found(owner, observed, terms, excess, tolerance)
+    found, misfit = _found(owner, observed, ("compliance",), terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
         float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
     )
     law = make(series.instant, series.amplitudes, series.times, series.fluidity, **volume)
-    return Fit(law, series, data, instants, {"compliance": values}, **volume)
+    measured, weights = {"compliance": values}, {"compliance": 1.0}
+    return Fit(law, series, data, instants, measured, weights, misfit, **volume)
 
 
 def fit_relaxation(
@@ -161,6 +172,11 @@ def fit_relaxation(
     ValueError
         As in `fit_creep`, or if the modulus rises as a whole.
 
+    Warns
+    -----
+    AccuracyWarning
+        As in `fit_creep`.
+
     Notes
     -----
     As in `fit_creep`, with G(t) = G_inf + sum G_i exp(-t/τ_i).
@@ -183,10 +199,11 @@ def fit_relaxation(
     make = shear_law(owner, MODULI, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(RelaxationResponse(instants, fluid), values)
-    found = _found(owner, observed, terms, excess, tolerance)
+    found, misfit = _found(owner, observed, ("modulus",), terms, excess, tolerance)
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
-    return Fit(law, series, data, instants, {"modulus": values}, **volume)
+    measured, weights = {"modulus": values}, {"modulus": 1.0}
+    return Fit(law, series, data, instants, measured, weights, misfit, **volume)
 
 
 def fit_dynamic(
@@ -195,6 +212,7 @@ def fit_dynamic(
     loss: ArrayLike,
     *,
     data: str,
+    weights: Mapping[str, float] | None = None,
     poisson_ratio: float | None = None,
     bulk_modulus: float | None = None,
     fluid: bool = False,
@@ -210,7 +228,12 @@ def fit_dynamic(
         Angular frequencies ω > 0, in any order [rad/s]: 2π times those in Hz.
     storage, loss : array_like, shape (n,)
         Measured moduli in phase, G', and out of phase, G'', each > 0 [Pa].
-    data, poisson_ratio, bulk_modulus, fluid, terms, excess, tolerance
+    data : str
+        As in `fit_relaxation`.
+    weights : mapping of str to float, optional
+        Weights > 0 of the columns ``"storage"`` and ``"loss"``, 1 for one that is left out, such
+        as ``{"storage": 10}``. By default the inverse scatter of each column.
+    poisson_ratio, bulk_modulus, fluid, terms, excess, tolerance
         As in `fit_relaxation`.
 
     Returns
@@ -223,12 +246,18 @@ def fit_dynamic(
     ValueError
         As in `fit_creep`, or if the storage modulus falls as a whole with the frequency.
 
+    Warns
+    -----
+    AccuracyWarning
+        As in `fit_creep`.
+
     Notes
     -----
-    G' = G_inf + sum G_i a²/(1 + a²) and G'' = sum G_i a/(1 + a²) with a = ωτ_i, both at once;
-    relative residuals count. Losses scatter more than storage, and superpose less well from
-    several temperatures: each of the two columns is weighted by the inverse of its scatter about
-    the dense fit.
+    G' = G_inf + sum G_i a²/(1 + a²) and G'' = sum G_i a/(1 + a²) with a = ωτ, both at once. The
+    sum of squares of the relative residuals, each times the weight of its column, is minimised.
+    Losses scatter more than storage, and superpose less well from several temperatures. By default
+    the weight of a column is therefore the inverse of its scatter about the best fit to it alone,
+    with a ratio of at most 30.
 
     Examples
     --------
@@ -250,28 +279,47 @@ def fit_dynamic(
     _require_span(owner, "angular_frequency", frequencies)
     make = shear_law(owner, MODULI, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
-    values = np.concatenate([in_phase, out_of_phase])
-    observed = scatter_weighted(unweighted(DynamicResponse(frequencies, fluid), values), tolerance)
-    series = _relaxation_series(_found(owner, observed, terms, excess, tolerance))
+    observed = unweighted(
+        DynamicResponse(frequencies, fluid), np.concatenate([in_phase, out_of_phase])
+    )
+    names = ("storage", "loss")
+    used = (
+        scatter_weights(observed, tolerance, names)
+        if weights is None
+        else given_weights(owner, weights, names)
+    )
+    observed = weighted(observed, used)
+    found, misfit = _found(owner, observed, names, terms, excess, tolerance)
+    series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     columns = {"storage": in_phase, "loss": out_of_phase}
-    return Fit(law, series, data, frequencies, columns, **volume)
+    return Fit(law, series, data, frequencies, columns, used, misfit, **volume)
 
 
 def _found(
-    owner: str, observed: Observed, terms: int | None, excess: float, tolerance: float
-) -> Spectrum:
+    owner: str,
+    observed: Observed,
+    names: tuple[str, ...],
+    terms: int | None,
+    excess: float,
+    tolerance: float,
+) -> tuple[Spectrum, Misfit | None]:
+    """Spectrum of the measured columns, with a warning where it misses them."""
     if not (excess > 1.0 and tolerance >= 0.0):
         raise ValueError(
             f"{owner}: excess must be above 1 and tolerance at least 0, "
             f"got excess={excess!r} and tolerance={tolerance!r}"
         )
     if terms is None:
-        return parsimonious_spectrum(observed, excess=excess, tolerance=tolerance)
-    most = observed.values.size // 2
-    return spectrum_of(
-        observed, whole(f"{owner}: terms, at most half the number of values,", terms, 0, most)
-    )
+        found = parsimonious_spectrum(observed, excess=excess, tolerance=tolerance)
+    else:
+        most = observed.values.size // 2
+        count = whole(f"{owner}: terms, at most half the number of values,", terms, 0, most)
+        found = spectrum_of(observed, count)
+    misfit = misfit_of(observed, found, names)
+    if misfit is not None:
+        warnings.warn(misfit.message, AccuracyWarning, stacklevel=3)
+    return found, misfit
 
 
 def _relaxation_series(found: Spectrum) -> RelaxationSeries:

@@ -8,30 +8,11 @@ with exp(-t/τ), and to an oscillation with a²/(1 + a²) in phase and a/(1 + a�
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-
-
-class Response(Protocol):
-    """One kind of test at its measured times or frequencies."""
-
-    @property
-    def constants(self) -> Array:
-        """Columns of the constants: instant and flow, or equilibrium modulus; shape (rows, m)."""
-
-    @property
-    def reach(self) -> tuple[float, float]:
-        """Shortest and longest detectable time of a term [s]."""
-
-    def terms(self, times: Array) -> Array:
-        """Columns, shape (rows, n), of terms of strength 1 with these times [s]."""
-
-    def slopes(self, times: Array) -> Array:
-        """Derivatives of these columns with respect to ln τ."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +103,10 @@ class DynamicResponse:
         """Columns 2a²/(1 + a²)² above a(1 - a²)/(1 + a²)²."""
         a = self.angular_frequency[:, None] * times
         return np.concatenate([2 * a * a, a * (1 - a * a)]) / np.tile((1 + a * a) ** 2, (2, 1))
+
+
+#: One kind of test at its measured times or frequencies, on a solid or a fluid.
+Response = CreepResponse | RelaxationResponse | DynamicResponse
 
 
 def _span(points: Array) -> tuple[float, float]:

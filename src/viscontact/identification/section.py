@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import fields
+from textwrap import wrap
 
 from viscontact.identification.fit import Fit
 from viscontact.identification.indentation_fit import IndentationFit
@@ -34,7 +35,7 @@ def material_section(fit: Fit | IndentationFit) -> str:
     -------
     str
         YAML, in the terms of the data and with six digits. Without data on the
-        volume, a comment asks for it.
+        volume, a comment asks for it; a misfit is a comment above the law.
 
     Examples
     --------
@@ -58,8 +59,15 @@ def material_section(fit: Fit | IndentationFit) -> str:
     else:
         law, data = fit.series, fit.data
         volume = _volume(fit.poisson_ratio, fit.bulk_modulus)
-    lines = [*_law(law), f"data: {data}", volume]
+    lines = [*_misfit(fit), *_law(law), f"data: {data}", volume]
     return "\n".join(["material:", *(f"  {line}" for line in lines)])
+
+
+def _misfit(fit: Fit | IndentationFit) -> list[str]:
+    """Comment lines with the misfit of a series."""
+    if isinstance(fit, IndentationFit) or fit.misfit is None:
+        return []
+    return wrap(f"warning: {fit.misfit.message}", 94, initial_indent="# ", subsequent_indent="# ")
 
 
 def _law(law: Law) -> list[str]:

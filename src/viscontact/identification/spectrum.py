@@ -32,7 +32,6 @@ _CANDIDATES_PER_DECADE = 10
 # Relative gain at which a descent ends: while the number of terms is sought, and finally.
 _COARSE, _FINE = 1e-4, 1e-12
 _FEW = 8  # terms up to which a second start is tried
-_WEIGHT_ITERATIONS, _LARGEST_WEIGHT_RATIO = 3, 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +52,12 @@ class Observed:
             np.concatenate([self.response.constants, self.response.terms(times)], axis=1)
         )
 
+    def residuals(self, spectrum: Spectrum) -> Array:
+        """Relative residuals of a spectrum, without weights [-]."""
+        constants = self.response.constants @ spectrum.constants
+        terms = self.response.terms(spectrum.times) @ spectrum.strengths
+        return np.asarray((constants + terms) / self.values - 1.0)
+
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
@@ -68,25 +73,6 @@ class Spectrum:
 def unweighted(response: Response, values: Array) -> Observed:
     """Measured values with equal weights: each row counts by its relative residual."""
     return Observed(response, values, np.ones_like(values))
-
-
-def scatter_weighted(observed: Observed, tolerance: float) -> Observed:
-    """Weights of storage and loss rows by the inverse of their scatter, root mean square 1.
-
-    Feasible weighted least squares, iterated: the scatter is estimated from a fit with the previous
-    weights. Scatter below `tolerance` [-] is not distinguished.
-    """
-    for _ in range(_WEIGHT_ITERATIONS):
-        dense = dense_spectrum(observed)
-        strengths = np.concatenate([dense.constants, dense.strengths])
-        relative = observed.columns(dense.times) @ strengths / observed.weights - 1.0
-        scatter = np.sqrt(np.mean(relative.reshape(2, -1) ** 2, axis=1))
-        # Limits: scatter within the tolerance is equal, and no column loses its weight.
-        scatter = np.maximum(scatter, max(tolerance, scatter.max() / _LARGEST_WEIGHT_RATIO, 1e-12))
-        weights = np.repeat(1 / scatter, relative.size // 2)
-        weights /= np.sqrt(np.mean(weights**2))
-        observed = Observed(observed.response, observed.values, weights)
-    return observed
 
 
 def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float) -> Spectrum:

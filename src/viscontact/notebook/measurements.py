@@ -56,6 +56,8 @@ def fit_card(fit: Fit) -> Card:
             for name, part in parts.items()
         ),
         ("at most by", format_percent(fit.largest_residual)),
+        *((f"weight of the {name}", format_number(value)) for name, value in _weights(fit)),
+        *([("warning", fit.misfit.reason.value)] if fit.misfit else []),
     ]
     least = float(fit.points[fit.points > 0].min())
     points = np.geomspace(least, float(fit.points.max()), _POINTS)
@@ -65,6 +67,11 @@ def fit_card(fit: Fit) -> Card:
         for name, values in fit.measured.items()
     ]
     return Card("Fit", rows, drawn)
+
+
+def _weights(fit: Fit) -> list[tuple[str, float]]:
+    """Weights of the columns, where there are several."""
+    return list(fit.weights.items()) if len(fit.weights) > 1 else []
 
 
 def indentation_fit_card(fit: IndentationFit) -> Card:

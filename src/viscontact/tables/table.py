@@ -64,11 +64,9 @@ class Table:
     def __getitem__(self, quantity: str) -> Array:
         """Return a column; ValueError naming those that there are, if there is no such."""
         if quantity not in self.columns:
-            found = ", ".join(f"{q} ({self.headings[q]!r})" for q in self.columns)
-            left = ", ".join(map(repr, self.left_out))
-            hint = f"; not known: {left}, name their quantities with columns=" if left else ""
+            hint = "; name their quantities with columns=" if self.left_out else ""
             raise ValueError(
-                f"{self.source.name}: the column {quantity} is missing; there are {found}{hint}"
+                f"{self.source.name}: the column {quantity} is missing; {self.contents}{hint}"
             )
         return self.columns[quantity]
 
@@ -80,6 +78,13 @@ class Table:
 
     def __repr__(self) -> str:
         return f"Table({self.source.name}: {len(self)} rows of {', '.join(self.columns)})"
+
+    @property
+    def contents(self) -> str:
+        """Columns in words, for messages: those read, and the headings that are not known."""
+        found = ", ".join(f"{q} ({self.headings[q]!r})" for q in self.columns)
+        left = ", ".join(map(repr, self.left_out))
+        return f"there are {found}" + (f"; not known: {left}" if left else "")
 
     @property
     def temperature(self) -> float | None:
@@ -157,13 +162,13 @@ class Table:
         falls = len(self) > 1 and bool(np.all(np.diff(values) < 0))
         return self._rows(np.arange(len(self))[::-1]) if falls else self
 
-    def located(self, error: ValueError) -> str:
-        """Return a refusal that counts rows from 0 in lines of the file.
+    def located(self, error: Exception | str) -> str:
+        """Return a message that counts rows from 0 in lines of the file.
 
         Parameters
         ----------
-        error : ValueError
-            The error of a law or a fit: "TabulatedCreep.times, row 3: ...".
+        error : Exception or str
+            The message of a law or a fit: "TabulatedCreep.times, row 3: ...".
 
         Returns
         -------

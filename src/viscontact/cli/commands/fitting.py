@@ -41,6 +41,15 @@ Terms = Annotated[
 Fluid = Annotated[
     bool, typer.Option("--fluid", help="The material is a fluid: it flows at long times.")
 ]
+Weight = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--weight",
+        metavar="COLUMN=W",
+        help="Weight of storage or loss in the fit, e.g. storage=2; 1 for the other one. By "
+        "default the inverse of their scatter.",
+    ),
+]
 Reference = Annotated[
     str | None,
     typer.Option(
@@ -90,6 +99,7 @@ def fit(
     bulk_modulus: BulkModulus = None,
     terms: Terms = None,
     fluid: Fluid = False,
+    weight: Weight = None,
     reference: Reference = None,
     temperature: Temperature = None,
     indenter: Body = None,
@@ -117,6 +127,7 @@ def fit(
         temperature=temperature,
         indenter=indenter,
         law=law,
+        weight=weight or (),
     )
     page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
     report_fit(file, arguments, output, section, width=page)

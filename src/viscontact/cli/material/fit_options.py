@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from viscontact.identification.prony import FitOptions
@@ -23,6 +24,12 @@ class FitArguments:
     temperature: str | None
     indenter: str | None
     law: str
+    weight: Sequence[str] = ()
+
+    @property
+    def weights(self) -> dict[str, float] | None:
+        """Weights of storage and loss; None if none are given."""
+        return dict(map(read_weight, self.weight)) or None
 
     def options(self, table: Table) -> FitOptions:
         """Return the options for the fit of a series to a table."""
@@ -74,6 +81,7 @@ class FitArguments:
             "--fluid": self.fluid,
             "--reference": self.reference is not None,
             "--temperature": self.temperature is not None,
+            "--weight": bool(self.weight),
         }
         idle = [option for option, given in options.items() if given]
         if idle:
@@ -81,6 +89,21 @@ class FitArguments:
                 f"{table.source.name}: {', '.join(idle)} does not go with an indentation record; "
                 "leave it out (its law is chosen by --law)"
             )
+
+
+def read_weight(text: str) -> tuple[str, float]:
+    """Return the column and the weight given behind ``--weight``.
+
+    Examples
+    --------
+    >>> read_weight("storage=2")
+    ('storage', 2.0)
+    """
+    name, _, value = text.partition("=")
+    try:
+        return name.strip(), float(value)
+    except ValueError:
+        raise ValueError(f"--weight: {text!r} is not a weight; write e.g. storage=2") from None
 
 
 def read_kelvin(option: str, text: str) -> float:

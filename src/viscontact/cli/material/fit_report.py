@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin
 from viscontact.cli.results.figures import plot_package
@@ -20,13 +21,11 @@ from viscontact.identification import (
     MasterCurve,
     ShiftFit,
     build_master_curve,
-    fit_creep,
-    fit_dynamic,
     fit_indentation,
     fit_master_curve,
-    fit_relaxation,
     material_section,
 )
+from viscontact.identification.table_fit import fit_measured, measured_columns
 from viscontact.laws import WLF
 from viscontact.materials.material import Material
 from viscontact.tables import Table, read_table
@@ -87,16 +86,11 @@ def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
             f"{table.source.name}: --reference and --temperature go with several temperatures; "
             "there is one set"
         )
-    points, measured = _columns(table)
+    points, measured = measured_columns(table)
     options = arguments.options(table)
-    if "compliance" in measured:
-        fit = fit_creep(points, measured["compliance"], **options)
-    elif "modulus" in measured:
-        fit = fit_relaxation(points, measured["modulus"], **options)
-    else:
-        storage, loss = measured["storage"], measured["loss"]
-        fit = fit_dynamic(points, storage, loss, **options)
-    print(table.located(ValueError(repr(fit))))
+    with _warnings_said(table.located):
+        fit = fit_measured(points, measured, weights=arguments.weights, **options)
+    print(table.located(repr(fit)))
     fit = _with_volume(fit, arguments)
     return material_section(fit), _Drawing("fitted_series", fit)
 
@@ -116,7 +110,9 @@ def _from_sets(
     curve = build_master_curve(isotherms, reference)
     rules = _rules(curve)
     _print_shifts(curve, rules)
-    fit = _with_volume(fit_master_curve(curve, **options), arguments)
+    with _warnings_said():
+        fit = fit_master_curve(curve, weights=arguments.weights, **options)
+    fit = _with_volume(fit, arguments)
     print(f"\nAt {_celsius(reference)}:\n{fit!r}")
     drawing = _Drawing("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
@@ -132,8 +128,7 @@ def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Draw
     indenter = arguments.indenter_of(table)
     record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
     poisson_ratio, bulk_modulus = arguments.volume()
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", AccuracyWarning)
+    with _warnings_said():
         fit = fit_indentation(
             record,
             arguments.law,
@@ -141,10 +136,18 @@ def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Draw
             poisson_ratio=poisson_ratio,
             bulk_modulus=bulk_modulus,
         )
-    for warning in caught:
-        say(f"warning: {warning.message}")
     print(repr(fit))
     return material_section(fit), _Drawing("fitted_indentation", fit)
+
+
+@contextmanager
+def _warnings_said(worded: Callable[[Exception | str], str] = str) -> Iterator[None]:
+    """Print warnings about the accuracy of a fit."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", AccuracyWarning)
+        yield
+    for warning in caught:
+        say(f"warning: {worded(warning.message)}")
 
 
 def _read(file: Path) -> Table:
@@ -165,29 +168,13 @@ def _with_volume(fit: Fit, arguments: FitArguments) -> Fit:
     )
 
 
-def _columns(table: Table) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
-    """Return times or angular frequencies, and the measured columns by the names of a fit."""
-    if "storage_modulus" in table and ("loss_modulus" in table or "loss_tangent" in table):
-        storage = table["storage_modulus"]
-        loss = table["loss_modulus"] if "loss_modulus" in table else storage * table["loss_tangent"]
-        return table["angular_frequency"], {"storage": storage, "loss": loss}
-    for quantity, name in (("relaxation_modulus", "modulus"), ("creep_compliance", "compliance")):
-        if quantity in table:
-            return table["time"], {name: table[quantity]}
-    raise ValueError(
-        f"{table.source.name}: needs a relaxation modulus or a creep compliance over time, or "
-        "storage and loss modulus over frequency, or force and approach over time; there are "
-        f"{', '.join(table.columns)}"
-    )
-
-
 def _isotherm(one: Table) -> Isotherm:
     if one.temperature is None:
         raise ValueError(
             f"{one.source.name}: several sets need a column of temperatures to be joined"
         )
     try:
-        return Isotherm(one.temperature, *_columns(one))
+        return Isotherm(one.temperature, *measured_columns(one))
     except ValueError as error:
         raise ValueError(one.located(error)) from None
 

@@ -126,7 +126,7 @@ def _quantity(table: Table) -> str:
             hint = f"; `viscontact fit {table.source}` finds the law of such data"
         raise ValueError(
             f"{table.source.name}: needs a creep compliance or a relaxation modulus over time; "
-            f"there are {', '.join(table.columns)}{hint}"
+            f"{table.contents}{hint}"
         )
     if len(found) > 1:
         say(f"{table.source.name}: the law is its {found[0]}; its {found[1]} is not used")

@@ -43,7 +43,7 @@ def fitted_series(fit: Fit, *, width: Width | None = None) -> Figure:
     -------
     matplotlib.figure.Figure
         Values above, residuals below, over logarithmic time or frequency. Small ticks at the
-        bottom of the upper panel mark the times of the terms.
+        bottom of the upper panel mark the times of the terms. A heading states a misfit.
 
     Examples
     --------
@@ -98,9 +98,11 @@ def _dress_series(fit: Fit, above: Axes, below: Axes, unit: ReadableUnit) -> Non
         clip_on=False,
     )
     names = list(fit.measured)
-    style.add_heading(
-        above, f"{count_of_terms(fit)} (ticks), residual {residual_note(fit)}", aside=True
-    )
+    note = f"{count_of_terms(fit)} (ticks), residual {residual_note(fit)}"
+    if fit.misfit is None:
+        style.add_heading(above, note, aside=True)
+    else:
+        style.add_heading(above, f"{note}\n{misfit_note(fit)}")
     quantity = LABELS[names[0]] if len(names) == 1 else "Modulus"
     above.set_ylabel(unit.label(f"{quantity} {_symbol(fit)}"))
     if len(names) > 1:
@@ -201,6 +203,11 @@ def residual_note(fit: Fit) -> str:
     if len(parts) == 1:
         return f"{100 * fit.residual:.2g} % rms"
     return ", ".join(f"{value:.2g} % ({name})" for name, value in parts.items()) + " rms"
+
+
+def misfit_note(fit: Fit) -> str:
+    """Misfit and its reason in words; empty for a fit that meets the data."""
+    return f"Misses the data: {fit.misfit.reason.value}" if fit.misfit else ""
 
 
 def _unit_of(fit: Fit) -> ReadableUnit:

@@ -23,6 +23,7 @@ from viscontact.plot.materials.fitted import (
     abscissa,
     count_of_terms,
     geometric,
+    misfit_note,
     residual_note,
     spans_decades,
 )
@@ -141,7 +142,8 @@ def _dress_sets(
     at = f"{in_celsius(curve.reference_temperature):.4g} °C"
     apart = ", " if style.figure_of(master).get_figwidth() > NARROW else "\n"
     note = f"{apart}{count_of_terms(fit)}, residual {residual_note(fit)}" if fit else ""
-    style.add_heading(master, f"Master curve at {at}{note}")
+    missed = f"\n{misfit_note(fit)}" if fit and fit.misfit else ""
+    style.add_heading(master, f"Master curve at {at}{note}{missed}")
 
 
 def _draw_shifts(curve: MasterCurve, axes: Axes, rules: Sequence[ShiftFit]) -> None:
