@@ -138,7 +138,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
     for expected in (
         "case.yaml:4: indenter.raduis: unknown key; did you mean 'radius'?",
         "case.yaml:3: indenter.radius: is missing",
-        "case.yaml:9: material.instant: 0.0005545 has no unit, a compliance is wanted",
+        "case.yaml:9: material.instant: 0.0005545 has no unit; a compliance is expected",
         "case.yaml:15: load.kind: unknown value 'stepp'; did you mean 'step'?",
         "case.yaml:16: load.force: cannot read '10 MPa' as a force (got a pressure); "
         "write e.g. '10 kN'",
@@ -452,7 +452,7 @@ def test_a_grid_lies_around_the_centre_that_the_case_gives(tmp_path: Path) -> No
         (8, 4), (2e-3, 1e-3), centre=(-7e-3, 4e-5)
     )
     (found,) = problems(tmp_path, SPHERE + place.replace("40 um", "40"))
-    assert found.startswith("case.yaml:5: grid.centre[2]: 40 has no unit, a length is wanted")
+    assert found.startswith("case.yaml:5: grid.centre[2]: 40 has no unit; a length is expected")
 
 
 @pytest.mark.parametrize(

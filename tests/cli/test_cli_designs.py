@@ -152,7 +152,10 @@ def test_the_printed_command_names_all_options() -> None:
         (["--table", "short.csv"], "short.csv:3: has 1 cell, the header 2; add a value of 'b'"),
         (["--table", "many.csv"], "many.csv:2: column 'load.force': 1 has no unit"),
         (["--table", "many.csv"], "[and in lines 3, 4, 5, 6, 7 and 1 more]"),
-        (["--table", "few.csv"], "few.csv:2: column 'load.force': 1 has no unit, a force is want"),
+        (
+            ["--table", "few.csv"],
+            "few.csv:2: column 'load.force': 1 has no unit; a force is expect",
+        ),
         (["--table", "few.csv"], "[and in line 4]"),
         (
             ["--sample", "200", "--range", "load.force=1 mm:2 mm"],
@@ -160,7 +163,7 @@ def test_the_printed_command_names_all_options() -> None:
         ),
         (
             ["--sample", "4", "--range", "load.force=1:4"],
-            "--range load.force: 1 has no unit, a force is wanted",
+            "--range load.force: 1 has no unit; a force is expected",
         ),
         (
             ["--sample", "16", "--range", "material.poisson_ratio=0.4:0.6"],
@@ -191,7 +194,7 @@ def test_what_cannot_be_designed_is_refused_in_one_line(
     ("heading", "why"),
     [
         ("load.force [mm]", "cannot read '2 mm' as a force (got a length); write e.g. '10 kN'"),
-        ("load.force", "2 has no unit, a force is wanted; write e.g. '10 kN'"),
+        ("load.force", "2 has no unit; a force is expected; write e.g. '10 kN'"),
         ("time.steps [s]", "must be a whole number, got '2 s'"),
     ],
 )

@@ -85,7 +85,7 @@ def test_what_has_no_grid_is_refused_with_a_reason():
     fluid = vc.Material(vc.Maxwell(1e6, 1e6), 0.5)
     with pytest.raises(ValueError, match="flows without end"):
         vc.auto_grid(vc.Sphere(1.0), fluid, vc.step(1.0))
-    with pytest.raises(ValueError, match="outside what can"):
+    with pytest.raises(ValueError, match="the force acts at x = 2 m"):
         vc.auto_grid(vc.FlatPunch(1.0), rubber, vc.step(1.0, eccentricity_x=2.0))
     for tolerance in (0.0, 0.6, np.nan):
         with pytest.raises(ValueError, match="tolerance"):
@@ -197,3 +197,30 @@ def test_tilted_roller_is_resolved_near_the_end_that_it_stands_on(tilt):
     ours, exact = (vc.simulate(roller, SOFT, stood, each, [0.0]) for each in (None, fine))
     for name in ("contact_area", "approach", "contact_width", "eccentricity_x", "peak_line_load"):
         assert abs(ours[name] - exact[name])[0] < 2 * ours[f"{name}_error"][0], name
+
+
+@pytest.mark.parametrize(
+    ("body", "compliance", "load", "reason"),
+    [
+        (
+            vc.Roller(radius=5e-3, half_length=10e-3),
+            1e-9,
+            vc.step(100.0, eccentricity_x=-15e-3),
+            r"the force acts at x = -15 mm, and the body ends at about -10 mm; reduce eccen\w+_x",
+        ),
+        (
+            vc.FlatPunch(1e-3),
+            1e-9,
+            vc.step(100.0, eccentricity_y=3e-3),
+            r"the force acts at y = 3 mm, and the body ends at about 1 mm; reduce eccen\w+_y",
+        ),
+        # Hertz: a³ = 3 W R J/4 = (62.1 mm)³
+        (vc.Sphere(1e-3), 3.2e-4, vc.step(1000.0), "about 124 mm is expected under a body of rad"),
+        (vc.Waviness(1e-6, wavelength_x=1e-3), 1e-9, vc.step(1000.0), "a periodic one under"),
+    ],
+)
+def test_a_load_without_a_fitting_grid_is_told_why(
+    body: vc.Indenter, compliance: float, load: vc.LoadHistory, reason: str
+) -> None:
+    with pytest.raises(ValueError, match=reason):
+        estimate_contact(body, compliance, load.at(0.0))

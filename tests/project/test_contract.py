@@ -673,8 +673,9 @@ def test_centre_of_a_grid_is_shown_and_recorded_only_if_given() -> None:
         ({"material": vc.Material(vc.Elastic(1e-200), 0.5)}, "material: .* is beyond what"),
         ({"fields": "some"}, "fields must be 'all', 'none' or instants"),
         ({"grid": (32, 32)}, "grid must be of kind Grid"),
-        ({"load": 0.1}, "load must be of kind LoadHistory, got 0.1"),
-        ({"material": vc.Elastic(1.0)}, "material must be of kind Material"),
+        ({"load": 0.1}, r"load must be of kind LoadHistory, got 0.1; write vc.step(force)"),
+        ({"material": vc.Elastic(1.0)}, r"must be of kind Material, .*; write vc.Material(law"),
+        ({"material": "pmma-paper"}, r"must be of kind Material, .*; write vc.shipped_material"),
         ({"load": vc.step(0.1, eccentricity_x=0.02)}, "load.eccentricity_x: the force acts at"),
     ],
 )

@@ -80,7 +80,7 @@ def test_a_length_in_millimetres_is_exactly_the_number_that_a_script_writes() ->
         ("20 degree_Reaumur", "temperature", "got a temperature"),
         ("10 Hz", "angular frequency", "got a frequency or a rate"),
         ("10 rad/s", "frequency", "got an angular frequency"),
-        ("10", "force", "10 has no unit, a force is wanted; write e.g. '10 kN'"),
+        ("10", "force", "10 has no unit; a force is expected; write e.g. '10 kN'"),
         ("kN", "force", "no number in front"),
         ("10 Kn", "force", "unknown unit 'Kn' (did you mean 'kN'?)"),
         ("5 mm!", "length", "unknown unit 'mm!'"),

@@ -17,6 +17,7 @@ from viscontact.contact.rim import Rim, trace_rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
+from viscontact.units.formatting import format_quantity
 
 #: Cells of a coarse solve along each axis; on a periodic grid, which may hold many waves, at most.
 COARSE_CELLS, MAX_PERIOD_CELLS = 48, 128
@@ -32,6 +33,9 @@ TARGET_REACH = 0.68
 
 #: Grids that are tried before the estimate is given up.
 MAX_TRIES = 60
+
+#: Points between the body's axis and the force at which its end is looked for.
+SAMPLES = 1001
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,11 +196,7 @@ def estimate_contact(
         size = size * factors
         if around is not None and (found.pressure > 0).any():
             centre = found.centre
-    raise ValueError(
-        "grid: no fitting grid was found for this load; the force may be too large for so soft a "
-        "material, or act outside what can touch, or the contact runs on without end. Press less, "
-        "move the force in, or give a grid, a periodic one for waves without end"
-    )
+    raise ValueError(f"grid: no fitting grid was found: {_misfit(indenter, point, scale)}")
 
 
 def estimate_period(
@@ -234,6 +234,32 @@ def _first_scale(indenter: Indenter, compliance: float, point: LoadPoint) -> flo
         if is_round:
             scale = (0.75 * level * radius * compliance) ** (1 / 3)
     return scale
+
+
+def _misfit(indenter: Indenter, point: LoadPoint, scale: float) -> str:
+    """Why no grid fits a contact of which a length is expected [m]."""
+    place = (point.eccentricity_x, point.eccentricity_y)
+    axis = int(np.abs(place).argmax())
+    lines = np.linspace(0.0, place[axis], SAMPLES)
+    ends = np.isinf(indenter.gap(*((lines, 0.0) if axis == 0 else (0.0, lines))))
+    if ends[-1]:
+        end, force = (
+            format_quantity(float(at), "m", 3) for at in (lines[ends.argmax()], place[axis])
+        )
+        return (
+            f"the force acts at {'xy'[axis]} = {force}, and the body ends at about {end}; reduce "
+            f"eccentricity_{'xy'[axis]}"
+        )
+    radius = indenter.radius_of_curvature
+    if math.isfinite(radius) and scale > radius > 0:
+        return (
+            f"a contact of about {format_quantity(2 * scale, 'm', 2)} is expected under a body of "
+            f"radius {format_quantity(radius, 'm', 2)}; press less, or use a stiffer material"
+        )
+    return (
+        "the contact reaches the border of each, however large; press less, or give a grid, a "
+        "periodic one under a body without end"
+    )
 
 
 def _size_factors(found: ContactEstimate, *, follows: bool) -> NDArray[np.float64] | None:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
+from viscontact.laws import Law
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
 from viscontact.loads.motion import Motion, MovingLoad
@@ -32,6 +33,17 @@ SOLVER_ERROR_FACTOR = 3.0
 
 #: Edge of the cell of an automatic grid that is not chosen yet [m].
 UNKNOWN_CELL = 1e100
+
+
+def _hint(name: str, given: object) -> str:
+    """How an argument of another kind is written, where that is likely."""
+    if isinstance(given, Law):
+        return "; write vc.Material(law, poisson_ratio=...)"
+    if name.endswith("material") and isinstance(given, str):
+        return "; write vc.shipped_material(name) for a material of the library"
+    if name == "load" and as_real(given) is not None:
+        return "; write vc.step(force) for a constant force"
+    return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +97,9 @@ class Problem:
             value = getattr(self, name)
             if not (isinstance(value, kinds) or (optional and value is None)):
                 named = " or ".join(kind.__name__ for kind in kinds)
-                raise ValueError(f"{name} must be of kind {named}, got {value!r}")
+                raise ValueError(
+                    f"{name} must be of kind {named}, got {value!r}{_hint(name, value)}"
+                )
         number = as_real(self.tolerance)
         if number is None or not FINEST_TOLERANCE <= number <= COARSEST_TOLERANCE:
             raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {self.tolerance!r}")

@@ -175,7 +175,7 @@ def _split(text: str, wanted: Dimension) -> tuple[str, str]:
         raise ValueError(f"cannot read {quoted(text)} as {wanted.name}: no number in front; {hint}")
     if not match["unit"]:
         bare = quoted(text.strip())[1:-1]
-        raise ValueError(f"{bare} has no unit, {wanted.name} is wanted; {hint}")
+        raise ValueError(f"{bare} has no unit; {wanted.name} is expected; {hint}")
     return match["number"], match["unit"]
 
 
