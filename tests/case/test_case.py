@@ -491,9 +491,9 @@ def test_every_data_file_of_a_case_is_parsed_once(
     for module in (measured_laws, load_table):
         original = module.read_table
 
-        def counting(path: Any, *args: Any, read: Any = original) -> Any:
+        def counting(path: Any, *args: Any, read: Any = original, **options: Any) -> Any:
             parsed.append(Path(path).name)
-            return read(path, *args)
+            return read(path, *args, **options)
 
         monkeypatch.setattr(module, "read_table", counting)
     read_case(written(tmp_path, text))

@@ -222,3 +222,32 @@ def test_options_that_an_indentation_record_has_no_use_for_are_refused(
     command = ["fit", str(file), "--indenter", "sphere 5 um", "--poisson-ratio", "0.5"]
     assert main([*command, *options]) == 2
     assert named in capsys.readouterr().err
+
+
+CREEP = "time [h], strain at 5 MPa [%], strain at 10 MPa [%]\n"
+STRAINS = "1, 0.25, 0.6\n10, 0.3125, 0.8\n100, 0.39, 1.1\n"
+
+
+def test_strain_of_a_creep_test_is_fitted_and_shown_at_its_stress(tmp_path, capsys):
+    file = tmp_path / "creep.csv"
+    file.write_text(CREEP + STRAINS, encoding="utf-8")
+    for command in ("fit", "material"):
+        options = [command, str(file), "--poisson-ratio", "0.4"]
+        assert main(options) == 2
+        assert "holds tests at 5 MPa, 10 MPa; choose one" in capsys.readouterr().err
+        assert main([*options, "--stress", "5 mm"]) == 2
+        assert "--stress: cannot read '5 mm' as a pressure" in capsys.readouterr().err
+        assert main([*options, "--stress", "5 MPa"]) == 0
+        assert "left out: strain at 10 MPa [%]\n" in capsys.readouterr().err
+    assert main(["fit", str(file), "--poisson-ratio", "0.4", "--stress", "5 MPa"]) == 0
+    instant = next(x for x in capsys.readouterr().out.splitlines() if "instant:" in x)
+    assert float(instant.split()[1]) < 0.0025 / 5  # below the compliance after an hour [1/MPa]
+
+
+def test_headings_that_are_not_known_are_named_in_the_refusal(tmp_path, capsys):
+    file = tmp_path / "stiffness.csv"
+    file.write_text("time [h], stiffness [MPa]\n1, 2000\n", encoding="utf-8")
+    for command in ("fit", "material"):
+        assert main([command, str(file), "--poisson-ratio", "0.4"]) == 2
+        said = capsys.readouterr().err
+        assert "there are time ('time [h]'); not known: 'stiffness [MPa]'" in said

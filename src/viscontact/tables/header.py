@@ -8,6 +8,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from viscontact.tables.creep_tests import STRAIN_UNITS, chosen_level, split_stress
 from viscontact.tables.names import QUANTITIES, Data, Meaning, known_names, meaning
 from viscontact.tables.text import Row, looks_like_number
 from viscontact.units.dimensions import DIMENSIONS
@@ -24,26 +25,48 @@ _LOOSE = (
 )
 _LONGEST_HEADING = 200
 _NO_UNIT = ("", "-", "–", "—", "1", "none")
+# Stress and strain are those of a creep test if there is nothing else to be measured.
+_OF_CREEP_TEST = ("time", "temperature", "set", "creep_modulus", "strain", "stress")
 
 
 @dataclass(frozen=True)
 class Column:
-    """Column to read: its place from 0, heading, meaning, and scale to SI."""
+    """Column to read: its place from 0, heading, meaning, scale to SI, and stress [Pa]."""
 
     place: int
     heading: str
     meaning: Meaning
     scale: Scale
+    stress: float | None = None
+
+    def si(self, number: str) -> float:
+        """SI value of a number in the column."""
+        value = self.scale.si(number)
+        if self.meaning.quantity != "creep_modulus":
+            return value
+        if value == 0.0:
+            raise ValueError(f"{number!r} is no modulus")
+        return 1.0 / value
+
+    @property
+    def quantity(self) -> str:
+        """Quantity of the SI values."""
+        named = self.meaning.quantity
+        return "creep_compliance" if named == "creep_modulus" else named
 
 
 @dataclass(frozen=True)
 class Header:
-    """Columns to read, headings left out, cells in a row, and header rows (1, or 2 with units)."""
+    """Columns to read, headings left out, cells in a row, and header rows (1, or 2 with units).
+
+    `stress` is that of the creep test [Pa], if a heading states it.
+    """
 
     columns: tuple[Column, ...]
     left_out: tuple[str, ...]
     width: int
     rows: int
+    stress: float | None = None
 
     @property
     def data(self) -> Data | None:
@@ -53,16 +76,25 @@ class Header:
 
 @dataclass(frozen=True)
 class _Heading:
-    """Cell of the header: its text, the name and unit in it, and its line."""
+    """Cell of the header: its text, the name and unit in it, its line, and a stress [Pa]."""
 
     text: str
     name: str
     unit: str | None
     line: int
+    stress: float | None = None
 
 
-def read_header(source: str, rows: list[Row], columns: Mapping[str, str | None]) -> Header:
-    """Read the header; `columns` maps headings to quantities, or to None to leave them out."""
+def read_header(
+    source: str,
+    rows: list[Row],
+    columns: Mapping[str, str | None],
+    stress: float | None = None,
+) -> Header:
+    """Read the header; `columns` maps headings to quantities, or to None to leave them out.
+
+    Of creep tests at several stresses in columns of their own, that at `stress` [Pa] is read.
+    """
     _require_names(source, rows[0])
     cells = _without_empty_end(rows[0].cells)
     headings = [_heading(cell, rows[0].line) for cell in cells]
@@ -70,20 +102,22 @@ def read_header(source: str, rows: list[Row], columns: Mapping[str, str | None])
     if in_two_rows:
         units = (*rows[1].cells, *[""] * len(cells))
         headings = [
-            _Heading(h.text, h.name, unit.strip("[]() "), rows[1].line)
+            _Heading(h.text, h.name, unit.strip("[]() "), rows[1].line, h.stress)
             for h, unit in zip(headings, units, strict=False)
         ]
     meanings = _meanings(source, headings, columns)
     found = tuple(
-        Column(place, heading.text, stated, _scale(source, heading, stated))
+        Column(place, heading.text, stated, _scale(source, heading, stated), heading.stress)
         for place, (heading, stated) in enumerate(zip(headings, meanings, strict=True))
         if stated is not None
     )
-    left = tuple(h.text for h, stated in zip(headings, meanings, strict=True) if stated is None)
+    found, level = _at_stress(source, found, stress)
+    read = {column.place for column in found}
+    left = tuple(heading.text for place, heading in enumerate(headings) if place not in read)
     _require_some(source, found, left)
     found = tuple(_settled(source, column, found) for column in found)
     _require_once(source, found)
-    return Header(found, left, len(cells), 2 if in_two_rows else 1)
+    return Header(found, left, len(cells), 2 if in_two_rows else 1, level)
 
 
 def _require_names(source: str, row: Row) -> None:
@@ -100,7 +134,29 @@ def _without_empty_end(cells: tuple[str, ...]) -> tuple[str, ...]:
     return cells[:end]
 
 
+def _at_stress(
+    source: str, columns: tuple[Column, ...], stress: float | None
+) -> tuple[tuple[Column, ...], float | None]:
+    """Columns without those of creep tests at other stresses, and the stress that is left [Pa]."""
+    levels = [column.stress for column in columns if column.stress is not None]
+    if not levels:
+        if stress is not None and not any(_is_of_creep_test(c.meaning) for c in columns):
+            raise ValueError(f"{source}: has no strain of a creep test; leave the stress out")
+        return columns, stress
+    level = chosen_level(source, sorted(set(levels)), stress)
+    return tuple(column for column in columns if column.stress in (None, level)), level
+
+
 def _heading(text: str, line: int) -> _Heading:
+    name, stress = split_stress(text)
+    if stress is not None:
+        return _Heading(text, name, None, line, stress)
+    found = _unit_of(text, line)
+    name, stress = split_stress(found.name)
+    return found if stress is None else _Heading(text, name, found.unit, line, stress)
+
+
+def _unit_of(text: str, line: int) -> _Heading:
     if len(text) > _LONGEST_HEADING or meaning(text) is not None:
         return _Heading(text, text, None, line)
     for pattern in (*_BRACKETS, *_LOOSE):
@@ -127,7 +183,18 @@ def _meanings(
         if not any(heading in (h.text, h.name) for h in headings):
             found = ", ".join(repr(h.text) for h in headings)
             raise ValueError(f"columns: {source} has no column {heading!r}; there are {found}")
-    return [_meaning(source, heading, given) for heading in headings]
+    meant = [_meaning(source, heading, given) for heading in headings]
+    if all(each is None or each.quantity in _OF_CREEP_TEST for each in meant):
+        return meant
+    named = {heading for heading, quantity in given.items() if quantity in ("strain", "stress")}
+    return [
+        stated if named & {heading.text, heading.name} or not _is_of_creep_test(stated) else None
+        for heading, stated in zip(headings, meant, strict=True)
+    ]
+
+
+def _is_of_creep_test(stated: Meaning | None) -> bool:
+    return stated is not None and stated.quantity in ("strain", "stress")
 
 
 def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) -> Meaning | None:
@@ -150,6 +217,8 @@ def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) ->
 def _scale(source: str, heading: _Heading, stated: Meaning) -> Scale:
     where = f"{source}:{heading.line}: column {heading.text!r}"
     frequency = stated.quantity in ("frequency", "angular_frequency")
+    if stated.quantity == "strain":
+        return _strain_scale(where, heading)
     dimension = "pressure" if stated.quantity == "modulus" else QUANTITIES.get(stated.quantity)
     if dimension is None and not frequency:
         if heading.unit is not None and heading.unit.lower() not in _NO_UNIT:
@@ -168,6 +237,17 @@ def _scale(source: str, heading: _Heading, stated: Meaning) -> Scale:
         return parse_scale(heading.unit, dimension)
     except ValueError as error:
         raise ValueError(f"{where}: {error}") from error
+
+
+def _strain_scale(where: str, heading: _Heading) -> Scale:
+    # Without a unit, 0.5 may be 0.5 or 0.5 %.
+    if heading.unit not in STRAIN_UNITS:
+        got = "it has none" if heading.unit is None else f"got {heading.unit!r}"
+        raise ValueError(
+            f"{where}: a strain has one of the units {', '.join(STRAIN_UNITS)}, {got}; write e.g. "
+            f"'{heading.name} [%]'"
+        )
+    return Scale(STRAIN_UNITS[heading.unit])
 
 
 def _angular(quantity: str, unit: str) -> Scale:
@@ -212,11 +292,11 @@ def _settled(source: str, column: Column, columns: tuple[Column, ...]) -> Column
 def _require_once(source: str, columns: tuple[Column, ...]) -> None:
     seen: dict[str, Column] = {}
     for column in columns:
-        other = seen.setdefault(column.meaning.quantity, column)
+        other = seen.setdefault(column.quantity, column)
         if other is not column:
             raise ValueError(
                 f"{source}: the columns {other.heading!r} and {column.heading!r} are both "
-                f"{column.meaning.quantity}; leave one out with columns={{{column.heading!r}: "
+                f"{column.quantity}; leave one out with columns={{{column.heading!r}: "
                 "None}"
             )
     stated = {column.meaning.data: column.heading for column in columns if column.meaning.data}

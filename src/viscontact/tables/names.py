@@ -13,6 +13,9 @@ QUANTITIES: dict[str, str | None] = {
     "time": "time",
     "angular_frequency": "angular frequency",
     "creep_compliance": "compliance",
+    "creep_modulus": "pressure",
+    "strain": None,
+    "stress": "pressure",
     "relaxation_modulus": "pressure",
     "storage_modulus": "pressure",
     "loss_modulus": "pressure",
@@ -39,7 +42,8 @@ class Meaning:
     """Meaning of a heading: quantity, kind of test, and base of the logarithm if it has one.
 
     The quantity is a key of `QUANTITIES`, ``"frequency"`` for one in hertz, or ``"modulus"``: the
-    relaxation modulus in a table over time, ambiguous in one over frequency.
+    relaxation modulus in a table over time, ambiguous in one over frequency. A creep modulus is
+    read as its inverse, the creep compliance.
     """
 
     quantity: str
@@ -58,6 +62,11 @@ _SYMBOLS = {
     **dict.fromkeys(("Φ", "φ"), Meaning("creep_compliance", "deviatoric")),
     "G": Meaning("modulus", "shear"),
     "E": Meaning("modulus", "uniaxial"),
+    **dict.fromkeys(("E_c", "Ec", "E_tc", "Etc"), Meaning("creep_modulus", "uniaxial")),
+    **dict.fromkeys(("G_c", "Gc"), Meaning("creep_modulus", "shear")),
+    "ε": Meaning("strain", "uniaxial"),
+    "γ": Meaning("strain", "shear"),
+    "σ": Meaning("stress", "uniaxial"),
     "G'": Meaning("storage_modulus", "shear"),
     "E'": Meaning("storage_modulus", "uniaxial"),
     "G''": Meaning("loss_modulus", "shear"),
@@ -81,6 +90,20 @@ _WORDS = {
     "phi": Meaning("creep_compliance", "deviatoric"),
     **dict.fromkeys(("j_creep", "shear_compliance"), Meaning("creep_compliance", "shear")),
     **dict.fromkeys(("d_creep", "tensile_compliance"), Meaning("creep_compliance", "uniaxial")),
+    **dict.fromkeys(
+        ("creep_modulus", "tensile_creep_modulus", "flexural_creep_modulus", "kriechmodul"),
+        Meaning("creep_modulus", "uniaxial"),
+    ),
+    "shear_creep_modulus": Meaning("creep_modulus", "shear"),
+    **dict.fromkeys(
+        ("strain", "creep_strain", "tensile_strain", "dehnung", "kriechdehnung", "epsilon"),
+        Meaning("strain", "uniaxial"),
+    ),
+    "shear_strain": Meaning("strain", "shear"),
+    **dict.fromkeys(
+        ("stress", "tensile_stress", "spannung", "sigma"), Meaning("stress", "uniaxial")
+    ),
+    "shear_stress": Meaning("stress", "shear"),
     "relaxation_modulus": Meaning("relaxation_modulus"),
     "modulus": Meaning("modulus"),
     **dict.fromkeys(
@@ -127,7 +150,7 @@ _ARGUMENT = re.compile(r"\s*\((?:t|f|ω|w|omega|time|t,\s*T)\)\s*$")
 def meaning(name: str) -> Meaning | None:
     """Meaning of a column's name without its unit; None if it is unknown.
 
-    >>> meaning("E''").quantity, meaning("Zeit").quantity, meaning("strain")
+    >>> meaning("E''").quantity, meaning("Zeit").quantity, meaning("remark")
     ('loss_modulus', 'time', None)
     """
     plain = _ARGUMENT.sub("", name.translate(_PRIMES).strip())

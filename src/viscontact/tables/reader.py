@@ -10,12 +10,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.tables.creep_tests import with_creep_compliance
 from viscontact.tables.header import Column, Header, read_header
 from viscontact.tables.table import Table, read_only
 from viscontact.tables.text import Row, decimal_number, read_rows
 
 
-def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | None = None) -> Table:
+def read_table(
+    path: str | PathLike[str],
+    columns: Mapping[str, str | None] | None = None,
+    *,
+    stress: float | None = None,
+) -> Table:
     r"""Read a measured table from a CSV file.
 
     Parameters
@@ -27,6 +33,9 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
         Meaning of columns with unknown names: heading to a quantity (a key of
         `viscontact.tables.names.QUANTITIES`, or ``"frequency"``), or to None to leave the
         column out.
+    stress : float, optional
+        Stress of a creep test that is given as strain, where neither a heading nor a column
+        states it, or the one that is meant where there are several [Pa].
 
     Returns
     -------
@@ -46,7 +55,10 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
     are separated by tabs, semicolons or commas; numbers may have decimal commas where the
     separator is none. Frequencies arrive in rad/s, whether they are written in Hz or so;
     temperatures in K; logarithms of shift factors (``log_aT``, decimal, or ``ln_aT``) as
-    a_T. Files are bounded at 50 MB and a million rows.
+    a_T. A creep modulus E_c arrives as the creep compliance 1/E_c. The strain of a creep test
+    arrives as strain over stress; its stress is in its heading (``strain at 5 MPa [%]``), in a
+    column ``stress [MPa]``, or given. Stress and strain in other tables are left out. Files are
+    bounded at 50 MB and a million rows.
 
     Examples
     --------
@@ -59,20 +71,21 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
     """
     path = Path(path)
     rows = read_rows(path)
-    header = read_header(path.name, rows[:2], columns or {})
+    header = read_header(path.name, rows[:2], columns or {}, stress)
     body = rows[header.rows :]
     if not body:
         raise ValueError(f"{path.name} has a header and no rows; export the measured values too")
     values = _values(path.name, header, body)
-    names = [column.meaning.quantity for column in header.columns]
-    return Table(
+    names = [column.quantity for column in header.columns]
+    table = Table(
         source=path,
         columns={n: read_only(v.copy()) for n, v in zip(names, values.T, strict=True)},
         data=header.data,
-        headings={c.meaning.quantity: c.heading for c in header.columns},
+        headings={c.quantity: c.heading for c in header.columns},
         lines=np.array([row.line for row in body], dtype=np.int64),
         left_out=header.left_out,
     )
+    return with_creep_compliance(table, header.stress)
 
 
 def _values(source: str, header: Header, rows: list[Row]) -> NDArray[np.float64]:
@@ -100,7 +113,7 @@ def _require_width(source: str, width: int, row: Row) -> None:
 
 def _value(source: str, row: Row, column: Column, mark: str) -> float:
     try:
-        value = column.scale.si(decimal_number(row.cells[column.place], mark))
+        value = column.si(decimal_number(row.cells[column.place], mark))
         base = column.meaning.logarithm
         if base is not None:
             value = _power(base, value)

@@ -16,6 +16,8 @@ _LARGEST_FILE, _MOST_ROWS = 50_000_000, 1_000_000
 
 _COMMENTS = ("#", "%", "//")
 _BYTE_ORDER_MARKS = ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"", "utf-8-sig"))
+# Files of Excel: packed (xlsx, also those of other programs) and older (xls).
+_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 _NUMBER = re.compile(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?")
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 
@@ -128,6 +130,10 @@ def read_text(path: Path) -> str:
     if len(data) > _LARGEST_FILE:
         raise ValueError(
             f"{path.name}: larger than {_LARGEST_FILE // 1_000_000} MB; keep fewer points"
+        )
+    if data.startswith(_WORKBOOKS):
+        raise ValueError(
+            f"{path.name}: an Excel workbook or another packed file; save the sheet as CSV"
         )
     text = _decoded(data)
     if text is None or any(ord(c) < 32 and c not in "\t\n\r\f\v" for c in text):

@@ -13,6 +13,7 @@ from pydantic import Field
 from viscontact import laws
 from viscontact.case.data_file import DataFile
 from viscontact.case.materials.base import Medium
+from viscontact.case.quantities import Modulus
 from viscontact.laws import Law
 from viscontact.materials.cards import Card, read_card
 from viscontact.materials.material import Material
@@ -60,6 +61,11 @@ class TableLaw(FromFile):
     set: float | None = Field(
         default=None, description="number of the set, where there are several"
     )
+    stress: Modulus | None = Field(
+        default=None,
+        description="stress of a creep test given as strain; of several tests, the one to use",
+        examples=["5 MPa"],
+    )
     columns: dict[str, str | None] = Field(
         default={},
         description="quantities of columns with unclear headings, e.g. 'E: relaxation_modulus'",
@@ -71,7 +77,9 @@ class TableLaw(FromFile):
         if self.quantity == "relaxation_modulus" and self.data == "deviatoric":
             raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
         try:
-            table = self._chosen(read_table(self.file, self.columns)).ascending("time")
+            table = self._chosen(read_table(self.file, self.columns, stress=self.stress)).ascending(
+                "time"
+            )
             times, values = table["time"].tolist(), table[self.quantity].tolist()
         except ValueError as error:
             at = "" if str(error).startswith("columns: ") else "file: "

@@ -50,6 +50,15 @@ Weight = Annotated[
         "default the inverse of their scatter.",
     ),
 ]
+Stress = Annotated[
+    str | None,
+    typer.Option(
+        "--stress",
+        metavar="S",
+        help="Stress of a creep test given as strain, e.g. '5 MPa'; of several tests in the table, "
+        "the one at this stress is read.",
+    ),
+]
 Reference = Annotated[
     str | None,
     typer.Option(
@@ -100,6 +109,7 @@ def fit(
     terms: Terms = None,
     fluid: Fluid = False,
     weight: Weight = None,
+    stress: Stress = None,
     reference: Reference = None,
     temperature: Temperature = None,
     indenter: Body = None,
@@ -128,6 +138,7 @@ def fit(
         indenter=indenter,
         law=law,
         weight=weight or (),
+        stress=stress,
     )
     page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
     report_fit(file, arguments, output, section, width=page)

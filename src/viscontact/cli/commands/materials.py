@@ -55,6 +55,15 @@ BulkModulus = Annotated[
     str | None,
     typer.Option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
 ]
+Stress = Annotated[
+    str | None,
+    typer.Option(
+        "--stress",
+        metavar="S",
+        help="Stress of a creep test given as strain, e.g. '5 MPa'; of several tests in the table, "
+        "the one at this stress is read.",
+    ),
+]
 SetNumber = Annotated[
     float | None, typer.Option("--set", metavar="N", help="Number of the set in a table.")
 ]
@@ -93,6 +102,7 @@ def material(
     poisson_ratio: PoissonRatio = None,
     bulk_modulus: BulkModulus = None,
     number: SetNumber = None,
+    stress: Stress = None,
     modulus_unit: ModulusUnit = None,
     time_unit: TimeUnit = None,
     temperature_unit: TemperatureUnit = None,
@@ -106,6 +116,7 @@ def material(
         poisson_ratio=poisson_ratio,
         bulk_modulus=bulk_modulus,
         set=number,
+        stress=stress,
         modulus_unit=modulus_unit,
         time_unit=time_unit,
         temperature_unit=temperature_unit,

@@ -25,6 +25,7 @@ class FitArguments:
     indenter: str | None
     law: str
     weight: Sequence[str] = ()
+    stress: str | None = None
 
     @property
     def weights(self) -> dict[str, float] | None:
@@ -104,6 +105,20 @@ def read_weight(text: str) -> tuple[str, float]:
         return name.strip(), float(value)
     except ValueError:
         raise ValueError(f"--weight: {text!r} is not a weight; write e.g. storage=2") from None
+
+
+def read_stress(text: str | None) -> float | None:
+    """Return the stress given behind ``--stress`` [Pa], None where it is not.
+
+    Examples
+    --------
+    >>> read_stress("5 MPa")
+    5000000.0
+    """
+    try:
+        return None if text is None else parse_quantity(text, "pressure")
+    except ValueError as error:
+        raise ValueError(f"--stress: {error}") from None
 
 
 def read_kelvin(option: str, text: str) -> float:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from viscontact.cli.material.fit_options import FitArguments, read_kelvin
+from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.errors import AccuracyWarning
@@ -43,9 +43,9 @@ def report_fit(
     width: str | float | None = None,
 ) -> None:
     """Fit a law to a table; print it, and draw and write it where files are named."""
-    table = _read(file)
+    table = _read(file, arguments.stress)
     if table.left_out:
-        say(f"{file.name}: columns not recognized and left out: {', '.join(table.left_out)}")
+        say(f"{file.name}: columns left out: {', '.join(table.left_out)}")
     try:
         text, draw = _fitted(table, arguments)
     except ValueError as error:
@@ -150,9 +150,9 @@ def _warnings_said(worded: Callable[[Exception | str], str] = str) -> Iterator[N
         say(f"warning: {worded(warning.message)}")
 
 
-def _read(file: Path) -> Table:
+def _read(file: Path, stress: str | None) -> Table:
     try:
-        return read_table(file)
+        return read_table(file, stress=read_stress(stress))
     except (ValueError, OSError) as error:
         refuse(str(error))
 

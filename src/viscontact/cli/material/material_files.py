@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import CaseError, read_material, read_section, shipped_material
+from viscontact.cli.material.fit_options import read_stress
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.materials import library as materials
@@ -31,6 +32,7 @@ class MaterialOptions:
     poisson_ratio: float | None = None
     bulk_modulus: str | None = None
     set: float | None = None
+    stress: str | None = None
     modulus_unit: str | None = None
     time_unit: str | None = None
     temperature_unit: str | None = None
@@ -44,7 +46,7 @@ class MaterialOptions:
 
 def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -> MaterialDisplay:
     """Return a material by its shipped name or from a file; refuse options without effect."""
-    idle = ["data", "set", "name", "poisson_ratio", "bulk_modulus"]
+    idle = ["data", "set", "stress", "name", "poisson_ratio", "bulk_modulus"]
     units = [] if writes else ["modulus_unit", "time_unit", "temperature_unit"]
     if which in materials.names():
         _refuse_unused(which, "a shipped material", typed, [*idle, *units])
@@ -56,7 +58,7 @@ def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -
         _refuse_unused(which, "a table", typed, ["name", *units])
         return _from_table(path, typed)
     if kind == "card":
-        _refuse_unused(which, "a card", typed, ["data", "set"])
+        _refuse_unused(which, "a card", typed, ["data", "set", "stress"])
         return _from_card(path, typed)
     _refuse_unused(which, "a case file", typed, [*idle, *units])
     try:
@@ -100,19 +102,19 @@ def _kind(path: Path) -> str:
 
 def _from_table(path: Path, typed: MaterialOptions) -> MaterialDisplay:
     try:
-        table = read_table(path)
+        table = read_table(path, stress=read_stress(typed.stress))
         quantity = _quantity(table)
     except ValueError as error:
         refuse(str(error))
     if table.left_out:
-        say(f"{path.name}: columns not recognized and left out: {', '.join(table.left_out)}")
+        say(f"{path.name}: columns left out: {', '.join(table.left_out)}")
     data = typed.data or table.data
     if data is None:
         refuse(
             f"{path.name}: the headings do not say what kind of test it is; add --data shear, "
             "--data uniaxial or --data deviatoric"
         )
-    volume = typed.given("poisson_ratio", "bulk_modulus", "set")
+    volume = typed.given("poisson_ratio", "bulk_modulus", "set", "stress")
     section = {"law": "table", "file": str(path), "quantity": quantity, "data": data, **volume}
     return MaterialDisplay(str(path), _read(path, section).build())
 

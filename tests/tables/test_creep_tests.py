@@ -1,0 +1,111 @@
+"""Creep data as datasheets give them: creep modulus, and strain at a stress (ISO 899-1)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from viscontact.tables import Table, read_table
+
+# ISO 899-1:2017, 3.5: the tensile-creep modulus is the stress over the strain at the time.
+COMPLIANCE = [1 / 2000e6, 1 / 1600e6]
+COLUMN = "time [h];stress [MPa];strain [%]\n1;5;0,25\n10;5;0,3125\n1;10;0,6\n10;10;0,8\n"
+HEADINGS = "time [h], strain at 5 MPa [%], strain at 10 MPa [%]\n1, 0.25, 0.6\n10, 0.3125, 0.8\n"
+
+
+def read(folder: Path, text: str, **options: object) -> Table:
+    path = folder / "creep.csv"
+    path.write_text(text, encoding="utf-8")
+    return read_table(path, **options)
+
+
+@pytest.mark.parametrize(
+    ("text", "stress"),
+    [
+        ("time [h], creep modulus [MPa]\n1, 2000\n10, 1600\n", None),
+        ("time [h], E_c [GPa]\n1, 2.0\n10, 1.6\n", None),
+        ("t;Kriechmodul\nh;N/mm²\n1;2000\n10;1600\n", None),
+        ("time [h], tensile creep modulus (5 MPa) [MPa]\n1, 2000\n10, 1600\n", None),
+        ("time [h], strain at 5 MPa [%]\n1, 0.25\n10, 0.3125\n", None),
+        ("time [h], ε(σ = 5 N/mm²) [mm/m]\n1, 2.5\n10, 3.125\n", None),
+        ("time;Dehnung bei 5 MPa\nh;%\n1;0,25\n10;0,3125\n", None),
+        ("time [h], strain [-]\n1, 0.0025\n10, 0.003125\n", 5e6),
+        (COLUMN, 5e6),
+        (HEADINGS, 5e6),
+        ("time [h], stress [MPa], strain [%]\n1, 5.02, 0.251\n10, 4.98, 0.31125\n", None),
+    ],
+)
+def test_each_form_is_the_compliance_of_the_same_test(
+    text: str, stress: float | None, tmp_path: Path
+) -> None:
+    found = read(tmp_path, text, stress=stress)
+    assert found.data == "uniaxial"
+    assert found["time"].tolist() == [3600.0, 36000.0]
+    np.testing.assert_allclose(found["creep_compliance"], COMPLIANCE, rtol=1e-12)
+    assert set(found.columns) == {"time", "creep_compliance"}
+
+
+@pytest.mark.parametrize("text", [COLUMN, HEADINGS])
+def test_of_several_stresses_the_chosen_one_is_read(text: str, tmp_path: Path) -> None:
+    found = read(tmp_path, text, stress=10e6)
+    np.testing.assert_allclose(found["creep_compliance"], [0.6e-9, 0.8e-9], rtol=1e-12)
+    with pytest.raises(ValueError, match=r"holds tests at 5 MPa, 10 MPa; choose one"):
+        read(tmp_path, text)
+    with pytest.raises(ValueError, match=r"no test at 7 MPa; there are 5 MPa, 10 MPa"):
+        read(tmp_path, text, stress=7e6)
+
+
+def test_shear_strain_over_shear_stress_is_the_shear_compliance(tmp_path: Path) -> None:
+    found = read(tmp_path, "time [s], shear strain [1], shear stress [kPa]\n1, 0.5, 2\n")
+    assert found.data == "shear"
+    assert found["creep_compliance"].tolist() == [2.5e-4]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time [h], strain [%]\n1, 0.25\n", r"'strain \[%\]' needs the stress of the test"),
+        ("time [h], strain\n1, 0.25\n", "a strain has one of the units .* it has none"),
+        ("time [h], strain [mm]\n1, 0.25\n", "a strain has one of the units .* got 'mm'"),
+        ("time [h], E_c [MPa]\n1, 0\n", r"creep.csv:2: column 'E_c .MPa.': '0' is no modulus"),
+        ("time [h], E_c [mm]\n1, 2\n", "column 'E_c .mm.'"),
+        ("time [h], stress [MPa], strain [%]\n1, 0, 0.2\n", "has a 0"),
+        (
+            "time [s], D [1/GPa], E_c [GPa]\n1, 1, 1\n",
+            r"'D .1/GPa.' and 'E_c .GPa.' are both creep_compliance",
+        ),
+    ],
+)
+def test_creep_tests_that_cannot_be_read_are_refused(text: str, said: str, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=said):
+        read(tmp_path, text)
+
+
+def test_a_stress_without_a_strain_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"has no strain of a creep test; leave the stress out"):
+        read(tmp_path, "time [s], D [1/GPa]\n1, 1\n", stress=5e6)
+
+
+def test_the_strain_amplitude_of_an_oscillation_is_left_out(tmp_path: Path) -> None:
+    """Instruments export it without a unit beside the moduli; it is no creep test."""
+    found = read(tmp_path, "f [Hz], strain, G' [Pa], G'' [Pa]\n1, 0.1, 5, 2\n")
+    assert found.left_out == ("strain",)
+    assert found.data == "shear"
+
+
+def test_a_missing_quantity_is_refused_with_the_headings_that_are_not_known(tmp_path: Path) -> None:
+    table = read(tmp_path, "time [s], stiffness [MPa]\n1, 5\n")
+    with pytest.raises(ValueError, match=r"there are time \('time \[s\]'\); not known: 'stiff"):
+        _ = table["creep_compliance"]
+
+
+@pytest.mark.parametrize("start", [b"PK\x03\x04\x14\x00", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"])
+def test_a_workbook_is_refused_with_what_to_do(start: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "creep.xlsx"
+    path.write_bytes(start + bytes(100))
+    with pytest.raises(
+        ValueError, match=r"creep.xlsx: an Excel workbook .*; save the sheet as CSV"
+    ):
+        read_table(path)
