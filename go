@@ -47,7 +47,9 @@ def viscontact(args: list[str]) -> int:
 def test(args: list[str]) -> int:
     """Run the tests in two processes; --slow adds the slow tests; other options go to pytest."""
     chosen = ["-m", ""] if "--slow" in args else []
-    return run(["-m", "pytest", "-n", "2", *chosen, *(a for a in args if a != "--slow")])
+    # Halves of the tests, not every other one: few fixtures are then made in both processes.
+    halves = ["-n", "2", "--dist", "worksteal"]
+    return run(["-m", "pytest", *halves, *chosen, *(a for a in args if a != "--slow")])
 
 
 def lint(args: list[str]) -> int:

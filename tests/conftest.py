@@ -1,5 +1,6 @@
 """Hypothesis draws the same examples in every run; campaigns report their figures at the end."""
 
+import multiprocessing
 import os
 import signal
 import sys
@@ -7,6 +8,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from hypothesis import settings
+
+from viscontact.runs.executors import local
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
@@ -21,6 +24,13 @@ for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SI
     number = getattr(signal, name, None)  # Windows knows no SIGHUP
     if number is not None and signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, usual)
+
+# Many tests start workers, each of which would import everything again. They are forked from one
+# process that has. Doctests, scripts and commands in processes of their own start them as usual.
+if "forkserver" in multiprocessing.get_all_start_methods():
+    forked = multiprocessing.get_context("forkserver")
+    forked.set_forkserver_preload(["viscontact.cli.run.execution", "viscontact.runs.many", "pint"])
+    local._SPAWN = forked
 
 CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line to the summary
 
