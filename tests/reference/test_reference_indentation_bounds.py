@@ -35,7 +35,7 @@ def worst(ours, exact):
 histories = st.lists(st.floats(-0.5, 1.0), min_size=2, max_size=6)
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(levels=histories, profile=st.sampled_from([SPHERE, CONE]))
 def test_no_history_pulls_or_penetrates(levels, profile):
     """With p >= 0 and no penetration the rods are the contact problem, not only its shadow."""
@@ -54,7 +54,7 @@ def test_no_history_pulls_or_penetrates(levels, profile):
         assert np.all(opening >= -2e-3 * 1e-5)
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(
     load=st.floats(1e-2, 1e2), stiffness=st.floats(1e-2, 1e2), slowness=st.floats(1e-2, 1e2),
     shift=st.floats(0, 1e3),

@@ -117,7 +117,13 @@ def test_step_loaded_sphere_in_120_logarithmic_steps_for_every_kind_of_law(name)
 
 @pytest.mark.parametrize(
     "name",
-    ["maxwell", "zener", "solid_ball_on_a_fluid", "fractional_zener", "tabulated_relaxation"],
+    [
+        *("maxwell", "fractional_zener"),
+        *(
+            pytest.param(name, marks=pytest.mark.slow)
+            for name in ("zener", "solid_ball_on_a_fluid", "tabulated_relaxation")
+        ),
+    ],
 )
 def test_ramp_loaded_sphere_in_steps_that_grow_from_the_first_touch(name):
     """Lee & Radok (1960) under a ramp that ends between two instants, then held.

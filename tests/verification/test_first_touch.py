@@ -48,8 +48,16 @@ def test_stage_from_above_presses_as_one_that_starts_at_the_surface():
         assert np.abs(one.pressure - other.pressure).max() < 1e-6 * other.peak_pressure
 
 
-@pytest.mark.parametrize("part", [0.25, 0.5, 0.75])
-@pytest.mark.parametrize("steps", [8, 16])
+@pytest.mark.parametrize(
+    ("steps", "part"),
+    [
+        *((8, 0.25), (16, 0.5), (8, 0.75)),
+        *(
+            pytest.param(*pair, marks=pytest.mark.slow)
+            for pair in ((16, 0.25), (8, 0.5), (16, 0.75))
+        ),
+    ],
+)
 def test_first_instants_in_contact_follow_the_rods(steps, part):
     """Rods, of which 300 in 1600 steps are off by 1e-5."""
     times = np.linspace(0.0, END, steps + 1)

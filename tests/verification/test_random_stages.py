@@ -147,8 +147,8 @@ def check(seeds):
     assert unfit < 0.03 * len(seeds)
 
 
-def test_fifteen_random_bodies_on_stages_are_in_equilibrium_throughout():
-    check(range(15))
+def test_six_random_bodies_on_stages_are_in_equilibrium_throughout():
+    check(range(6))
 
 
 def check_beside(seeds):
@@ -167,8 +167,8 @@ def check_beside(seeds):
     return fit / len(seeds)
 
 
-def test_ten_random_bodies_beside_the_pivot_of_a_stage_are_in_equilibrium():
-    assert check_beside(range(10, 20)) > 0.8
+def test_six_random_bodies_beside_the_pivot_of_a_stage_are_in_equilibrium():
+    assert check_beside(range(10, 16)) > 0.8
 
 
 @pytest.mark.slow

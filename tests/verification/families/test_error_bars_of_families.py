@@ -10,7 +10,7 @@ seeds on which factors were chosen are reported apart from those that were left 
 import numpy as np
 import pytest
 
-from verification.families.drawn import CALIBRATED, FAMILIES, HELD_OUT, drawn
+from verification.families.drawn import CALIBRATED, HELD_OUT, drawn
 from verification.families.solved import solve
 from verification.families.tally import report, shortfalls, values_of
 
@@ -23,8 +23,15 @@ def solved(seed: int, count: int, families: dict) -> list[dict]:
     return [solve(name, run, sampled=SAMPLED) for name, run in drawn(seed, count, names)]
 
 
-def test_bars_hold_in_a_sample_of_all_families() -> None:
-    records = solved(100, len(FAMILIES), FAMILIES)
+@pytest.mark.parametrize(
+    "families",
+    [
+        pytest.param(HELD_OUT, id="held out"),
+        pytest.param(CALIBRATED, id="calibrated", marks=pytest.mark.slow),
+    ],
+)
+def test_bars_hold_in_a_sample_of_all_families(families: dict) -> None:
+    records = solved(100, len(families), families)
     values = values_of(records)
     assert not any("refused" in record for record in records)
     lines = "\n".join(report(records))
