@@ -19,6 +19,7 @@ from viscontact.results.stated_errors import (
     drawn_values,
     errors_of,
     is_centred,
+    is_rounding,
     lacks_curve,
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
@@ -77,20 +78,27 @@ def panel_labels(ds: xr.Dataset) -> tuple[dict[str, str], dict[str, str]]:
 
 
 def _prescribed(ds: xr.Dataset) -> list[str]:
-    if prescribes_approach(ds):
-        return ["approach"]
-    return [name for name in shown_in(Place.LOAD, ds) if name == "force" or _varies(ds, name)]
+    names = [name for name in shown_in(Place.LOAD, ds) if name == "force" or _varies(ds, name)]
+    if not prescribes_approach(ds):
+        return names
+    return ["approach", *(name for name in names if SCALARS[name].moving)]
 
 
 def _response(ds: xr.Dataset) -> list[str]:
     answer = {"approach": "force"} if prescribes_approach(ds) else {}
     shown = shown_scalars(ds, Place.RESPONSE)
-    return [answer.get(name, name) for name in shown if not is_centred(ds, name)]
+    return [answer.get(name, name) for name in shown if not _is_idle(ds, name)]
+
+
+def _is_idle(ds: xr.Dataset, name: str) -> bool:
+    """Test for rounding under a centred load, on an elastic body, or across the motion."""
+    return is_rounding(ds, name) if SCALARS[name].moving else is_centred(ds, name)
 
 
 def _varies(ds: xr.Dataset, name: str) -> bool:
     values = ds[name].values[np.isfinite(ds[name].values)]
-    return bool(values.size and np.ptp(values) > max(1e-9, _CONSTANT * np.abs(values).max()))
+    least = 0.0 if SCALARS[name].moving else max(1e-9, _CONSTANT * np.abs(values).max(initial=0.0))
+    return bool(values.size and np.ptp(values) > least)
 
 
 def _panel(ds: xr.Dataset, name: str) -> dict[str, Any]:
@@ -105,7 +113,7 @@ def _panel(ds: xr.Dataset, name: str) -> dict[str, Any]:
         "half": finite_or_none(unit(errors)),
         "range": _range(unit(drawn), unit(errors)),
         "hover": _hover(ds, values, errors, units),
-        "note": _note(errors, values),
+        "note": _note(errors, values) if SCALARS[name].has_error else "",
         "words": NOT_DRAWN if lacks_curve(ds, name) else "",
     }
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from viscontact.plot.layout.style import time_colours
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report.shown_fields import ShownFields
+from viscontact.results.recorded_motion import contact_edges
 from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
@@ -57,6 +58,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         "colours": time_colours(len(fields.snapshots)),
         "outlines": _outlined(fields),
         "start": fields.start,
+        "body": _body(fields, length),
     }
 
 
@@ -70,12 +72,13 @@ def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any
     """Return the pressure on a line at every instant shown, at full resolution."""
     length, pressure = fields.window.unit, readable_unit("Pa", fields.peak)
     inside = fields.inside["xy".index(along)]
-    positions, _ = fields.snapshots[0].section(along, _crossing(fields, along))
-    values = [each.section(along, _crossing(fields, along))[1] for each in fields.snapshots]
+    lines = _lines(fields, along)
+    positions = lines[0][0]
     return {
         "name": f"section-{along}",
         "position": rounded(length(positions[inside])),
-        "values": [rounded(pressure(each[inside])) for each in values],
+        "values": [rounded(pressure(each[inside])) for _, each in lines],
+        "edges": _edges(fields, along, lines),
         "along": along,
         "unit": length.symbol,
         "label": "Pressure",
@@ -105,29 +108,40 @@ def _unit_of_values(si: str, unit: ReadableUnit) -> dict[str, Any]:
 
 
 def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
-    """Position of a section, such as ``"y = 0 mm"``."""
-    unit = fields.window.unit
+    """Position of a section, such as ``"at y = 0 mm"``."""
+    unit, crossings = fields.window.unit, _crossings(fields, along)
+    if len(set(crossings)) > 1:
+        return "through the resultant of each instant"
     other = "y" if along == "x" else "x"
-    return f"{other} = {format_compact(float(unit(_crossing(fields, along))), 4)} {unit.symbol}"
+    return f"at {other} = {format_compact(float(unit(crossings[0])), 4)} {unit.symbol}"
 
 
 def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
     """Write the section at every instant shown as CSV, in SI units."""
-    lines = [each.section(along, _crossing(fields, along)) for each in fields.snapshots]
-    return _csv(fields, along, "pressure", "Pa", lines)
+    crossings, other = _crossings(fields, along), "y" if along == "x" else "x"
+    places = [f", {other} = {at!r} m" if fields.body else "" for at in crossings]
+    return _csv(fields, along, "pressure", "Pa", _lines(fields, along), places)
 
 
 def line_load_csv(fields: ShownFields) -> str:
     """Write the line load at every instant shown as CSV, in SI units."""
     lines = [each.line_load() for each in fields.snapshots]
-    return _csv(fields, "x", "line load", "N/m", lines)
+    return _csv(fields, "x", "line load", "N/m", lines, [""] * len(lines))
 
 
 def _csv(
-    fields: ShownFields, along: str, quantity: str, units: str, lines: list[tuple[Floats, Floats]]
+    fields: ShownFields,
+    along: str,
+    quantity: str,
+    units: str,
+    lines: list[tuple[Floats, Floats]],
+    places: list[str],
 ) -> str:
-    """Write positions, and a column of values for each instant."""
-    heads = [f"{quantity} at {each.time!r} s [{units}]" for each in fields.snapshots]
+    """Write positions, and a column of values for each instant, with its place in the heading."""
+    heads = [
+        f"{quantity} at {each.time!r} s{place} [{units}]"
+        for each, place in zip(fields.snapshots, places, strict=True)
+    ]
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow([f"{along} [m]", *heads])
@@ -152,8 +166,31 @@ def finite_or_none(values: Floats, digits: int = 6) -> list[float | None]:
     return [float(f"{v:.{digits - 1}e}") if math.isfinite(v) else None for v in values.tolist()]
 
 
-def _crossing(fields: ShownFields, along: str) -> float:
-    return fields.through[1 if along == "x" else 0]
+def _crossings(fields: ShownFields, along: Literal["x", "y"]) -> list[float]:
+    """Position of a section at each instant [m]."""
+    return [through[1 if along == "x" else 0] for through in fields.through]
+
+
+def _lines(fields: ShownFields, along: Literal["x", "y"]) -> list[tuple[Floats, Floats]]:
+    """Positions [m] and pressure [Pa] on a section at each instant."""
+    pairs = zip(fields.snapshots, _crossings(fields, along), strict=True)
+    return [each.section(along, at) for each, at in pairs]
+
+
+def _edges(
+    fields: ShownFields, along: Literal["x", "y"], lines: list[tuple[Floats, Floats]]
+) -> list[list[float] | None]:
+    """Leading and trailing edge of a moving contact at each instant, None where there are none."""
+    ways = [place.way(along) for place in fields.body] or [0.0] * len(lines)
+    found = [contact_edges(*line, way) for line, way in zip(lines, ways, strict=True)]
+    return [None if edges is None else rounded(fields.window.unit(edges)) for edges in found]
+
+
+def _body(fields: ShownFields, length: ReadableUnit) -> list[dict[str, Any]]:
+    """Axis and direction of a moving body at each instant; empty for a standing contact."""
+    return [
+        {"axis": rounded(length(place.axis)), "direction": place.direction} for place in fields.body
+    ]
 
 
 def _parts(snapshot: Snapshot, fields: ShownFields, strides: tuple[int, int]) -> str:

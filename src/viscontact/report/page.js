@@ -68,6 +68,17 @@
     }), quiet);
   }
 
+  // Resistance over position: earlier cycles thin, the last one bold.
+  function drawLoop(loop) {
+    const part = (from, to, look) => ({
+      x: loop.position.slice(from, to), y: loop.values.slice(from, to), mode: "lines", text: loop.hover.slice(from, to),
+      hovertemplate: `${loop.along} %{x:.4g} ${loop.unit}, %{text}<extra></extra>`, line: look,
+    });
+    return Plotly.newPlot(place(loop.name), [
+      part(0, loop.last + 1, { color: "#9aa3ab", width: 1 }), part(loop.last, undefined, { color: blue, width: 2.2 }),
+    ], layout({ xaxis: axis(`Position along ${loop.along} [${loop.unit}]`), yaxis: axis("", { zeroline: true, zerolinecolor: "#9aa3ab" }) }), quiet);
+  }
+
   const panels = [...data.load, ...data.answers];
   const drawHistories = () => panels.forEach(drawPanel);
   const timeButton = place("time-scale");
@@ -112,6 +123,20 @@
     return Math.round(Math.min(Math.max((box.clientWidth - 80) * ratio + around, around + 60), most));
   }
 
+  // The axis of a moving body, and an arrow from it along the motion.
+  const cross = ({ axis: [x, y] }) => ({
+    x: [x], y: [y], mode: "markers", hovertemplate: `axis of the body: x %{x:.4g}, y %{y:.4g} ${map.unit}<extra></extra>`,
+    marker: { symbol: "cross-thin", size: 9, line: { color: warm, width: 2 } },
+  });
+  function arrow({ axis: [x, y], direction }) {
+    if (!direction) return [];
+    const across = direction[0], up = map.stretch * direction[1], pixels = 34 / Math.hypot(across, up);
+    return [{
+      x, y, xref: "x", yref: "y", text: "", showarrow: true, arrowhead: 2, arrowwidth: 2.2, arrowcolor: warm,
+      xshift: pixels * across, yshift: pixels * up, ax: -pixels * across, ay: pixels * up,
+    }];
+  }
+
   function drawMap() {
     const box = place("map");
     const heat = {
@@ -122,11 +147,12 @@
       colorbar: { orientation: "h", thickness: 10, len: 0.9, x: 0.5, y: 1.0, yanchor: "bottom", outlinewidth: 0, tickfont: { size: 11 }, title: { text: `Pressure [${map.pressureUnit}]`, side: "top", font: { size: 12 } } },
     };
     const rim = { ...map.rims[shown], mode: "lines", line: { color: ink, width: 1 }, hoverinfo: "skip" };
+    const body = map.body[shown];
     box.style.height = `${planeHeight(box, 130, 600)}px`;
-    const plane = layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 58 } });
+    const plane = layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 58 }, annotations: body ? arrow(body) : [] });
     // Space for the tick labels, which Plotly omits beside a horizontal colour bar.
     plane.xaxis.title.standoff = 28;
-    return Plotly.react(box, [heat, rim], plane, config);
+    return Plotly.react(box, [heat, rim, ...(body ? [cross(body)] : [])], plane, config);
   }
 
   function drawOutlines() {
@@ -148,8 +174,17 @@
     opacity: index === shown ? 1 : 0.55,
     hovertemplate: `${section.along} %{x:.4g} ${section.unit}: %{y:.4g} ${section.valueUnit}<extra>${map.labels[index]}</extra>`,
   }));
+  // Leading (full) and trailing (hollow) edge at the instant shown.
+  const edgeMarks = (section) => {
+    const edges = section.edges?.[shown];
+    return edges ? [{
+      x: edges, y: [0, 0], mode: "markers", cliponaxis: false, text: ["leading edge", "trailing edge"],
+      marker: { size: 8, color: [warm, "#fff"], line: { color: warm, width: 1.6 } },
+      hovertemplate: `%{text}: ${section.along} %{x:.4g} ${section.unit}<extra></extra>`,
+    }] : [];
+  };
   function drawSections() {
-    data.sections.forEach((section) => Plotly.react(place(section.name), sectionLines(section), layout({
+    data.sections.forEach((section) => Plotly.react(place(section.name), [...sectionLines(section), ...edgeMarks(section)], layout({
       xaxis: axis(`${section.along} [${section.unit}]`), yaxis: axis(`${section.label} [${section.valueUnit}]`, { rangemode: "tozero" }),
     }), quiet));
   }
@@ -183,7 +218,7 @@
   }
 
   if (map) followSlider();
-  const figures = [...(map ? [() => showInstant(shown), drawOutlines] : []), ...panels.map((panel) => () => drawPanel(panel))];
+  const figures = [...(map ? [() => showInstant(shown), drawOutlines] : []), ...panels.map((panel) => () => drawPanel(panel)), ...data.loops.map((loop) => () => drawLoop(loop))];
   const drawNext = () => {
     const draw = figures.shift();
     if (!draw) { document.documentElement.dataset.drawn = "yes"; return; }

@@ -17,6 +17,7 @@ from viscontact.notebook.html import as_script, element, written
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.histories import load_panels, response_panels, time_axis
 from viscontact.report.map_data import curves_data, map_data
+from viscontact.report.resistance_loops import loops_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
 
 _CHAPTERS = {
@@ -118,6 +119,7 @@ def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
         "time": time_axis(ds),
         "load": load_panels(ds),
         "answers": response_panels(ds),
+        "loops": loops_data(ds),
         "map": None if fields is None else map_data(fields),
         "sections": [] if fields is None else curves_data(ds, fields),
     }
@@ -126,7 +128,7 @@ def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
 def _body(
     name: str, ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]
 ) -> Iterable[Element]:
-    histories = result_chapters.history_chapter(ds, data["time"], data["load"], data["answers"])
+    histories = result_chapters.history_chapter(ds, data)
     chapters: dict[str, Iterable[Element]] = {
         "pressure": result_chapters.pressure_chapter(ds, fields),
         "histories": histories,

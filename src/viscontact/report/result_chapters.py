@@ -23,12 +23,14 @@ from viscontact.report.map_data import (
 from viscontact.report.shown_fields import ShownFields
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
+from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.shown_scalars import is_long, shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
 from viscontact.units.formatting import format_quantity
 
 _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))
+_OVER_MOTION = "Along {}, the direction of motion"
 
 
 def title_of(ds: xr.Dataset) -> str:
@@ -71,12 +73,18 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
         return
     yield _map(fields)
     yield element("h3", "Sections through the pressure")
-    yield element("div", *(_section(fields, *way) for way in _WAYS), class_="pair")
+    moved = motion_axis(ds)
+    titles = {
+        along: _OVER_MOTION.format(along) if along == moved else title for along, title in _WAYS
+    }
+    sections = (_section(fields, along, title) for along, title in titles.items())
+    yield element("div", *sections, class_="pair")
     if is_long(ds):
         yield _line_load(fields)
     yield element(
         "p",
         "Bold: the instant of the slider.",
+        " Full marker: leading edge, hollow: trailing edge." if fields.body else None,
         element(
             "span",
             " Drag over a figure to enlarge a part of it, double-click to go back.",
@@ -88,10 +96,9 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
     yield element("figure", element("div", "", id="outlines", class_="plot"))
 
 
-def history_chapter(
-    ds: xr.Dataset, axis: dict[str, Any], load: list[dict[str, Any]], answers: list[dict[str, Any]]
-) -> Iterator[Element]:
-    """Yield the panels of the load and of the contact's response."""
+def history_chapter(ds: xr.Dataset, data: dict[str, Any]) -> Iterator[Element]:
+    """Yield the panels of load and motion, of the contact's response, and loops of resistance."""
+    axis, answers = data["time"], data["answers"]
     button = element("button", "Show the other scale of time", type="button", id="time-scale")
     csv = io.StringIO()
     write_history(ds, csv)
@@ -101,14 +108,17 @@ def history_chapter(
         _download("Download the history (CSV)", "history.csv", csv.getvalue()),
         class_="downloads",
     )
-    yield element("h3", "Load")
-    yield element("div", *map(_panel, load), class_="panels")
+    yield element("h3", "Load" if motion_axis(ds) is None else "Load and motion")
+    yield element("div", *map(_panel, data["load"]), class_="panels")
     yield element("h3", "Contact")
     yield element("div", *map(_panel, answers), class_="panels")
     legend = "Shaded: the error of each value. "
     if any(panel["note"] == MESH_DEPENDENT for panel in answers):
         legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
     yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
+    if data["loops"]:
+        yield element("h3", "Resistance over position")
+        yield element("div", *map(_loop, data["loops"]), class_="panels")
 
 
 def _facts(ds: xr.Dataset) -> Element:
@@ -172,6 +182,8 @@ def _map(fields: ShownFields) -> Element:
 def _remarks(fields: ShownFields) -> str:
     """Remarks on the map: scale, averaged cells, instants left out."""
     said = ["The line is the outline of the contact; white: no contact."]
+    if fields.body:
+        said.append("The cross is the body's axis, the arrow the direction of its motion.")
     if fields.window.note:
         said.append(f"In this drawing {fields.window.note.replace(' stretched', ' is stretched')}.")
     along_x, along_y = strides_of(fields)
@@ -188,7 +200,7 @@ def _remarks(fields: ShownFields) -> str:
 def _section(fields: ShownFields, along: Literal["x", "y"], title: str) -> Element:
     return element(
         "figure",
-        element("p", f"{title}, at {section_place(fields, along)}", class_="panel-title"),
+        element("p", f"{title}, {section_place(fields, along)}", class_="panel-title"),
         element("div", "", id=f"section-{along}", class_="plot"),
         _download("Download (CSV)", f"section-{along}.csv", section_csv(fields, along)),
     )
@@ -210,6 +222,17 @@ def _panel(panel: dict[str, Any]) -> Element:
         "div",
         element("p", panel["label"] + unit, note, class_="panel-title"),
         element("div", "", id=f"history-{panel['name']}", class_="plot"),
+    )
+
+
+def _loop(loop: dict[str, Any]) -> Element:
+    title = f"Resistance along {loop['along']} [{loop['valueUnit']}]"
+    earlier = "Bold: the last cycle. " if loop["last"] else ""
+    return element(
+        "figure",
+        element("p", title, class_="panel-title"),
+        element("div", "", id=loop["name"], class_="plot"),
+        element("figcaption", f"{earlier}The area inside is the motion work of a cycle."),
     )
 
 

@@ -12,6 +12,7 @@ from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.histories import panel_labels
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.map_data import curves_data, finite_or_none, map_data, rounded
+from viscontact.report.resistance_loops import loops_data
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
 from viscontact.results.shown_scalars import shown_labels
@@ -49,6 +50,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "facts": shown_labels(ds, Place.FACTS),
         "listed": summary_scalars(ds),
         "map": _map(ds),
+        "loops": loops_data(ds),
         "notices": notices(ds),
         "warnings": warnings_of(ds),
         "accuracy": list(accuracy_lines(ds)),
@@ -79,5 +81,5 @@ def _map(ds: xr.Dataset) -> dict[str, Any] | None:
         "lengthFactor": fields.window.unit.factor,
         "pressureFactor": readable_unit("Pa", fields.peak).factor,
         "sections": curves_data(ds, fields),
-        "crossing": fields.through,
+        "crossings": fields.through,
     }

@@ -11,11 +11,24 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.plot.layout.window import Window, window_around
+from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, field_times, take_snapshots
 from viscontact.results.stated_errors import mesh_dependent
 
 #: More instants than these make a page large and show no more.
 MOST_INSTANTS = 24
+
+
+@dataclass(frozen=True)
+class BodyPlace:
+    """A moving body at an instant: its axis x, y [m], and its direction, None at rest."""
+
+    axis: tuple[float, float]
+    direction: tuple[float, float] | None
+
+    def way(self, along: str) -> float:
+        """Part of the direction along x or y, 0 at rest."""
+        return 0.0 if self.direction is None else self.direction["xy".index(along)]
 
 
 @dataclass(frozen=True)
@@ -26,6 +39,7 @@ class ShownFields:
     window: Window  # part of the surface that contains every contact
     stored: int  # number of instants with fields in the result
     marked: tuple[bool, ...]  # at which the peak pressure depends on the mesh
+    body: tuple[BodyPlace, ...] = ()  # at each instant shown; empty for a standing contact
 
     @property
     def peak(self) -> float:
@@ -44,22 +58,16 @@ class ShownFields:
         return _between(first.x, window.x), _between(first.y, window.y)
 
     @cached_property
-    def through(self) -> tuple[float, float]:
-        """Position of the sections, x and y [m]: through the resultant of the first instant shown.
+    def through(self) -> tuple[tuple[float, float], ...]:
+        """Position of the sections at each instant, x and y [m].
 
-        Where there is no contact at the resultant, as between two spots, through the largest
-        pressure.
+        Those of a standing contact are through the resultant of the first instant shown, those of a
+        moving one follow it.
         """
-        shown = self.snapshots[self.start]
-        pressure, (dx, dy) = shown.pressure, shown.cell_size
-        force = pressure.sum()
-        # To a hundredth of a cell: the rest is rounding, and zero reads better.
-        x = round(float(shown.x @ pressure.sum(axis=1) / force) / dx, 2) * dx + 0.0
-        y = round(float(pressure.sum(axis=0) @ shown.y / force) / dy, 2) * dy + 0.0
-        if pressure[np.abs(shown.x - x).argmin(), np.abs(shown.y - y).argmin()] > 0:
-            return x, y
-        i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
-        return float(shown.x[i]), float(shown.y[j])
+        if not self.body:
+            return (_middle_of(self.snapshots[self.start]),) * len(self.snapshots)
+        pairs = zip(self.snapshots, self.body, strict=True)
+        return tuple(_middle_of(each) if each.touching else place.axis for each, place in pairs)
 
 
 def shown_fields(ds: xr.Dataset) -> ShownFields:
@@ -67,7 +75,28 @@ def shown_fields(ds: xr.Dataset) -> ShownFields:
     stored = field_times(ds, "map")
     chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
     snapshots = tuple(take_snapshots(ds, stored[chosen], "map"))
-    return ShownFields(snapshots, window_around(snapshots), stored.size, _marked(ds, snapshots))
+    window, marked, body = window_around(snapshots), _marked(ds, snapshots), _body(ds, snapshots)
+    return ShownFields(snapshots, window, stored.size, marked, body)
+
+
+def _middle_of(shown: Snapshot) -> tuple[float, float]:
+    """Resultant of the pressure [m], or, without contact there, place of the largest pressure."""
+    pressure, (dx, dy) = shown.pressure, shown.cell_size
+    force = pressure.sum()
+    # To a hundredth of a cell: the rest is rounding, and zero reads better.
+    x = round(float(shown.x @ pressure.sum(axis=1) / force) / dx, 2) * dx + 0.0
+    y = round(float(pressure.sum(axis=0) @ shown.y / force) / dy, 2) * dy + 0.0
+    if pressure[np.abs(shown.x - x).argmin(), np.abs(shown.y - y).argmin()] > 0:
+        return x, y
+    i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
+    return float(shown.x[i]), float(shown.y[j])
+
+
+def _body(ds: xr.Dataset, snapshots: Sequence[Snapshot]) -> tuple[BodyPlace, ...]:
+    if motion_axis(ds) is None:
+        return ()
+    times = [each.time for each in snapshots]
+    return tuple(BodyPlace(body_axis_at(ds, time), direction_at(ds, time)) for time in times)
 
 
 def _marked(ds: xr.Dataset, snapshots: Sequence[Snapshot]) -> tuple[bool, ...]:

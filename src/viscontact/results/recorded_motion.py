@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 
 def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
@@ -42,3 +43,37 @@ def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None
     ways = [float(np.diff(results[f"position_{axis}"].values)[index - 1]) for axis in "xy"]
     length = math.hypot(*ways)
     return (ways[0] / length, ways[1] / length) if length > 0 else None
+
+
+def body_axis_at(results: xr.Dataset, time: float) -> tuple[float, float]:
+    """Position (x, y) of the body's axis at an instant [m]; the origin of a standing contact.
+
+    >>> moved = xr.Dataset({f"position_{axis}": ("time", [0.0, 2.0]) for axis in "xy"})
+    >>> body_axis_at(moved.assign_coords(time=[0.0, 1.0]), 0.9), body_axis_at(xr.Dataset(), 0.9)
+    ((2.0, 2.0), (0.0, 0.0))
+    """
+    if "position_x" not in results:
+        return 0.0, 0.0
+    index = int(np.abs(results["time"].values - time).argmin())
+    x, y = (float(results[f"position_{axis}"][index]) for axis in "xy")
+    return x, y
+
+
+def contact_edges(
+    positions: NDArray[np.float64], pressure: NDArray[np.float64], way: float
+) -> tuple[float, float] | None:
+    """Leading and trailing edge of a contact [m] on a line through it; None without.
+
+    The sign of `way` is that of the velocity along the line; there are no edges if it is 0.
+
+    >>> at = np.array([0.0, 1.0, 2.0, 3.0])
+    >>> contact_edges(at, np.array([0.0, 5.0, 5.0, 0.0]), -0.1)
+    (0.5, 2.5)
+    """
+    pressed = np.flatnonzero(pressure > 0)
+    if way == 0 or pressed.size == 0:
+        return None
+    first, last = pressed[[0, -1]]
+    low = float(positions[max(first - 1, 0)] + positions[first]) / 2
+    high = float(positions[last] + positions[min(last + 1, len(positions) - 1)]) / 2
+    return (high, low) if way > 0 else (low, high)

@@ -29,7 +29,7 @@ class Place(Flag):
     CARD = auto()
     #: The results at the head of the report and of the page.
     FACTS = auto()
-    #: Histories of the report and of the page: the load, and the contact's response.
+    #: Histories of the report and of the page: load and motion, and the contact's response.
     LOAD = auto()
     RESPONSE = auto()
     #: The history figure.
@@ -95,6 +95,12 @@ def _scalar(
     )
 
 
+def _position(axis: str, rank: int) -> Variable:
+    """Position of a moving body along an axis, which is prescribed."""
+    name, label = f"position of the body's axis along {axis}", f"Position along {axis}"
+    return Variable("m", name, label=label, places=Place.LOAD, rank=rank, moving=True)
+
+
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
 _MOTION = _EXTENT | Place.FIGURE
 _RESULT = _MOTION | Place.KEY | Place.FACTS | Place.LIVE
@@ -141,8 +147,8 @@ SCALARS = {
     "loss_per_cycle": _scalar(
         "J", "work lost in the last complete cycle of the load", "Loss per cycle", 14
     ),
-    "position_x": Variable("m", "position of the body's axis along x", moving=True),
-    "position_y": Variable("m", "position of the body's axis along y", moving=True),
+    "position_x": _position("x", 21),
+    "position_y": _position("y", 22),
     "resistance_x": _scalar(
         *("N", "force of the half-space on the body against +x", "Resistance along x", 15),
         *(_RESISTANCE,),
@@ -155,7 +161,7 @@ SCALARS = {
     ),
     "friction_coefficient": _scalar(
         *("1", "resistance against the motion over force", "Friction coefficient", 17),
-        *(_RESISTANCE | Place.KEY | Place.FACTS,),
+        *(_RESISTANCE | Place.KEY | Place.FACTS | Place.LIVE,),
         moving=True,
     ),
     "motion_work": _scalar(
@@ -163,12 +169,15 @@ SCALARS = {
         "work of the motion against the resistance since the start",
         "Motion work",
         18,
+        Place.RESPONSE,
         moving=True,
     ),
     "dissipation": _scalar(
         "W", "power lost in the bodies", "Dissipation", 19, Place.RESPONSE, moving=True
     ),
-    "heat": _scalar("J", "energy lost in the bodies since the start", "Heat", 20, moving=True),
+    "heat": _scalar(
+        "J", "energy lost in the bodies since the start", "Heat", 20, Place.RESPONSE, moving=True
+    ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
@@ -203,7 +212,7 @@ def shown_in(place: Place, stored: Container[Hashable] | None = None) -> list[st
     Examples
     --------
     >>> shown_in(Place.LIVE), shown_in(Place.LIVE, {"approach"})
-    (['contact_area', 'approach', 'peak_pressure'], ['approach'])
+    (['contact_area', 'approach', 'peak_pressure', 'friction_coefficient'], ['approach'])
     """
     names = [name for name, variable in SCALARS.items() if place & variable.places]
     in_table = place in Place.TABLE | Place.KEY

@@ -16,7 +16,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.results.recorded_motion import direction_at, motion_axis
+from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, take_snapshots
 from viscontact.units.formatting import ReadableUnit, readable_unit, time_labels
 
@@ -130,16 +130,10 @@ def _mark_edges(
     colour: Any,
 ) -> None:
     """Mark the edges of a moving contact on its curve; none at rest."""
-    positions, values = curve.values(snapshot)
-    pressed = np.flatnonzero(values > 0)
     direction = direction_at(results, snapshot.time)
-    if direction is None or pressed.size == 0:
-        return
-    ends = [positions[max(pressed[0] - 1, 0)], positions[min(pressed[-1] + 1, len(positions) - 1)]]
-    edges = [(ends[0] + positions[pressed[0]]) / 2, (ends[1] + positions[pressed[-1]]) / 2]
-    if direction["xy".index(curve.along)] > 0:
-        edges.reverse()
-    for edge, fill in zip(edges, (colour, "white"), strict=True):  # the leading one first
+    way = 0.0 if direction is None else direction["xy".index(curve.along)]
+    edges = contact_edges(*curve.values(snapshot), way)
+    for edge, fill in zip(edges or (), (colour, "white"), strict=False):  # the leading one first
         axes.scatter(
             units.length(edge), 0.0, s=16, color=fill, edgecolors=[colour], zorder=3, clip_on=False
         )

@@ -25,12 +25,16 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
     labels = labels_in(Place.LIVE)
     times: list[float | None] = []
     scalars: dict[str, list[float | None]] = {name: [] for name in labels}
+    written: set[str] = set()
     for line in lines.splitlines():
         with suppress(ValueError, LookupError, TypeError):
             found = json.loads(line)
             times.append(_finite(found["time"]))
+            written.update(found)
             for name, values in scalars.items():
                 values.append(_finite(found.get(name)))
+    for name in scalars.keys() - written if times else ():  # such as friction without motion
+        del labels[name], scalars[name]
     return {
         **{"begun": begun, "after": begun + len(lines), "labels": labels},
         **{"time": times, "scalars": scalars},

@@ -43,7 +43,7 @@ function append(run, added) {
   const kept = added.time.length ? run.time.filter((time) => time < added.time[0]).length : run.time.length;
   run.time.splice(kept, Infinity, ...added.time);
   for (const [name, values] of Object.entries(added.scalars)) (run.scalars[name] ??= []).splice(kept, Infinity, ...values);
-  run.labels = added.labels;
+  if (added.time.length) run.labels = added.labels;
   run.after = added.after;
 }
 
@@ -68,9 +68,12 @@ function scale(times, end) {
 }
 
 function drawn(times, values, at, label) {
-  const largest = values.reduce((most, value) => Math.max(most, value ?? 0), 0) || 1, each = Math.max(1, Math.ceil(values.length / MOST_POINTS));
+  const extreme = (choose) => values.reduce((found, value) => choose(found, value ?? 0), 0);
+  const least = extreme(Math.min), range = extreme(Math.max) - least || 1;
+  const each = Math.max(1, Math.ceil(values.length / MOST_POINTS));
+  const height = (value) => (HEIGHT * (1 - (value - least) / range)).toFixed(2);
   const points = values.map((value, i) => (value === null || (i % each && i < values.length - 1) ? null
-    : `${(WIDTH * at(times[i])).toFixed(2)},${(HEIGHT * (1 - value / largest)).toFixed(2)}`));
+    : `${(WIDTH * at(times[i])).toFixed(2)},${height(value)}`));
   const svg = (tag, attributes) => {
     const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
     for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -80,7 +83,7 @@ function drawn(times, values, at, label) {
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img",
     "aria-label": `${label} over time so far`,
   });
-  picture.append(svg("line", { class: "base", x1: 0, x2: WIDTH, y1: HEIGHT, y2: HEIGHT }),
+  picture.append(svg("line", { class: "base", x1: 0, x2: WIDTH, y1: height(0), y2: height(0) }),
     svg("polyline", { class: "curve", points: points.filter(Boolean).join(" ") }));
   return picture;
 }

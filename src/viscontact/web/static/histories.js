@@ -9,6 +9,8 @@ let onLog = null;
 
 export const forgetScale = () => { onLog = null; };
 
+export const titled = (label, { symbol }) => (symbol ? `${label} [${symbol}]` : label);
+
 export async function drawHistories(shown, reference) {
   const Plotly = await plotly(), data = shown.data;
   onLog ??= data.logTime;
@@ -30,7 +32,7 @@ function drawPanel(Plotly, name, label, shown, reference, scale) {
   const box = panelBox(name);
   const note = scalar.mesh.some(Boolean) ? "depends on the mesh" : "";
   const isDrawn = [scalar, other].some((each) => each?.drawn.some((value) => value !== null));
-  box.querySelector("h4").replaceChildren(`${label} [${unit.symbol}]`, make("span", { textContent: note }));
+  box.querySelector("h4").replaceChildren(titled(label, unit), make("span", { textContent: note }));
   const traces = [band(shown.data, scalar, unit, scale), line(shown.data, scalar, unit, scale, colour("blue"), "solid")];
   if (other) traces.unshift(line(reference.data, other, unit, scale, colour("warm"), "dash"));
   return Plotly.react(box.querySelector(".plot"), traces, layout({

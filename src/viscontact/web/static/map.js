@@ -57,9 +57,11 @@ function showInstant(index) {
   const label = `t = ${instant(map.times[index], time)}`;
   place("instant").value = label;
   place("instant-slider").setAttribute("aria-valuetext", label);
+  const body = map.body[index];
   const stretch = map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch, 0)} times as long as x.`;
   const largest = `Largest pressure ${map.mesh[index] ? "> " : ""}${digits(peak / pressure.factor)} ${pressure.symbol}.`;
-  place("map-text").textContent = peak > 0 ? largest + stretch : "No contact.";
+  const moved = body ? ` Cross: the body’s axis${body.direction ? ", arrow: its motion" : ", at rest"}.` : "";
+  place("map-text").textContent = (peak > 0 ? largest + stretch : "No contact.") + moved;
   drawPlane();
   place(LINE_LOAD).parentElement.hidden = !map.sections.some((each) => each.name === LINE_LOAD);
   for (const curve of map.sections) drawCurve(curve);
@@ -82,6 +84,20 @@ const below = (text) => ({
   font: { size: 12, color: colour("ink") },
 });
 
+// The axis of a moving body, and an arrow from it along the motion, 34 pixels long.
+const cross = ({ axis: [x, y] }) => ({
+  x: [x], y: [y], mode: "markers", hoverinfo: "skip",
+  marker: { symbol: "cross-thin", size: 9, line: { color: colour("warm"), width: 2 } },
+});
+function arrow({ axis: [x, y], direction }, stretch) {
+  const up = stretch * direction[1], pixels = 34 / Math.hypot(direction[0], up);
+  const [across, ahead] = [pixels * direction[0], pixels * up];
+  return {
+    x, y, xref: "x", yref: "y", text: "", showarrow: true, arrowhead: 2, arrowwidth: 2.2, arrowcolor: colour("warm"),
+    xshift: across, yshift: ahead, ax: -across, ay: ahead,
+  };
+}
+
 function drawPlane() {
   const { map, reference, index, length, pressure, Plotly } = picture, box = place("map");
   const factor = map.lengthFactor / length.factor, scaled = (values) => values.map((value) => value * factor);
@@ -102,6 +118,8 @@ function drawPlane() {
     const then = nearest(reference.times, map.times[index]);
     traces.push({ ...rim(reference, then, length), line: { color: colour("warm"), width: 1.6, dash: "dash" } });
   }
+  const body = map.body[index] && { ...map.body[index], axis: scaled(map.body[index].axis) };
+  if (body) traces.push(cross(body));
   const xRange = scaled(map.xRange), yRange = scaled(map.yRange), constrain = map.periodic ? "domain" : "range";
   const ratio = map.stretch * (yRange[1] - yRange[0]) / (xRange[1] - xRange[0]);
   const height = Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 128, 190), 560));
@@ -109,7 +127,7 @@ function drawPlane() {
   const plane = layout({
     height,
     margin: { l: 56, r: 20, t: 0, b: 50 },
-    annotations: [below(`x [${length.symbol}]`)],
+    annotations: [below(`x [${length.symbol}]`), ...(body?.direction ? [arrow(body, map.stretch)] : [])],
     xaxis: axis("", { range: xRange, constrain, showgrid: false }),
     yaxis: axis(`y [${length.symbol}]`, {
       range: yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch,
@@ -134,6 +152,8 @@ function drawCurve(curve) {
     traces.push(line(reference, part, then, { color: colour("warm"), width: 2, dash: "dash" }));
   }
   traces.push(line(map, curve, index, { color: colour("blue"), width: 2.4 }));
+  const edges = curve.edges?.[index];
+  if (edges) traces.push(edgeMarks(edges.map((edge) => edge * map.lengthFactor / length.factor)));
   const box = place(curve.name);
   box.previousElementSibling.replaceChildren(...headingOf(curve));
   Plotly.react(box, traces, layout({
@@ -142,11 +162,19 @@ function drawCurve(curve) {
   }), quiet());
 }
 
+// Leading (full) and trailing (hollow) edge of a moving contact.
+const edgeMarks = (edges) => ({
+  x: edges, y: [0, 0], mode: "markers", cliponaxis: false, text: ["leading edge", "trailing edge"],
+  marker: { size: 8, color: [colour("blue"), colour("card")], line: { color: colour("blue"), width: 1.6 } },
+  hovertemplate: "%{text}: %{x:.4g}<extra></extra>",
+});
+
 function headingOf(curve) {
   if (curve.name === LINE_LOAD) return ["Line load along x"];
-  const { map, length } = picture, other = curve.along === "x" ? 1 : 0;
-  const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor, 0)} ${length.symbol}`;
-  return [`Along ${curve.along} `, make("span", { textContent: `at ${through}` })];
+  const { map, length, index } = picture, other = curve.along === "x" ? 1 : 0;
+  const through = `${"xy"[other]} = ${digits(map.crossings[index][other] / length.factor, 0)} ${length.symbol}`;
+  const edges = curve.edges?.[index] ? ", ● leading, ○ trailing edge" : "";
+  return [`Along ${curve.along} `, make("span", { textContent: `at ${through}${edges}` })];
 }
 
 function play() {

@@ -40,7 +40,7 @@ function row(name, data, reference, stated) {
     number(whole(valueText(unit, value, shownError(value, error, largest), mesh)), style);
   const cellAt = (index, style) => cell(scalar.value.at(index), scalar.error.at(index), scalar.mesh.at(index), style);
   return make("tr", {},
-    make("th", { scope: "row" }, titleOf(name), make("small", { textContent: ` [${unit.symbol}]` })),
+    make("th", { scope: "row" }, titleOf(name), make("small", { textContent: unit.symbol && ` [${unit.symbol}]` })),
     cellAt(0, "first"), cellAt(-1), cellAt(at, "largest"),
     stated && number(errorText(scalar, largest, data.time), "worst"),
     reference && [cell(before, other?.error.at(-1) ?? null, other?.mesh.at(-1)), number(change(scalar.value.at(-1), before))]);

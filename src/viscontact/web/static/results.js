@@ -3,6 +3,7 @@
 import { instant } from "./charts.js";
 import { definitions, items, make, place, write } from "./dom.js";
 import { drawHistories, forgetScale } from "./histories.js";
+import { drawLoops } from "./loops.js";
 import { drawMap } from "./map.js";
 import { numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
@@ -36,7 +37,7 @@ export async function drawResults() {
   place("reference-text").replaceChildren(...referenceText(reference));
   place("downloads").replaceChildren(...downloads(shown));
   place("accuracy").replaceChildren(...definitions(data.accuracy));
-  await Promise.all([drawMap(shown, reference), drawHistories(shown, reference)]);
+  await Promise.all([drawMap(shown, reference), drawHistories(shown, reference), drawLoops(shown, reference)]);
   document.documentElement.dataset.drawn = shown.id;
 }
 
@@ -73,7 +74,7 @@ function drawFacts(data) {
     const { value, error, unit, mesh } = data.scalars[name];
     const [number, half] = quantityText(value[index], error[index], unit, mesh[index]).split(" ± ");
     return make("div", {}, make("dt", { textContent: label }),
-      make("dd", {}, half ? `${number} ${half.split(" ").at(-1)}` : number,
+      make("dd", {}, [number, half?.split(" ")[1]].filter(Boolean).join(" "),
         half && make("small", { textContent: `± ${half}` })));
   }));
 }

@@ -9,7 +9,7 @@ const prefixed = (unit, least = 0) =>
 const LADDERS = {
   m: [["m", 1], ["mm", 1e-3], ["µm", 1e-6], ["nm", 1e-9]],
   m2: [["m²", 1], ["mm²", 1e-6], ["µm²", 1e-12], ["nm²", 1e-18]],
-  Pa: prefixed("Pa", 1e-9), N: prefixed("N"), "N/m": prefixed("N/m", 1e-9), J: prefixed("J"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6], ["nrad", 1e-9]], s: TIMES,
+  Pa: prefixed("Pa", 1e-9), N: prefixed("N"), "N/m": prefixed("N/m", 1e-9), J: prefixed("J"), W: prefixed("W"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6], ["nrad", 1e-9]], s: TIMES,
 };
 // Units of each system; mrad and s are used in all but SI.
 const system = (name, units) => ({ name, units: { rad: ["mrad", 1e-3], s: ["s", 1], ...units } });

@@ -1,0 +1,100 @@
+"""Report of a moving contact: the body's place and direction, sections, histories, loops."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact.loads.motion import Motion
+from viscontact.report.histories import load_panels, response_panels
+from viscontact.report.map_data import curves_data, map_data, section_csv, section_place
+from viscontact.report.page import report_page
+from viscontact.report.resistance_loops import loops_data
+from viscontact.report.shown_fields import shown_fields
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+RUBBER = vc.Material(vc.Zener(9e6, 1e6, 1e6), poisson_ratio=0.5)
+#: Cells along x and y [m].
+CELL = 1e-4
+
+
+def _run(
+    motion: Motion | None, times: list[float], material: vc.Material = RUBBER, middle: float = -3e-4
+) -> xr.Dataset:
+    ball, load = vc.Paraboloid(0.01, 0.01), vc.step(0.2, tilt_x=0.0, tilt_y=0.0)
+    grid = vc.Grid((16, 24), (16 * CELL, 24 * CELL), centre=(0.0, middle))
+    return vc.simulate(ball, material, load, grid, times, motion=motion, errors=False)
+
+
+@pytest.fixture(scope="module")
+def moved() -> xr.Dataset:
+    """A ball that moves against y, and is at rest at last."""
+    return _run(vc.Travel([0.0, 0.6], y=[0.0, -6e-4]), [0.0, 0.3, 0.6, 0.9])
+
+
+def test_map_has_axis_and_direction_of_the_body(moved: xr.Dataset) -> None:
+    data = map_data(shown_fields(moved))
+    assert data["unit"] == "mm"
+    axes = [each["axis"] for each in data["body"]]
+    np.testing.assert_allclose(axes, [[0, 0], [0, -0.3], [0, -0.6], [0, -0.6]], atol=1e-9)
+    assert [each["direction"] for each in data["body"]] == [(0, -1), (0, -1), (0, -1), None]
+
+
+def test_sections_follow_the_resultant_of_a_moving_contact(moved: xr.Dataset) -> None:
+    fields = shown_fields(moved)
+    resultant = moved.position_y + moved.eccentricity_y  # which is measured from the body's axis
+    # To a hundredth of a cell.
+    np.testing.assert_allclose([y for _, y in fields.through], resultant, atol=0.006 * CELL)
+    assert section_place(fields, "x") == "through the resultant of each instant"
+    assert section_place(fields, "y") == "at x = 0 mm"
+    assert f"y = {fields.through[1][1]!r} m" in section_csv(fields, "x").splitlines()[0]
+
+
+def test_section_along_the_motion_has_leading_and_trailing_edge(moved: xr.Dataset) -> None:
+    along_x, along_y = curves_data(moved, shown_fields(moved))
+    assert along_x["edges"] == [None] * 4
+    assert along_y["edges"][3] is None
+    leading, trailing = along_y["edges"][1]
+    pressed = moved.y.values[(moved.pressure[1].values > 0).any(axis=0)]
+    assert leading == pytest.approx((pressed.min() - CELL / 2) * 1e3)
+    assert trailing == pytest.approx((pressed.max() + CELL / 2) * 1e3)
+
+
+def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) -> None:
+    load, response = load_panels(moved), [each["name"] for each in response_panels(moved)]
+    assert "position_y" in [each["name"] for each in load]
+    assert next(each for each in load if each["name"] == "position_y")["note"] == ""
+    assert {"resistance_y", "friction_coefficient", "motion_work", "heat"} <= set(response)
+    assert "resistance_x" not in response  # rounding
+
+
+def test_elastic_body_has_no_panels_of_resistance() -> None:
+    elastic = vc.Material(vc.Elastic(9e6), poisson_ratio=0.5)
+    ds = _run(vc.Travel([0.0, 0.6], y=[0.0, -6e-4]), [0.0, 0.3, 0.6], elastic)
+    shown = {each["name"] for each in response_panels(ds)}
+    assert not shown & {"resistance_y", "friction_coefficient", "motion_work", "heat"}
+
+
+def test_area_of_the_last_loop_is_the_motion_work_of_a_cycle() -> None:
+    ds = _run(vc.reciprocating(3e-4, 1.0, cycles=2), np.linspace(0, 2, 49).tolist(), middle=0.0)
+    (loop,) = loops_data(ds)
+    assert (loop["along"], loop["last"]) == ("y", 24)
+    position = np.array(loop["position"][loop["last"] :]) * loop["lengthFactor"]
+    force = np.array(loop["values"][loop["last"] :]) * loop["valueFactor"]
+    work = float(ds.motion_work[-1] - ds.motion_work[24])
+    # A polygon of 24 corners in an ellipse has this part of its area; the loop is nearly one.
+    polygon = np.sinc(2 / 24)
+    assert np.trapezoid(force, position) == pytest.approx(polygon * work, rel=3e-3)
+
+
+def test_page_of_a_moving_contact_names_motion_and_edges(moved: xr.Dataset) -> None:
+    page = report_page(moved)
+    for text in ("Load and motion", "Along y, the direction of motion, at x = 0", "leading edge"):
+        assert text in page
+    assert "motion work of a cycle" not in page  # it does not turn back
+    standing = report_page(_run(None, [0.0, 0.3]))
+    for text in ("Load and motion", "the direction of motion", "hollow: trailing edge"):
+        assert text not in standing
