@@ -9,6 +9,7 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
 
 import viscontact as vc
+from viscontact.plot import animation
 from viscontact.plot.pressure.pressure_map import pressure_map
 from viscontact.plot.pressure.pressure_profile import pressure_profile
 
@@ -46,6 +47,28 @@ def test_body_at_rest_has_no_edges_marked(moved: xr.Dataset) -> None:
 def test_map_has_an_arrow_along_the_motion(moved: xr.Dataset) -> None:
     going, resting, _ = pressure_map(moved, times=[0.3, 0.9]).axes
     (arrow,) = (each for each in going.texts if isinstance(each, Annotation) and each.arrow_patch)
-    assert arrow.xy[0] == pytest.approx(arrow.xyann[0])
-    assert arrow.xy[1] < arrow.xyann[1]
+    # From the axis, which is at y = -0.3 mm.
+    tail, head = going.transData.transform(arrow.xyann), arrow.xycoords.transform(arrow.xy)
+    assert arrow.xyann == pytest.approx((0.0, -0.3), abs=1e-9)
+    assert head[0] == pytest.approx(tail[0])
+    assert head[1] < tail[1]
     assert not [each for each in resting.texts if getattr(each, "arrow_patch", None)]
+
+
+def test_film_follows_the_body_and_marks_its_edges(moved: xr.Dataset) -> None:
+    film = animation(moved, seconds=1.0, fps=4.0)
+    surface = next(axes for axes in film.figure.axes if axes.get_ylabel() == "y [mm]")
+    section = next(axes for axes in film.figure.axes if axes.get_xlabel() == "y [mm]")
+    low, high = surface.get_ylim()
+    for time, place in ((0.0, 0.0), (0.3, -0.3), (0.9, -0.6)):
+        film.show(time)
+        (cross,) = (line for line in surface.lines if line.get_marker() == "+")
+        assert cross.get_ydata()[0] == pytest.approx(place, abs=1e-9)
+        assert low < place < high
+        arrows = [each for each in surface.texts if getattr(each, "arrow_patch", None)]
+        assert len(arrows) == (time < 0.9)  # at rest there is none
+        _, leading, trailing = section.lines
+        if time == 0.3:
+            assert leading.get_xdata()[0] < place < trailing.get_xdata()[0]
+        if time == 0.9:
+            assert np.isnan(leading.get_xdata()[0])

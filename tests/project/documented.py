@@ -12,6 +12,7 @@ import os
 import re
 import runpy
 import shlex
+import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -258,7 +259,7 @@ def pictures(markdown: str, page: Path) -> list[Path]:
     """The pictures that a page shows."""
     return [
         (page.parent / name).resolve()
-        for name in re.findall(r"!\[[^\]]*\]\(([^)]+\.png)\)", markdown)
+        for name in re.findall(r"!\[[^\]]*\]\(([^)]+\.(?:png|gif))\)", markdown)
     ]
 
 
@@ -271,8 +272,15 @@ def refresh(page: Path, given: str = "") -> None:
         reader.follow(markdown)
         for picture in pictures(markdown, page):
             if Path(picture.name).exists():
-                _as_shown(Path(picture.name)).save(picture, optimize=True)
+                _take(Path(picture.name), picture)
                 print(f"{picture.relative_to(ROOT)}: {picture.stat().st_size / 1e3:.0f} kB")
+
+
+def _take(picture: Path, into: Path) -> None:
+    if picture.suffix == ".gif":  # a film
+        shutil.copy(picture, into)
+    else:
+        _as_shown(picture).save(into, optimize=True)
 
 
 def _as_shown(picture: Path) -> Image.Image:

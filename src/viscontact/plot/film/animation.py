@@ -8,6 +8,8 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +21,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_over
+from viscontact.plot.motion.body_mark import BODY_COLOUR, mark_body
 from viscontact.plot.pressure.pressure_map import (
     ORDINARY,
     draw_contours,
@@ -26,6 +29,7 @@ from viscontact.plot.pressure.pressure_map import (
     pressure_levels,
 )
 from viscontact.results.recorded_case import across_period
+from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
@@ -36,7 +40,6 @@ Array = NDArray[np.float64]
 #: The least width of a history [inch].
 _HISTORY_WIDTH = 1.7
 _MOST_FRAMES = 5000
-_MARKER = "#D55E00"
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +90,8 @@ class _Scene:
     unit: ReadableUnit
     along: Literal["x", "y"]
     note: str
+    mark: Callable[[Axes, float], list[Artist]]  # draws the moving body at an instant [s]
+    edges: Callable[[Snapshot], tuple[float, float] | None]  # leading and trailing [m]
 
     def at(self, instant: float) -> Snapshot:
         """Fields at a stored instant [s]."""
@@ -102,6 +107,9 @@ def animation(
     width: Width | None = None,
 ) -> Film:
     """Animate a run: pressure map, section and markers on the histories.
+
+    Of a moving contact, the map has the body's axis and the direction of its motion. The section is
+    along the motion, with a full marker at the leading edge and a hollow one at the trailing edge.
 
     Parameters
     ----------
@@ -156,7 +164,7 @@ def animation(
     scene = _scene(results, stored, shown)
     wide = page_width(width, style.TWO_COLUMNS)
     names = _histories(run, wide)
-    sheet = new_sheet(scene.window, wide, len(names))
+    sheet = new_sheet(scene.window, wide, len(names), scene.along)
     show = _stage(sheet, scene, run, names)
     chosen = _spread_evenly(shown, run, count)
     show(float(chosen[0]))
@@ -195,8 +203,16 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
     window = window_over(boxes, snapshot.borders() if any(snapshot.periodic) else None)
     levels, unit = pressure_levels(highest)
     is_long = window.x[1] - window.x[0] >= window.y[1] - window.y[0]
-    along = across_period(results) or ("x" if is_long else "y")
-    return _Scene(stored, read, window, levels, unit, along, note)
+    along = motion_axis(results) or across_period(results) or ("x" if is_long else "y")
+
+    def mark(axes: Axes, instant: float) -> list[Artist]:
+        return mark_body(axes, results, instant, window)
+
+    def edges(snapshot: Snapshot) -> tuple[float, float] | None:
+        direction = direction_at(results, snapshot.time) or (0.0, 0.0)
+        return contact_edges(*snapshot.section(along), direction["xy".index(along)])
+
+    return _Scene(stored, read, window, levels, unit, along, note, mark, edges)
 
 
 def _histories(run: xr.Dataset, width: float) -> list[str]:
@@ -229,25 +245,30 @@ def _stage(
     sheet: Sheet, scene: _Scene, run: xr.Dataset, names: list[str]
 ) -> Callable[[float], None]:
     """Draw the fixed parts; return a function that draws the rest at an instant."""
-    curve = _set_up_fields(sheet, scene)
+    curve, edges = _set_up_fields(sheet, scene)
+    body: list[Artist] = []
     time_unit, _ = draw_scalars(sheet.histories, names, {"": run})
     markers = []
     for axes in sheet.histories:
         # Time as a bar behind the curve and a dot on it.
-        axes.axvline(0.0, color=_MARKER, linewidth=0.8, alpha=0.6, zorder=1)
-        axes.plot([], [], "o", color=_MARKER, markersize=4.5, clip_on=False, zorder=5)
+        axes.axvline(0.0, color=BODY_COLOUR, linewidth=0.8, alpha=0.6, zorder=1)
+        axes.plot([], [], "o", color=BODY_COLOUR, markersize=4.5, clip_on=False, zorder=5)
         markers.append(axes.get_lines()[-2:])
     labels = dict(zip(scene.stored.tolist(), time_labels(scene.stored), strict=True))
     times = run["time"].values
 
     def show(instant: float) -> None:
         snapshot = scene.at(instant)
-        for artist in [*sheet.surface.collections, *sheet.surface.patches]:
+        for artist in [*sheet.surface.collections, *sheet.surface.patches, *body]:
             artist.remove()
         draw_contours(sheet.surface, snapshot, scene.levels, scene.window)
         apart = "" if snapshot.touching else ", no contact"
         style.add_heading(sheet.surface, f"t = {labels[snapshot.time]}{apart}")
+        body[:] = scene.mark(sheet.surface, snapshot.time)
         curve.set_data(*_section(snapshot, scene))
+        found = scene.edges(snapshot) or (np.nan, np.nan)
+        for dot, edge in zip(edges, found, strict=True):
+            dot.set_data([float(scene.window.unit(edge))], [0.0])
         at = float(time_unit(snapshot.time))
         nearest = int(np.abs(times - snapshot.time).argmin())
         for (bar, dot), axes in zip(markers, sheet.histories, strict=True):
@@ -258,8 +279,8 @@ def _stage(
     return show
 
 
-def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
-    """Prepare map and section; return the section's empty curve."""
+def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
+    """Prepare map and section; return its empty curve, and markers of leading and trailing edge."""
     window, unit = scene.window, scene.unit
     window.show(sheet.surface)
     sheet.surface.set_ylabel(window.unit.label("y"))
@@ -277,7 +298,14 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
     style.add_heading(
         sheet.section, f"at {across} = {format_quantity(middle, 'm') if middle else 0}"
     )
-    return sheet.section.plot([], [], color=style.LINE, linewidth=style.LINE_WIDTH)[0]
+    (curve,) = sheet.section.plot([], [], color=style.LINE, linewidth=style.LINE_WIDTH)
+    edges = [
+        sheet.section.plot(
+            [], [], "o", color=style.LINE, mfc=face, ms=4.5, clip_on=False, zorder=5.0
+        )[0]
+        for face in (style.LINE, "white")
+    ]
+    return curve, edges
 
 
 def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Array, Array]:

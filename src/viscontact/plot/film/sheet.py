@@ -29,14 +29,18 @@ class Sheet:
     is_long: bool
 
 
-def new_sheet(window: Window, width: float, histories: int) -> Sheet:
-    """Lay out the panels on a page of this width [inch]: map, section, and histories below."""
+def new_sheet(window: Window, width: float, histories: int, along: str) -> Sheet:
+    """Lay out the panels on a page of this width [inch]: map, section, and histories below.
+
+    A section along x below the map shares its axis.
+    """
     is_long = window.height_to_width < 0.6
     width = STEP * round(width / STEP)
     room = width - _LEFT - _BAR - (0.0 if is_long else _LEFT + 0.1)
     across = room if is_long else room / 2
     tall = across * window.height_to_width
-    upper = _HEAD + tall + (0.2 + _CURVES if is_long else 0.0) + _BELOW
+    between = 0.2 if along == "x" else 0.2 + _BELOW
+    upper = _HEAD + tall + (between + _CURVES if is_long else 0.0) + _BELOW
     height = STEP * math.ceil((upper + 0.15 + _CURVES + _BELOW) / STEP)
     figure = Figure(figsize=(width, height))
 
@@ -50,7 +54,7 @@ def new_sheet(window: Window, width: float, histories: int) -> Sheet:
     surface = panel(_LEFT, _HEAD, across, tall)
     bar = panel(_LEFT + across + 0.12, _HEAD, 0.12, tall)
     if is_long:
-        section = panel(_LEFT, _HEAD + tall + 0.2, across, _CURVES)
+        section = panel(_LEFT, _HEAD + tall + between, across, _CURVES)
     else:
         section = panel(_LEFT + across + _BAR + _LEFT, _HEAD, room - across, tall)
     each = width / histories

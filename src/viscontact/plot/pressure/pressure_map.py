@@ -23,9 +23,9 @@ from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
+from viscontact.plot.motion.body_mark import mark_body
 from viscontact.plot.pressure.rim_polygons import beyond_period, rim_curves, rim_path
 from viscontact.plot.pressure.squared_pressure import squared_pressure
-from viscontact.results.recorded_motion import direction_at
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
@@ -57,8 +57,8 @@ def pressure_map(
     matplotlib.figure.Figure
         Panels with common axes and pressure levels. A long narrow contact is drawn with its
         width stretched by the factor printed in the first panel. A note there
-        states where the peak pressure depends on the mesh. An arrow in the corner is the direction
-        of a moving body.
+        states where the peak pressure depends on the mesh. A cross is the axis of a moving body, an
+        arrow the direction of its motion.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def _draw(
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
     if len(runs) == 1:
         for axes, snapshot in zip(panels, snapshots, strict=True):
-            _draw_direction(axes, direction_at(next(iter(runs.values())), snapshot.time))
+            mark_body(axes, next(iter(runs.values())), snapshot.time, window)
     _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
     figure.draw_without_rendering()  # The layout gives the room for texts.
     style.arrange_headings(figure)
@@ -147,21 +147,6 @@ def _draw(
         if contours is not None:
             _label_contours(axes, contours, snapshot, unit, window)
     return figure
-
-
-def _draw_direction(axes: Axes, direction: tuple[float, float] | None) -> None:
-    """Draw an arrow in the direction of the body's motion in a corner."""
-    if direction is None:
-        return
-    middle, half = np.array([0.12, 0.12]), 0.07 * np.array(direction)
-    (x, y), (from_x, from_y) = middle + half, middle - half
-    axes.annotate(
-        "",
-        xy=(x, y),
-        xytext=(from_x, from_y),
-        xycoords="axes fraction",
-        arrowprops={"arrowstyle": "-|>", "color": style.INK, "linewidth": 1.1},
-    )
 
 
 def pressure_levels(highest: float) -> tuple[NDArray[np.float64], ReadableUnit]:

@@ -132,12 +132,24 @@ function choice(path, node, required) {
 }
 
 function toggle(path, node) {
+  if (node.optional && node.default === null) return decision(path);
   const usual = node.default ?? false;
   const box = make("input", {
     id: idOf(path), type: "checkbox", checked: valueAt(path) ?? usual, "aria-describedby": `${idOf(path)}-description`,
     onchange: () => setValue(path, box.checked === usual ? undefined : box.checked),
   });
   return box;
+}
+
+// A switch that is neither on nor off when left out.
+function decision(path) {
+  const value = valueAt(path);
+  const option = (name, text, given) => make("option", { value: name, textContent: text, selected: value === given });
+  const select = make("select", {
+    id: idOf(path), "aria-describedby": `${idOf(path)}-description ${idOf(path)}-problems`,
+    onchange: () => setValue(path, { yes: true, no: false }[select.value]),
+  }, option("", "—", undefined), option("yes", "yes", true), option("no", "no", false));
+  return select;
 }
 
 // Switches of x and y: true or false where both agree, else a pair.

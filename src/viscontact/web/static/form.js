@@ -4,6 +4,7 @@ import { chosen } from "./choosing.js";
 import { caseValues, changed, dotted, rewrite, setValue, valueAt } from "./draft.js";
 import { make } from "./dom.js";
 import { field, idOf } from "./fields.js";
+import { accompany } from "./company.js";
 import { LATER, titleOf } from "./hints.js";
 import { list, terms } from "./rows.js";
 import { keysOf, startOf, startOfVariant, wholeCase } from "./schema.js";
@@ -170,6 +171,7 @@ function choose(path, node, name) {
     setValue(path, startOfVariant(node, name, now));
     chosen(path, startOfVariant(node, name, {}));
   }
+  accompany(place, name);
   changed("structure");
 }
 

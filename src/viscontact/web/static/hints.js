@@ -13,7 +13,7 @@ export const FIRST = [
 
 // Keys that are folded until they are set or have a problem.
 export const LATER = new Set([
-  "indenter_material", "grid", "output", "tolerance",
+  "indenter_material", "rolling", "grid", "output", "tolerance",
   "rotation", "offset_x", "offset_y", "cross_section",
   "bulk_modulus", "measured_until", "thickness", "temperature", "shift",
   "mean_pressure", "tilt_x", "tilt_y", "eccentricity_y", "phase",
@@ -29,11 +29,21 @@ export const FILLED = {
 export const INSTEAD = {
   force: ["approach", "mean_pressure"], mean: ["approach"], shear_modulus: ["youngs_modulus"],
   poisson_ratio: ["bulk_modulus"], points: ["file", "sentences", "mean_pressure"], wavelength_x: ["wavelength_y"],
+  tilt_y: ["tilt_y", "eccentricity_y"],
 };
 
 // Keys that exclude each other: values of one are dropped when the other is set, as for a punch that
 // is round or rectangular.
 export const APART = { half_length: ["radius"], half_width: ["radius"] };
+
+// Values that go with a kind of a section, by the kind: set where the kind is chosen, and put back
+// where it is left out. A null leaves the key out. A body on an axle does not tilt, and steps of a
+// cell of way are exact in place.
+const ON_AXLE = { "load.tilt_y": 0 };
+const BY_CELLS = { "time.spacing": "cells", "time.steps": null, "time.first": null, "time.tolerance": null };
+export const WITH = {
+  motion: { travel: { ...ON_AXLE, ...BY_CELLS }, reciprocating: { ...ON_AXLE, ...BY_CELLS } },
+};
 
 // Keys of files, which can be uploaded.
 export const FILES = new Set(["file"]);
@@ -41,7 +51,7 @@ export const FILES = new Set(["file"]);
 const NAMES = {
   poisson_ratio: "Poisson’s ratio", youngs_modulus: "Young’s modulus", wlf: "WLF",
   "iso-16281": "ISO 16281", "two-radii": "Two radii",
-  indenter_material: "Indenter’s material",
+  indenter_material: "Indenter’s material", x: "x", y: "y",
 };
 
 // Title of a key: "half_length" becomes "Half length", unless it is listed above.

@@ -45,6 +45,8 @@ def problem_of(line: str, path: Path) -> Problem:
     --------
     >>> problem_of("a/case.yaml:6: load.force: cannot read it", Path("a/case.yaml"))
     Problem(message='cannot read it', path='load.force', line=6)
+    >>> problem_of("a/case.yaml:6: motion: motion.rolling: give it", Path("a/case.yaml")).path
+    'motion.rolling'
     >>> problem_of("a/case.yaml: a/pmma.csv: no such file", Path("a/case.yaml"))
     Problem(message='pmma.csv: no such file', path='', line=None)
     """
@@ -54,6 +56,9 @@ def problem_of(line: str, path: Path) -> Problem:
     key = _KEY.match(line)
     where = key[1] if key and _is_key(key[1], number) else ""
     line = line[key.end() :] if key and where else line
+    # A key that is missing in the file stands behind its section.
+    if where and (key := _KEY.match(line)) and key[1].startswith(f"{where}."):
+        where, line = key[1], line[key.end() :]
     return Problem(without_folder(line, path.parent), where, number)
 
 
