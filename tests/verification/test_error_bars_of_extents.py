@@ -45,7 +45,10 @@ def test_bars_of_the_length_hold(radius_ratio: float) -> None:
     assert np.median(ratios[:, 1]) < 5
 
 
-@pytest.mark.parametrize("name", ["zener", "maxwell", "burgers"])
+@pytest.mark.parametrize(
+    "name",
+    ["zener", *(pytest.param(name, marks=pytest.mark.slow) for name in ("maxwell", "burgers"))],
+)
 def test_bars_of_the_area_hold_where_a_contact_begins_to_shrink(name: str) -> None:
     """Graham (1965), a haversine of force: within two cells of its largest extent.
 
