@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,8 @@ ALL_POINTS = [
     for name in NAMES
     for number, points in enumerate(library.entry(name).points)
 ]
+SERIES = [name for name in NAMES if isinstance(shipped_material(name).law, SeriesLaw)]
+POWERS = [name for name in NAMES if isinstance(shipped_material(name).law, vc.PowerLaw)]
 POINTS = {"quantity": "creep_compliance", "what": "", "data": "shear", "tolerance": 0.01}
 
 
@@ -32,7 +35,7 @@ def test_a_material_keeps_to_what_its_source_prints_or_measured(name: str, point
     assert_allclose(points.of_law(law), points.values, rtol=points.tolerance)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SERIES)
 def test_a_doubled_mode_within_the_range_is_found_by_the_points(name: str) -> None:
     # What a slip in one constant would do: were the tolerances wider, it would pass.
     entry = library.entry(name)
@@ -49,6 +52,56 @@ def test_a_doubled_mode_within_the_range_is_found_by_the_points(name: str) -> No
             np.abs(points.of_law(slipped) / points.values - 1).max() > points.tolerance
             for points in entry.points
         )
+
+
+@pytest.mark.parametrize("name", POWERS)
+@pytest.mark.parametrize("constant", ["instant", "compliance", "exponent"])
+def test_a_power_law_with_one_wrong_constant_is_found_by_the_points(
+    name: str, constant: str
+) -> None:
+    law = shipped_material(name).law
+    slipped = replace(law, **{constant: 1.02 * getattr(law, constant)})
+    printed = library.entry(name).points[0]
+    assert np.abs(printed.of_law(slipped) / printed.values - 1).max() > printed.tolerance
+
+
+def test_every_material_is_a_power_law_or_a_series() -> None:
+    assert sorted([*SERIES, *POWERS]) == sorted(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_material_creeps_relaxes_and_dissipates(name: str) -> None:
+    # The second law, within the range: J increases, G decreases above 0, G'' > 0.
+    law = shipped_material(name).law
+    first, last = library.entry(name).measured
+    times = np.geomspace(max(first, 1e-3 * last), last, 40)
+    assert (np.diff(law(times)) > 0).all()
+    moduli = law.relaxation(times)
+    assert (np.diff(moduli) < 0).all()
+    assert moduli[-1] > 0
+    assert (law.complex_modulus(1 / times).imag > 0).all()
+
+
+@pytest.mark.parametrize("name", ["pom-c-23c", "pa66-conditioned-23c"])
+def test_the_assumed_poisson_ratio_matters_as_little_as_its_file_says(name: str) -> None:
+    # Tensile data: the contact compliance is (1 - nu^2) D, here at 1 h.
+    given = library.entry(name).material
+
+    def compliance(ratio: float) -> float:
+        material = vc.Material(
+            vc.PowerLaw.from_uniaxial(1.0, 0.3, 1.0, poisson_ratio=ratio), poisson_ratio=ratio
+        )
+        return float(material.contact_compliance()(1.0))
+
+    assert given["data"] == "uniaxial"
+    assumed = compliance(given["poisson_ratio"])
+    assert_allclose(compliance(0.35) / assumed - 1, 0.045, atol=0.001)
+    assert_allclose(compliance(0.45) / assumed - 1, -0.051, atol=0.001)
+
+
+@pytest.mark.parametrize("name", ["pom-c-23c", "pa66-conditioned-23c"])
+def test_a_typical_value_says_that_it_is_none_for_design(name: str) -> None:
+    assert library.entry(name).title.endswith("typical, not for design")
 
 
 def test_the_library_covers_many_kinds_of_material() -> None:
@@ -174,6 +227,10 @@ def test_points_come_in_the_convention_of_their_test(data: str, factor: float) -
     modulus = {**POINTS, "quantity": "relaxation_modulus", "data": data}
     relaxation = read_points({**modulus, "times": [1.0], "values": [2.0]}, 0.3)
     assert_allclose(relaxation.values, 1.0 / factor)
+    printed = {**POINTS, "quantity": "creep_modulus", "data": data}
+    stiffness = read_points({**printed, "times": [1.0], "values": [0.5]}, 0.3)
+    assert stiffness.quantity == "creep_compliance"
+    assert_allclose(stiffness.values, 2.0 * factor)
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,8 @@ from viscontact.laws import Law
 #: Over time; the others are over angular frequency.
 _OVER_TIME = ("creep_compliance", "relaxation_modulus")
 _QUANTITIES = (*_OVER_TIME, "storage_modulus", "loss_modulus", "loss_tangent")
+#: Reciprocal of the creep compliance, as data sheets print it (ISO 899-1).
+_CREEP_MODULUS = "creep_modulus"
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,12 +82,17 @@ def read_points(given: dict[str, Any], poisson_ratio: float | None) -> Points:
     """Read the points of an entry's file, and convert them to shear.
 
     `given` has ``quantity``, ``what``, ``data``, ``times`` or ``angular_frequencies``, ``values``
-    and ``tolerance``, in SI units; tensile values need a constant Poisson's ratio. ValueError if a
-    key or a convention is unknown, or lengths differ.
+    and ``tolerance``, in SI units; tensile values need a constant Poisson's ratio. A
+    ``creep_modulus`` is read as the compliance that is its reciprocal. ValueError if a key or a
+    convention is unknown, or lengths differ.
     """
+    if given["quantity"] == _CREEP_MODULUS:
+        compliances = [1.0 / value for value in given["values"]]
+        given = {**given, "quantity": "creep_compliance", "values": compliances}
     quantity = given["quantity"]
     if quantity not in _QUANTITIES:
-        raise ValueError(f"quantity must be one of {', '.join(_QUANTITIES)}, got {quantity!r}")
+        allowed = ", ".join((*_QUANTITIES, _CREEP_MODULUS))
+        raise ValueError(f"quantity must be one of {allowed}, got {quantity!r}")
     at = given["times" if quantity in _OVER_TIME else "angular_frequencies"]
     places = np.asarray(at, dtype=np.float64)
     values = np.asarray(given["values"], dtype=np.float64)
