@@ -84,8 +84,8 @@ def test_a_figure_is_written_where_asked(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["pmma"], "'pmma'; did you mean pmma-paper or pmma-kumar-2004?"),
-        (["polystirene-130c"], "did you mean polystyrene-130c?"),
+        (["pmma"], "'pmma'; did you mean 'pmma-paper' or 'pmma-kumar-2004'?"),
+        (["polystirene-130c"], "did you mean 'polystyrene-130c'?"),
         (["xyz"], "There are pmma-paper, pmma-kumar-2004"),
         (["zenner.yaml"], "zenner.yaml: no such file; did you mean 'zener.yaml'?"),
         (["."], ".: is a directory"),

@@ -15,6 +15,7 @@ from viscontact.case import CaseError, read_material, shipped_material
 from viscontact.laws import SeriesLaw
 from viscontact.materials import library
 from viscontact.materials.library.points import Points, read_points
+from viscontact.materials.library.unknown_names import nearest_names
 from viscontact.plot import material_curves
 
 NAMES = library.names()
@@ -208,6 +209,22 @@ def test_a_run_beyond_the_measured_time_warns() -> None:
     assert press(15.0) == ""
     with pytest.warns(vc.AccuracyWarning, match=r"15\.9 s"):
         assert "15.9 s" in press(20.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "near"),
+    [
+        ("POM", ["pom-c-23c"]),
+        ("PA66", ["pa66-conditioned-23c"]),
+        ("acetal", ["pom-c-23c"]),
+        ("rubber", ["epdm-70-25c", "polyisoprene-226k-25c"]),
+        ("pom-23c", ["pom-c-23c"]),
+        ("PEEK", []),
+        (" ", []),
+    ],
+)
+def test_an_unknown_name_finds_the_entries_it_may_mean(given: str, near: list[str]) -> None:
+    assert nearest_names(given) == near
 
 
 def test_unknown_names_are_refused_with_those_there_are() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
@@ -52,11 +51,7 @@ def shipped_material(name: str) -> Material:
     653.42
     """
     if name not in library.names():
-        near = difflib.get_close_matches(str(name), library.names(), n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else "."
-        raise ValueError(
-            f"no shipped material is called {name!r}{hint} There are {', '.join(library.names())}"
-        )
+        raise ValueError(library.unknown_name(str(name)))
     return _Alone.model_validate({"material": name}).material.built
 
 

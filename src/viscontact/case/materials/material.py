@@ -25,9 +25,7 @@ def _from_library(given: Any) -> Any:
     if not isinstance(given, str):
         return given
     if given not in library.names():
-        names = ", ".join(library.names())
-        why = f"no shipped material is called {given!r}; there are {names}"
-        raise PydanticCustomError("library", "{why}", {"why": why})
+        raise PydanticCustomError("library", "{why}", {"why": library.unknown_name(given)})
     entry = library.entry(given)
     # A run beyond the measured range issues a warning.
     return {**entry.material, "measured_until": f"{entry.measured[1]!r} s"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -70,13 +69,7 @@ def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -
 def _refuse_unknown(which: str, path: Path) -> None:
     if path.exists() or path.suffix:
         return
-    near = [name for name in materials.names() if which.lower() in name]
-    near = near or difflib.get_close_matches(which, materials.names(), n=1)
-    hint = f"; did you mean {' or '.join(near)}?" if near else "."
-    refuse(
-        f"no shipped material and no file is called {which!r}{hint} "
-        f"There are {', '.join(materials.names())}"
-    )
+    refuse(materials.unknown_name(which, "shipped material and no file"))
 
 
 def _refuse_unused(which: str, what: str, typed: MaterialOptions, keys: list[str]) -> None:

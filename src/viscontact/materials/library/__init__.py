@@ -5,5 +5,6 @@
 
 from viscontact.materials.library.entry import Entry, entry, names
 from viscontact.materials.library.points import Points
+from viscontact.materials.library.unknown_names import unknown_name
 
-__all__ = ["Entry", "Points", "entry", "names"]
+__all__ = ["Entry", "Points", "entry", "names", "unknown_name"]

@@ -1,0 +1,64 @@
+"""Message for a name that is not in the library."""
+
+from __future__ import annotations
+
+import difflib
+
+from viscontact.materials.library.entry import entry, names
+
+
+def nearest_names(name: str) -> list[str]:
+    """Return the shipped materials that a name may mean.
+
+    Parameters
+    ----------
+    name : str
+        A name that is not in the library, such as ``"POM"``.
+
+    Returns
+    -------
+    list of str
+        At most three: entries with `name` in their own name, else in their title or family, else
+        the one of the most similar name; empty if none is similar.
+
+    Examples
+    --------
+    >>> nearest_names("POM"), nearest_names("nylon"), nearest_names("pmma-papre")
+    (['pom-c-23c'], ['pa66-conditioned-23c'], ['pmma-paper'])
+    """
+    asked = name.strip().lower()
+    if not asked:
+        return []
+    within = [each for each in names() if asked in each]
+    within = within or [
+        each for each in names() if asked in f"{entry(each).title} {entry(each).family}".lower()
+    ]
+    return within[:3] or difflib.get_close_matches(asked, names(), n=1)
+
+
+def unknown_name(name: str, kind: str = "shipped material") -> str:
+    """Return the message for an unknown name: similar names, all names, and the alternative.
+
+    Parameters
+    ----------
+    name : str
+        A name that is not in the library.
+    kind : str, optional
+        What was sought under this name.
+
+    Returns
+    -------
+    str
+        A message of one line.
+
+    Examples
+    --------
+    >>> unknown_name("POM").partition(" There are")[0]
+    "no shipped material is called 'POM'; did you mean 'pom-c-23c'?"
+    """
+    near = nearest_names(name)
+    hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else "."
+    return (
+        f"no {kind} is called {name!r}{hint} There are {', '.join(names())}; or describe your "
+        "own: see 'Bring your creep data' in the manual (howto/creep-data)"
+    )
