@@ -80,17 +80,27 @@ const placeholder = (required, example) =>
 function asText(value) {
   if (value === undefined || value === null) return "";
   if (typeof value === "number" && value !== 0 && Math.abs(value) < 1e-3) return value.toExponential();
-  return Array.isArray(value) ? value.map(asText).join(", ") : String(value);
+  if (Array.isArray(value)) return value.map(asText).join(", ");
+  if (typeof value !== "object") return String(value);
+  return `{${Object.entries(value).map(([key, each]) => `${key}: ${asText(each)}`).join(", ")}}`;
 }
 
 // Numbers as numbers where the schema asks for them; other values as typed.
 function asValue(typed, node) {
   const text = typed.trim();
+  if (node.mapped && /^\{.*\}$/.test(text)) return asMapping(text);
   const plain = text !== "" && /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text);
   if ((node.kind === "number" || node.numeric) && plain) return Number(text);
   if (node.many && text.includes(",")) return text.split(",").map((part) => part.trim());
   if (node.many && text && !node.words.includes(text) && node.words.length) return [text];
   return text;
+}
+
+// Keys with values, as in {from: 1 mm/s, to: 1 m/s, count: 7}.
+function asMapping(text) {
+  const pairs = text.slice(1, -1).split(",").map((part) => part.split(":").map((word) => word.trim()));
+  const value = (word) => (/^\d+$/.test(word) ? Number(word) : word);
+  return Object.fromEntries(pairs.filter(([key]) => key).map(([key, word = ""]) => [key, value(word)]));
 }
 
 function suggest(input, options) {

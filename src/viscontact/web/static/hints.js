@@ -38,11 +38,14 @@ export const APART = { half_length: ["radius"], half_width: ["radius"] };
 
 // Values that go with a kind of a section, by the kind: set where the kind is chosen, and put back
 // where it is left out. A null leaves the key out. A body on an axle does not tilt, and steps of a
-// cell of way are exact in place.
+// cell of way are exact in place. Steady motion has no time.
 const ON_AXLE = { "load.tilt_y": 0 };
 const BY_CELLS = { "time.spacing": "cells", "time.steps": null, "time.first": null, "time.tolerance": null };
 export const WITH = {
-  motion: { travel: { ...ON_AXLE, ...BY_CELLS }, reciprocating: { ...ON_AXLE, ...BY_CELLS } },
+  motion: {
+    travel: { ...ON_AXLE, ...BY_CELLS }, reciprocating: { ...ON_AXLE, ...BY_CELLS },
+    steady: { ...ON_AXLE, time: null, "output.fields": null },
+  },
 };
 
 // Keys of files, which can be uploaded.

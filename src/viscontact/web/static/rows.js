@@ -23,7 +23,10 @@ export function terms(path, keys) {
 // List of single values or of tuples under one key.
 export function list(path, node) {
   const tuple = node.item.kind === "tuple" ? node.item.items : null;
-  const columns = (tuple ?? [node.item]).map((item) => ({ path, node: item, title: columnName(item, path) }));
+  // Names of the columns where the description begins with them: [time, position] each.
+  const named = node.description?.match(/^\[([a-z ,]+)\] each/)?.[1].split(", ").map(titleOf) ?? [];
+  const columns = (tuple ?? [node.item]).map((item, index, { length }) => (
+    { path, node: item, title: named.length === length ? named[index] : columnName(item, path) }));
   const count = lengthOf(path);
   const cells = (row) => columns.map((column, index) => ({
     path: tuple ? [...path, row, index] : [...path, row], node: column.node, label: `${column.title}, row ${row + 1}`,

@@ -84,11 +84,12 @@ function several(parts) {
   const kinds = parts.map(one), words = kinds.flatMap((each) => each.options ?? each.value ?? []);
   const texts = kinds.filter((each) => each.kind === "text");
   const lists = kinds.filter((each) => ["list", "tuple"].includes(each.kind));
-  if (lists.length && texts.length && lists[0].kind === "list") return { kind: "lines" };
+  if (lists[0]?.kind === "list" && texts.length && !texts[0].dimension) return { kind: "lines" };
   if (kinds.some(isSwitch) && lists[0]?.items?.every(isSwitch)) return { kind: "axes", many: true };
   const inner = texts[0] ?? lists[0]?.item ?? lists[0]?.items?.[0];
   const numeric = kinds.some((each) => each.kind === "number");
-  return { kind: "text", words, numeric, many: lists.length > 0, dimension: inner?.dimension ?? null };
+  const dimension = inner?.dimension ?? null;
+  return { kind: "text", words, numeric, many: lists.length > 0, mapped: groups.length > 0, dimension };
 }
 
 function variants(parts, groups) {
