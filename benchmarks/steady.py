@@ -32,17 +32,36 @@ INSTANT, RADIUS, LOAD, SPEED = 1 / 2000, 10.0, 10.0, 0.1
 RATIOS, POWERS = (2, 10, 100, 1000), range(-3, 4)
 CENTRED = (False, True)
 
+#: Straight half length and place of the force of the crowned roller, in radii of the relaxed
+#: contact of the sphere, and radius of its crowns in its own: a contact some five times as long as
+#: wide.
+STRAIGHT, ECCENTRICITY, CROWN = 1.5, 0.8, 30.0
+
 #: Most convolutions: of a contact whose region is known, of the search for it, of 20 speeds, of 24
 #: combinations of ratio and speed, of the others; and growth from 128² to 512² cells.
 PROMISED = {"known": 60, "search": 30, "curve": 800, "combination": 80, "hardest": 1500}
 LARGER = 1.7
 
 
-def solver(ratio: float, speeds: list[float], grid: vc.AutomaticGrid | None = None) -> SteadySolver:
+def solver(
+    ratio: float,
+    speeds: list[float],
+    grid: vc.AutomaticGrid | None = None,
+    *,
+    roller: bool = False,
+) -> SteadySolver:
+    """Solver for the sphere, or for the crowned roller under an eccentric force."""
     series = vc.CreepSeries(2 * INSTANT, [2 * (ratio - 1) * INSTANT], [float(ratio)])
     material, load = vc.Material(series, poisson_ratio=0.5), vc.step(LOAD, tilt_x=0.0, tilt_y=0.0)
-    contact = Problem(vc.Paraboloid(RADIUS, RADIUS), material, load, grid)
-    problem = steady_problem(contact, speeds, "x", None, "none")
+    body: vc.Indenter = vc.Paraboloid(RADIUS, RADIUS)
+    if roller:
+        length = relaxed_radius(ratio)
+        load = vc.step(LOAD, eccentricity_x=ECCENTRICITY * length, tilt_y=0.0)
+        body = vc.Roller(
+            RADIUS, STRAIGHT * length, CROWN * RADIUS, cross_section="parabola"
+        )
+    contact = Problem(body, material, load, grid)
+    problem = steady_problem(contact, speeds, "y" if roller else "x", None, "none")
     law = moving_law(problem, (1.0, 1.0))
     return SteadySolver(problem, law, transforms_by(fastest_transforms()))
 
@@ -52,10 +71,12 @@ def relaxed_radius(ratio: float) -> float:
     return float((0.75 * LOAD * RADIUS * ratio * INSTANT) ** (1 / 3))
 
 
-def search(found: SteadySolver, speed: float, half: float) -> tuple[Region, float]:
+def search(
+    found: SteadySolver, speed: float, half: float, centred: tuple[bool, bool] = CENTRED
+) -> tuple[Region, float]:
     start = Region(np.array([-half, -half]), np.array([half, half]))
-    region, work = find_region(found, speed, start, centred=CENTRED)
-    return region.widened(0.1).centred(CENTRED), work
+    region, work = find_region(found, speed, start, centred=centred)
+    return region.widened(0.1).centred(centred), work
 
 
 def timed(found: SteadySolver, speed: float, region: Region, cells: int) -> SteadyContact:
@@ -110,16 +131,18 @@ def curve(cells: int) -> None:
     )
 
 
-def combinations(cells: int = 128) -> None:
-    print(f"spheres on {cells}² cells: convolutions to 1e-6 (search), by moduli ratio and V τ/a")
+def combinations(cells: int = 128, *, roller: bool = False) -> None:
+    """Table of the convolutions of a sphere, or of a crowned roller under an eccentric force."""
+    bodies, centred = ("crowned rollers", (False, False)) if roller else ("spheres", CENTRED)
+    print(f"{bodies} on {cells}² cells: convolutions to 1e-6 (search), by moduli ratio and V τ/a")
     print("        " + "".join(f"{f'1e{power}':>11}" for power in POWERS))
     easy = certified = 0
     for ratio in RATIOS:
         line, radius = f"  {ratio:<6}", relaxed_radius(ratio)
         for power in POWERS:
             speed = 10.0**power * radius
-            found = solver(ratio, [speed])
-            region, work = search(found, speed, radius)
+            found = solver(ratio, [speed], roller=roller)
+            region, work = search(found, speed, radius, centred)
             contact = found.solve(speed, region.grid(cells), 1e-6)
             easy += contact.solution.work <= PROMISED["combination"]
             certified += contact.solution.converged
@@ -138,6 +161,7 @@ def main() -> None:
     sphere(cells)
     curve(cells)
     combinations()
+    combinations(roller=True)
 
 
 if __name__ == "__main__":
