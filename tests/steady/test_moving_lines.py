@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.special import beta
 
 import viscontact as vc
 from viscontact.reference import moving_cylinder
 
 RADIUS, FORCE, CELLS = 10.0, 10.0, 64
+SLOW_EXPONENTS = [pytest.param(each, marks=pytest.mark.slow) for each in (0.2, 0.5, 0.7, 0.9)]
 CYLINDER, LEVEL = vc.Paraboloid(np.inf, RADIUS), vc.step(FORCE, tilt_y=0.0)
 
 
@@ -64,6 +66,45 @@ def test_pieces_along_the_cylinder_change_nothing_and_the_approach_has_no_datum(
     assert float(many.friction_coefficient[0]) == pytest.approx(
         float(one.friction_coefficient[0]), rel=1e-7
     )
+
+
+def power_law_cylinder(exponent, coefficient, speed):
+    """Length of the contact, its rear end and the friction coefficient for J(t) = c t^α.
+
+    The slope of the surface is -D ∫ p(x') (x - x')^(α - 1) dx' behind x and cos(π α) D times that
+    ahead, D = 2 c α V^-α/sin(π α): a generalized Abel equation (Carleman 1922; Samko, Kilbas and
+    Marichev 1993, section 30). With -x/R under the body, p is proportional to
+    s^(1/2) (1 - s)^(1/2 - α) at s from the rear end over the length. Without creep it is Hertz's.
+    """
+    slope = 2 * coefficient * exponent / speed**exponent / np.sin(np.pi * exponent)
+    scale = FORCE * RADIUS * slope * np.pi * (1 - exponent) / beta(1.5, 1.5 - exponent)
+    length = scale ** (1 / (2 - exponent))
+    friction = length / RADIUS * exponent * (2 - exponent) / (3 - exponent) / (1 - exponent)
+    return length, length * (exponent - 0.5) / (1 - exponent), friction
+
+
+def test_closed_form_for_a_power_law_tends_to_hertz():
+    length, rear, friction = power_law_cylinder(1e-9, 1 / 2000, 1.0)
+    half = np.sqrt(4 * FORCE * RADIUS / (np.pi * 2000))
+    assert (length, rear, friction) == pytest.approx((2 * half, -half, 0.0), abs=1e-8)
+
+
+# Close to flow, most of the slope is by creep long after the body has passed.
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+@pytest.mark.parametrize("exponent", [0.3, 0.8, 0.95, *SLOW_EXPONENTS])
+def test_the_cylinder_on_a_power_law_is_the_exact_one(exponent):
+    speed, cells = 0.1, 64
+    material = vc.Material(vc.PowerLaw(1e-3, exponent, 1.0), poisson_ratio=0.0)
+    length, rear, friction = power_law_cylinder(exponent, 1e-3, speed)
+    cell, count = length / cells, 8 * round(cells * 1.5 / 8)
+    centre = (0.0, rear + length / 2 + 0.3 * cell)
+    grid = vc.Grid((1, count), (1.0, count * cell), periodic=(True, False), centre=centre)
+    ds = vc.steady(CYLINDER, material, LEVEL, speed, grid=grid, tolerance=1e-8).isel(speed=0)
+    # Measured: -1e-4 to 2e-4.
+    assert float(ds.friction_coefficient) == pytest.approx(friction, rel=3e-4)
+    assert abs(float(ds.friction_coefficient) - friction) < float(ds.friction_coefficient_error)
+    assert abs(float(ds.contact_width) - length) < float(ds.contact_width_error)
+    assert np.isinf(ds.peak_pressure_error) == (exponent > 0.5)
 
 
 def test_a_prescribed_approach_of_a_line_contact_is_refused():

@@ -93,7 +93,20 @@ class MovingDomain(ContactDomain):
         delayed = moving_influence_table(
             grid.shape, grid.cell_size, rates, self.axis, self._coefficient
         )
-        return self._convolved(rates.relaxed * self._elastic_table - delayed, self.shape)
+        lost = rates.relaxed * self._elastic_table - delayed
+        return self._convolved(lost + self._drift, self.shape)
+
+    @property
+    def _drift(self) -> float:
+        """Slope of the surface behind a line contact by its old creep, per pressure of a cell [-].
+
+        The deflection of a strip falls as -(2/π) F ln(distance) with the force F on its length.
+        """
+        if self.grid.has_datum:
+            return 0.0
+        across = self.grid.shape[1 - self.axis]
+        force = self.grid.cell_size[self.axis] / across
+        return 2 / np.pi * force * self.moving_compliance.drift
 
     def _on(
         self, grid: Grid, added: float = 0.0, moving_table: NDArray[np.float64] | None = None
@@ -124,10 +137,18 @@ class MovingDomain(ContactDomain):
                 self.grid.shape, self.grid.cell_size, relative, self.axis, self._coefficient
             )
             if not self.grid.has_datum:  # from the farthest place on, as that of the memory is far
-                self._moving_table = self._moving_table - self._moving_table.min()
+                self._moving_table -= self._drift / self.compliance * self._offsets
+                self._moving_table -= self._moving_table.min()
         if not self._added:
             return self._moving_table
         return self._moving_table + self._added / self.compliance * self._elastic_table
+
+    @property
+    def _offsets(self) -> NDArray[np.float64]:
+        """Signed offsets along the motion of the entries of a table, as a column or a row [m]."""
+        count, cell = self.grid.shape[self.axis], self.grid.cell_size[self.axis]
+        offsets = cell * np.arange(1 - count, count)
+        return offsets[:, None] if self.axis == 0 else offsets[None, :]
 
     def _preconditioner(self, shape: tuple[int, int]) -> MovingPreconditioner:
         total = self._relative

@@ -21,7 +21,7 @@ Kluwer (1998), chapter 6.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -77,6 +77,9 @@ class MovingCompliance:
     lengths: NDArray[np.float64]  # li = V λi [m]
     #: Way after which the same material returns to the load [m]; inf for a half-space.
     periods: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    #: Creep beyond the series, ∫ J'(t) dt/(V t): the slope that it gives to the surface around a
+    #: line contact, over 2/π times the force on a unit of length [1/(Pa m)].
+    drift: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.periods.size:
@@ -95,7 +98,9 @@ class MovingCompliance:
     def scaled(self, factor: float) -> MovingCompliance:
         """Compliance times a factor."""
         amplitudes = factor * self.amplitudes
-        return MovingCompliance(factor * self.instant, amplitudes, self.lengths, self.periods)
+        return replace(
+            self, instant=factor * self.instant, amplitudes=amplitudes, drift=factor * self.drift
+        )
 
     def at_wave_number(self, wave_number: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Factor of a wave exp(i k ξ) along the motion, for wave numbers k [1/m]; in 1/Pa."""

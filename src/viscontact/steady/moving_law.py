@@ -7,11 +7,13 @@ relaxed one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
+from viscontact.grid import Grid
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.steady.problem import SteadyProblem
@@ -21,12 +23,22 @@ from viscontact.time_integration.prony_approximation import as_exponentials
 #: passed: the least one, of a part of a cell, and the largest one.
 SHORTEST, LONGEST = 2e-5, 1e8
 
+#: The largest one of line contacts, over the time in which the longer side of the grid is passed.
+#: Later creep turns the surface by an angle, which is added: the series has the least error so.
+LONGEST_OF_LINES = 1e5
+
 #: Slow retardation that represents flow: its length over the size of the grid. Friction deviates by
 #: about its reciprocal.
 FLOW_LENGTH = 1e8
 
 #: A slope of ln J over ln t above this is flow; growth of a law of less than this is none.
 FLOW_EXPONENT, LITTLE_GROWTH = 0.99, 0.01
+
+#: Retardation time that represents the flow of a series for a solid, over its last time.
+SLOW = 100.0
+
+#: Growth of J in a decade, over J, and over the decade before, that is rounding.
+SATURATED, TINY = 1e-12, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +52,8 @@ class MovingLaw:
     periods: NDArray[np.float64]
     fluidity: float  # of the half-space [1/(Pa s)]
     error: float  # relative error of J
+    #: Creep of the half-space beyond the series, ∫ J'(t) dt/t [1/(Pa s)].
+    late_creep: float = 0.0
 
     def at(self, speed: float, extent: float) -> MovingCompliance:
         """Compliance at a speed [m/s], for contacts that are small against an extent [m]."""
@@ -48,7 +62,7 @@ class MovingLaw:
             flow = FLOW_LENGTH * extent
             amplitudes = np.append(amplitudes, self.fluidity * flow / speed)
             lengths, periods = np.append(lengths, flow), np.append(periods, np.inf)
-        return MovingCompliance(self.instant, amplitudes, lengths, periods)
+        return MovingCompliance(self.instant, amplitudes, lengths, periods, self.late_creep / speed)
 
 
 def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLaw:
@@ -58,8 +72,14 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
     """
     speeds = problem.speeds
     first = SHORTEST * extents[0] / float(speeds.max())
-    last = LONGEST * extents[1] / float(speeds.min())
-    series, error = _series(problem.contact.material.contact_compliance(), first, last)
+    grid = problem.contact.grid
+    if isinstance(grid, Grid) and not grid.has_datum:
+        last = LONGEST_OF_LINES * max(grid.size) / float(speeds.min())
+    else:
+        last = LONGEST * extents[1] / float(speeds.min())
+    series, error, late_creep = _series(
+        problem.contact.material.contact_compliance(), first, last
+    )
     law = MovingLaw(
         series.instant,
         series.amplitudes,
@@ -67,6 +87,7 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
         np.full(series.times.shape, np.inf),
         series.fluidity,
         error,
+        late_creep,
     )
     mate = problem.contact.indenter_material
     if mate is None:
@@ -76,9 +97,7 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
         curvature = problem.contact.indenter.curvatures[problem.axis]
         return _with_roller(law, compliance, 2 * np.pi / curvature, first, last)
     relaxed = _relaxed(compliance, last, "slides")
-    return MovingLaw(
-        law.instant + relaxed, law.amplitudes, law.times, law.periods, law.fluidity, error
-    )
+    return replace(law, instant=law.instant + relaxed)
 
 
 def flows(compliance: ContactCompliance, late: float) -> bool:
@@ -91,16 +110,36 @@ def flows(compliance: ContactCompliance, late: float) -> bool:
 
 def _series(
     compliance: ContactCompliance, first: float, last: float
-) -> tuple[SeriesCompliance, float]:
-    """Series between two times [s] with its relative error; only a fluid's has a fluidity."""
+) -> tuple[SeriesCompliance, float, float]:
+    """Series between two times [s], its relative error, and the creep beyond, ∫ J'(t) dt/t.
+
+    Only a fluid's series has a fluidity.
+    """
     if isinstance(compliance, SeriesCompliance):
-        return compliance, 0.0
+        return compliance, 0.0, 0.0
     series, error = as_exponentials(compliance, first, last)
     if flows(compliance, last):
-        return series, error
-    slow = 100 * last  # creep beyond the last time
+        return series, error, 0.0
+    slow = SLOW * last
     amplitudes = np.append(series.amplitudes, series.fluidity * slow)
-    return SeriesCompliance(series.instant, amplitudes, np.append(series.times, slow)), error
+    solid = SeriesCompliance(series.instant, amplitudes, np.append(series.times, slow))
+    return solid, error, _late_creep(compliance, series, last)
+
+
+def _late_creep(compliance: ContactCompliance, series: SeriesCompliance, last: float) -> float:
+    """∫ J'(t) dt/t beyond the last time of a series, less that of the series [1/(Pa s)].
+
+    J is continued as a power of time, J(last) + B ((t/last)^β - 1), through two later values, the
+    flow of the series as a slow retardation, which is slower than flow before the last time, too.
+    """
+    at = compliance(last * np.array([1.0, 10.0, 100.0]))
+    first, second = np.diff(at).tolist()
+    if first <= SATURATED * at[0]:
+        return 0.0
+    exponent = float(np.log10(max(second, TINY * first) / first))
+    whole = first * exponent / (np.expm1(exponent * np.log(10)) * (1 - exponent) * last)
+    own = float((series.amplitudes / series.times) @ scipy.special.exp1(last / series.times))
+    return whole - own - series.fluidity * float(np.log(SLOW) - np.euler_gamma)
 
 
 def _with_roller(
@@ -108,14 +147,14 @@ def _with_roller(
 ) -> MovingLaw:
     """Law with the material of a roller, which returns after a period [m]."""
     _relaxed(compliance, last, "rolls")
-    series, error = _series(compliance, first, last)
-    return MovingLaw(
-        law.instant + series.instant,
-        np.append(law.amplitudes, series.amplitudes),
-        np.append(law.times, series.times),
-        np.append(law.periods, np.full(series.times.shape, period)),
-        law.fluidity,
-        max(law.error, error),
+    series, error, _ = _series(compliance, first, last)
+    return replace(
+        law,
+        instant=law.instant + series.instant,
+        amplitudes=np.append(law.amplitudes, series.amplitudes),
+        times=np.append(law.times, series.times),
+        periods=np.append(law.periods, np.full(series.times.shape, period)),
+        error=max(law.error, error),
     )
 
 

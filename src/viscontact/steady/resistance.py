@@ -64,9 +64,11 @@ def resistance(
 def _slope_weight(domain: MovingDomain, half_length: float) -> float:
     """Weight of the form by the slope in the resistance."""
     length, moving = _lossy_length(domain, half_length), domain.moving_compliance
+    if moving.instant == 0:  # the loss where the surface is loaded first is not resolved
+        return 1.0
     if length > LONG * half_length:
         return 0.0
-    if length > domain.grid.cell_size[domain.axis] or moving.instant == 0:
+    if length > domain.grid.cell_size[domain.axis]:
         return 1.0
     growth = float((moving.relaxed / moving.instant - 1) ** SHORT_EXPONENT)
     return growth / (1 + growth)

@@ -73,13 +73,14 @@ def _fitted(
     weight = 1.0 / creep
     terms = np.vstack([_terms(samples, times, last), _mean_terms(early, times, last)])
     delayed = np.maximum(creep - compliance.instant, 0.0)
-    # Scaled to amplitudes of order one, for which the tolerance of the solver is made.
-    size = float(creep[-1])
-    found, _ = scipy.optimize.nnls(
-        terms * (size * weight)[:, None], delayed * weight, maxiter=50 * len(times)
-    )
+    # Scaled so that each term alone contributes of order one, for which the tolerance of the solver
+    # is made.
+    weighted = terms * weight[:, None]
+    size = 1.0 / weighted.max(axis=0)
+    found, _ = scipy.optimize.nnls(weighted * size, delayed * weight, maxiter=50 * len(times))
+    amplitudes = found * size
     return SeriesCompliance(
-        compliance.instant, found[:-1] * size, times, float(found[-1]) * size / last
+        compliance.instant, amplitudes[:-1], times, float(amplitudes[-1]) / last
     )
 
 
