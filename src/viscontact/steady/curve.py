@@ -28,7 +28,12 @@ from viscontact.simulation.grid_enlargement import overrun
 from viscontact.state import ContactState
 from viscontact.steady.contact import SteadyContact, gap_on
 from viscontact.steady.dataset import steady_dataset
-from viscontact.steady.error_bars import Measured, error_bars, unknown_bars
+from viscontact.steady.error_bars import (
+    Measured,
+    entry_is_singular,
+    error_bars,
+    unknown_bars,
+)
 from viscontact.steady.preparation import PreparedRun
 from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.state import force_across, resistance_of, rim_of, state_of
@@ -103,7 +108,10 @@ class SteadyCurve:
         fine = self._measured(contact)
         found = _warnings(self.problem, contact, fine.rim)
         if self.errors:
-            self.bars[speed] = self._bars(fine, coarse, singular=bool(SINGULAR_KINDS & set(found)))
+            passed = grid.cell_size[self.problem.axis] / speed
+            singular = entry_is_singular(self.problem.contact.compliance, passed)
+            singular |= bool(SINGULAR_KINDS & set(found))
+            self.bars[speed] = self._bars(fine, coarse, singular=singular)
         kept = bool(np.isin(speed, self.problem.kept))
         self.done[speed] = fine.state if kept else fine.state.without_fields()
         return contact, fine.state, found

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from viscontact.contact.rim import Rim
+from viscontact.materials.compliance import ContactCompliance
 from viscontact.state import ContactState
 from viscontact.steady.dataset import WITH_ERROR
 from viscontact.steady.problem import SteadyProblem
@@ -26,6 +30,10 @@ LEAST_ERRORS = {
 #: resistance.
 LEAST_TILT, LEAST_FORCE_ERROR = 0.5, 1.2
 
+#: Least error of the area along the motion, in cells: the surface behind the contact is almost
+#: closed, and the rear edge is found too far outside.
+AREA_CELLS = 0.2
+
 #: Least error of extents along and across the motion, in cells, and of the place of the resultant,
 #: over the extents and times the square of these cells.
 ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.5, 0.1, 0.1
@@ -34,8 +42,19 @@ ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.5, 0.1, 0.1
 #: shorter than a cell.
 FORMS = 1.25
 
-#: Error over the difference of two grids, where it is of the first order in the cells.
-FIRST_ORDER = {"contact_area": 2.0, "mean_pressure": 2.0, "peak_pressure": 2.0}
+#: Error over the difference of two grids, where it is of the first order in the cells: of areas and
+#: pressures, and of all scalars on a law without instant compliance, which always has retardation
+#: lengths shorter than a cell.
+FIRST_ORDER = 2.0
+OF_FIRST_ORDER = ("contact_area", "mean_pressure", "peak_pressure")
+
+#: Cells from the leading edge of the contact in which the pressure may peak as it does not on finer
+#: ones, error of such a peak over its excess over the others, and power of time with which a law
+#: creeps at first from which the pressure has no limit there.
+ENTRY_CELLS, ENTRY_EXCESS, SINGULAR_EXPONENT = 2, 1.5, 0.5
+
+#: Part of a period that a strip in contact fills.
+WHOLE = 1 - 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,9 +77,11 @@ def error_bars(
     """
     state, least = fine.state, _least_bars(problem, fine)
     bars = {}
+    at_once = problem.contact.compliance.instant > 0
     for name in WITH_ERROR:
         difference = abs(float(getattr(state, name)) - float(getattr(coarse.state, name)))
-        bars[name] = max(FIRST_ORDER.get(name, 1.0) * difference, least[name])
+        factor = 1.0 if at_once and name not in OF_FIRST_ORDER else FIRST_ORDER
+        bars[name] = max(factor * difference, least[name])
     along_motion = f"resistance_{problem.along}"
     forces = bars[along_motion]
     if fine.against.slope_weight and not fine.against.at_end:
@@ -90,6 +111,11 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     for axis, name in enumerate(("contact_length", "contact_width")):
         part = ALONG_CELLS if axis == problem.axis else ACROSS_CELLS
         least[name] = part * cell[axis]
+    if not _fills_period(rim, problem.axis):
+        edges = _edge_error(problem, rim, least)
+        for name in ("contact_area", "mean_pressure"):
+            least[name] = max(least[name], edges * float(getattr(state, name)))
+        least["peak_pressure"] = max(least["peak_pressure"], _entry_excess(problem, fine))
     if problem.point.force is None:
         for name in ("force", "resistance_x", "resistance_y"):
             least[name] += LEAST_FORCE_ERROR / square * abs(float(getattr(state, name)))
@@ -101,6 +127,39 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
         least[f"resistance_{side}"] = max(least[f"resistance_{side}"], across)
         least[f"eccentricity_{side}"] = (LEAST_ECCENTRICITY / square + solver) * extents[axis]
     return least
+
+
+def _edge_error(problem: SteadyProblem, rim: Rim, least: Mapping[str, float]) -> float:
+    """Relative error of the area by its edges along the motion; a strip ends alike anywhere."""
+    axis = problem.axis
+    extent = (rim.length, rim.width)[axis]
+    if _fills_period(rim, 1 - axis):
+        return least[("contact_length", "contact_width")[axis]] / extent
+    return AREA_CELLS * rim.grid.cell_size[axis] / extent
+
+
+def _fills_period(rim: Rim, axis: int) -> bool:
+    """Test whether the contact goes through a whole period along an axis."""
+    extent = (rim.length, rim.width)[axis]
+    return rim.grid.periodic[axis] and extent >= WHOLE * rim.grid.size[axis]
+
+
+def _entry_excess(problem: SteadyProblem, fine: Measured) -> float:
+    """Error of a peak in the first cells at the leading edge, by that behind them [Pa]."""
+    pressure = np.moveaxis(fine.state.pressure, problem.axis, 0)
+    inside = pressure[:-ENTRY_CELLS] * (pressure[ENTRY_CELLS:] > 0)
+    return ENTRY_EXCESS * float(pressure.max() - inside.max(initial=0.0))
+
+
+def entry_is_singular(compliance: ContactCompliance, passed: float) -> bool:
+    """Test whether the pressure has no limit at the leading edge, by the time to pass a cell [s].
+
+    At a distance d from it the pressure goes as d^(1/2 - α) on a law that creeps as t^α at first.
+    """
+    if compliance.instant > 0:
+        return False
+    early, late = compliance(passed * np.array([0.01, 0.1])).tolist()
+    return math.log10(late / early) > SINGULAR_EXPONENT
 
 
 def unknown_bars(problem: SteadyProblem) -> dict[str, float]:

@@ -1,0 +1,99 @@
+"""Error bars of contacts in steady motion, on random contacts against three times as many cells."""
+
+import warnings
+from collections import defaultdict
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.steady.dataset import WITH_ERROR
+
+COMPLIANCE, RADIUS, FORCE, TIME = 1 / 2000, 10.0, 10.0, 10.0
+
+#: Part of the errors within the bars, of all scalars and of each; largest median of bar over error.
+COVERED, COVERED_EACH, MEDIAN = 0.95, 0.9, 6.0
+
+#: Number of values of a scalar of which the part within the bars is judged.
+FEWEST = 15
+
+#: Cells of the finer contact along each axis, in those of the contact.
+FINER = 3
+
+
+def random_law(rng):
+    ratio = float(np.exp(rng.uniform(np.log(2), np.log(100))))
+    modulus, grown = 0.5 / COMPLIANCE, COMPLIANCE * (ratio - 1)
+    soft = modulus / (ratio - 1)
+    return [
+        lambda: vc.CreepSeries(COMPLIANCE, [grown], [TIME]),
+        lambda: vc.CreepSeries(COMPLIANCE, grown * rng.dirichlet([1, 1, 1]), [0.1, 3.0, 90.0]),
+        lambda: vc.Burgers(modulus, 60 * modulus, soft, soft * TIME),
+        lambda: vc.Maxwell(modulus, modulus * TIME),
+        lambda: vc.PowerLaw(grown / 2, float(rng.uniform(0.2, 0.8)), TIME, instant=COMPLIANCE),
+        lambda: vc.PowerLaw(grown, float(rng.uniform(0.2, 0.8)), TIME),
+        lambda: vc.FractionalZener(modulus, modulus / ratio, TIME / ratio, rng.uniform(0.4, 0.9)),
+    ][rng.integers(7)]()
+
+
+def random_contact(rng):
+    """A contact that moves along y: arguments of `steady`, and the speed."""
+    half = (0.75 * FORCE * RADIUS * 5 * COMPLIANCE) ** (1 / 3)
+    level, eccentric = {"tilt_x": 0.0, "tilt_y": 0.0}, {"eccentricity_x": 0.3, "tilt_y": 0.0}
+    body, load = [
+        lambda: (vc.Sphere(RADIUS), vc.step(FORCE, **level)),
+        lambda: (vc.Paraboloid(RADIUS, RADIUS), vc.step(FORCE, tilt_x=0.0)),
+        lambda: (vc.Paraboloid(RADIUS, RADIUS * 10 ** rng.uniform(-0.7, 0.7)), vc.step(FORCE, **level)),
+        lambda: (vc.Roller(RADIUS, 0.5, 20 * RADIUS), vc.step(FORCE, **eccentric)),
+        lambda: (vc.Cone(np.radians(88.0)), vc.step(FORCE, **level)),
+        lambda: (vc.Paraboloid(RADIUS, RADIUS), vc.step(approach=half**2 / RADIUS, **level)),
+    ][rng.integers(6)]()
+    speed = half / TIME * 10 ** rng.uniform(-2, 3)
+    material = vc.Material(random_law(rng), poisson_ratio=0.0)
+    return (body, material, load, speed), vc.AutomaticGrid(10 ** rng.uniform(-1.7, -1.2))
+
+
+def on_finer_cells(coarse, contact):
+    axes = coarse.x.values, coarse.y.values
+    cells = [float(axis[1] - axis[0]) for axis in axes]
+    sizes = [cell * len(axis) for cell, axis in zip(cells, axes, strict=True)]
+    grid = vc.Grid(
+        (FINER * len(axes[0]), FINER * len(axes[1])),
+        (sizes[0], sizes[1]),
+        centre=(float(axes[0].mean()), float(axes[1].mean())),
+    )
+    return vc.steady(*contact, grid=grid, fields="none", errors=False)
+
+
+def compared(seed, count):
+    """Bars over errors by scalar, of random contacts; and the peaks without a limit."""
+    ratios = defaultdict(list)
+    for index in range(count):
+        contact, request = random_contact(np.random.default_rng([seed, index]))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", vc.AccuracyWarning)
+            coarse = vc.steady(*contact, grid=request)
+            fine = on_finer_cells(coarse, contact)
+        for name in WITH_ERROR:
+            bar, value = float(coarse[f"{name}_error"][0]), float(coarse[name][0])
+            error = abs(value - float(fine[name][0]))
+            if np.isfinite(bar) and error > 3e-6 * max(abs(value), bar):
+                ratios[name].append(bar / error)
+    return ratios
+
+
+@pytest.mark.slow
+def test_bars_hold_the_values_on_finer_cells_in_95_of_100(campaign):
+    ratios = compared(seed=612, count=24)
+    pooled = np.concatenate([*ratios.values()])
+    campaign(
+        f"error bars of steady motion: {len(pooled)} values, {np.mean(pooled >= 1):.1%} within, "
+        f"median bar/error {np.median(pooled):.1f}"
+    )
+    for name, each in ratios.items():
+        campaign(f"  {name:22s} {len(each):3d} values, {np.mean(np.array(each) >= 1):.1%} within")
+    assert np.mean(pooled >= 1) >= COVERED
+    assert np.median(pooled) <= MEDIAN
+    for name, each in ratios.items():
+        if len(each) >= FEWEST:
+            assert np.mean(np.array(each) >= 1) >= COVERED_EACH, name
