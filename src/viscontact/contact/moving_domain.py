@@ -147,7 +147,7 @@ class MovingDomain(ContactDomain):
     def _offsets(self) -> NDArray[np.float64]:
         """Signed offsets along the motion of the entries of a table, as a column or a row [m]."""
         count, cell = self.grid.shape[self.axis], self.grid.cell_size[self.axis]
-        offsets = cell * np.arange(1 - count, count)
+        offsets = cell * np.arange(1 - count, count, dtype=np.float64)
         return offsets[:, None] if self.axis == 0 else offsets[None, :]
 
     def _preconditioner(self, shape: tuple[int, int]) -> MovingPreconditioner:

@@ -36,7 +36,7 @@ AREA_CELLS = 0.2
 
 #: Least error of extents along and across the motion, in cells, and of the place of the resultant,
 #: over the extents and times the square of these cells.
-ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.5, 0.1, 0.1
+ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.5, 0.2, 0.1
 
 #: Error of the resistance over the difference of its forms: both err where a retardation length is
 #: shorter than a cell.

@@ -77,9 +77,7 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
         last = LONGEST_OF_LINES * max(grid.size) / float(speeds.min())
     else:
         last = LONGEST * extents[1] / float(speeds.min())
-    series, error, late_creep = _series(
-        problem.contact.material.contact_compliance(), first, last
-    )
+    series, error, late_creep = _series(problem.contact.material.contact_compliance(), first, last)
     law = MovingLaw(
         series.instant,
         series.amplitudes,
@@ -139,7 +137,7 @@ def _late_creep(compliance: ContactCompliance, series: SeriesCompliance, last: f
     exponent = float(np.log10(max(second, TINY * first) / first))
     whole = first * exponent / (np.expm1(exponent * np.log(10)) * (1 - exponent) * last)
     own = float((series.amplitudes / series.times) @ scipy.special.exp1(last / series.times))
-    return whole - own - series.fluidity * float(np.log(SLOW) - np.euler_gamma)
+    return float(whole - own - series.fluidity * (np.log(SLOW) - np.euler_gamma))
 
 
 def _with_roller(
