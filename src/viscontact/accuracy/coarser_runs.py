@@ -10,7 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
-from viscontact.accuracy.coarser_steps import fewer_times, parts_of_shared_steps
+from viscontact.accuracy.coarser_steps import (
+    fewer_times,
+    first_steps,
+    parts_of_first_steps,
+    parts_of_shared_steps,
+)
 from viscontact.accuracy.moving_levels import (
     aligned_along,
     fewer_moving_times,
@@ -42,6 +47,9 @@ STEPS_BETWEEN = 2
 
 #: Estimated time error of the pressure up to which the two coarser runs show what the steps add.
 SMALL_TIME_ERROR = 3e-3
+
+#: Relative creep within the first step of a moving body behind a jump from which this is divided.
+LITTLE_CREEP = 0.1
 
 #: Peak pressure, over the largest one, from which the error of a step at whose beginning there was
 #: no contact is large: it cannot be estimated from the steps before.
@@ -100,7 +108,8 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     times, load = history["time"], run.problem.history
     own = step_ends(plan_steps(times, load))
     creeping = creeps(run.problem.compliance, times)
-    divides = creeping and (len(own) < FEW_STEPS or not _has_small_time_error(history))
+    few = len(own) < FEW_STEPS or _creeps_behind_jumps(run, own)
+    divides = creeping and (few or not _has_small_time_error(history))
     step_ratios = _step_ratios(len(own))
     across = float(history["cells_across"].max(initial=0.0))
     spacings = _spacings(across, parities=_parities(run))
@@ -116,6 +125,8 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     if divides:
         spacing, step_ratio, left = levels[-1]
         parts = parts_of_shared_steps(own, step_ends(plan_steps(left, load, step_ratio)))
+        if run.problem.motion is not None:
+            parts = np.union1d(parts, parts_of_first_steps(own, load.jumps))
         divided = _coarser_run(run, *spacing, step_ratio, np.union1d(left, parts))
         yield replace(divided, divides_steps=True)
 
@@ -133,6 +144,16 @@ def _has_small_time_error(history: History) -> bool:
     peak, error = history["peak_pressure"], history["time_error"]
     begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
     return bool(np.nanmax(error) <= SMALL_TIME_ERROR and (error[1:][begins] > 0).all())
+
+
+def _creeps_behind_jumps(run: RunSetup, ends: FloatArray) -> bool:
+    """Test whether a moving body's first step behind a jump is long against the law."""
+    if run.problem.motion is None:
+        return False
+    _, durations = first_steps(ends, run.problem.history.jumps)
+    compliance = run.problem.compliance
+    grown = compliance(durations.max()) if durations.size else compliance.instant
+    return bool(grown > (1 + LITTLE_CREEP) * compliance.instant)
 
 
 def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:

@@ -46,10 +46,8 @@ _LINE_LOAD = ErrorModel(2.0, 2.0, at_end=ErrorModel(0.7, 1.1), of_spots=ErrorMod
 _EXTENT = ErrorModel(2.0, 1.0, steep=ErrorModel(1.0, 0.6))
 
 #: Scalars of a moving contact: of first order in steps longer than the retardation times, of
-#: second order else. Calibrated on starts, reciprocations and steps of parts of cells; the heat has
-#: the error of the first steps behind a jump.
-_RESISTANCE, _MOTION_WORK = ErrorModel(1.5, 1.0), ErrorModel(1.5, 1.5)
-_DISSIPATION, _HEAT = ErrorModel(1.5, 1.5), ErrorModel(1.5, 3.0)
+#: second order else. Calibrated on starts, reciprocations and steps of parts of cells.
+_RESISTANCE, _LOSS = ErrorModel(1.5, 1.0), ErrorModel(1.5, 1.5)
 
 #: Error models of the scalars; the mean pressure follows from force and area. Pressure is smooth
 #: except at the rim, which lies between cells.
@@ -70,10 +68,10 @@ ERROR_MODELS = {
     "resistance_x": _RESISTANCE,
     "resistance_y": _RESISTANCE,
     "friction_coefficient": _RESISTANCE,
-    "motion_work": _MOTION_WORK,
-    "dissipation": _DISSIPATION,
-    "heat": _HEAT,
+    "motion_work": _LOSS,
+    "dissipation": _LOSS,
+    "heat": _LOSS,
 }
 
 #: Those that replace them for moving contacts: the loss of a cycle has the work of the motion.
-MOVING_MODELS = {"loss_per_cycle": _HEAT}
+MOVING_MODELS = {"loss_per_cycle": _LOSS}

@@ -23,6 +23,9 @@ DIVIDED_STEP_FACTOR = 1.3
 #: is lost, it counts in full.
 LARGE_TIME_ERROR, PART_OF_LARGE = 0.2, 0.3
 
+#: Scalars of a moving contact that keep an error once it is made.
+CUMULATIVE = ("work", "motion_work", "heat")
+
 
 @dataclass(frozen=True, eq=False)
 class RefinementLevels:
@@ -45,6 +48,8 @@ class RefinementLevels:
                     by_steps = DIVIDED_STEP_FACTOR * np.abs(row - aligned(name, times, divided))
         large = np.fmax(history["time_error"] - LARGE_TIME_ERROR, 0.0) * np.abs(own)
         known = np.maximum(by_steps, PART_OF_LARGE * large)
+        if name in CUMULATIVE and "heat" in history:
+            known = np.where(np.isnan(known), between_known(known), known)
         left_out = np.fmax(_interpolated(times, known), large)
         by_steps = np.where(np.isnan(known), left_out, known)
         return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
