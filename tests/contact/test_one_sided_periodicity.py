@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.special import zeta
 
 import viscontact as vc
 from viscontact.grid import Grid
@@ -135,16 +136,21 @@ def test_length_of_the_period_does_not_matter():
     assert float(one.peak_line_load[0]) == pytest.approx(100.0)
 
 
-def test_a_row_of_balls_is_found_by_many_of_them():
-    """The middle one of a finite row, which is loaded alike, differs by the ends only."""
-    ball, pitch, force = vc.Paraboloid(0.01, 0.01), 1.2e-3, 0.03
-    cells = (24, 24)
+def test_a_ball_in_a_row_has_the_contact_of_a_longer_paraboloid():
+    """The others displace the surface under it as forces at points, F/(π E* r) (Boussinesq).
+
+    Its curvature, 2 F/(π E* r³) along the row and minus half of it across, is added to the ball's.
+    """
+    ball, pitch, force, cells = vc.Paraboloid(0.01, 0.01), 1.2e-3, 0.03, (24, 24)
+    curved = 4 * zeta(3) * force / (np.pi * 4e6 * pitch**3)
+    alike = vc.Paraboloid(1 / (100 + curved), 1 / (100 - curved / 2))
     row = run(ball, vc.step(force), Grid(cells, (pitch, pitch), periodic=(True, False)))
-    alone = run(ball, vc.step(force), Grid(cells, (pitch, pitch)))
-    # The neighbours' displacement under a ball is curved by (force/(pi E*)) Σ 2/(m pitch)³ along x
-    # and by minus half as much across, so that the contact becomes an ellipse.
-    length, width = float(row.contact_length[0]), float(row.contact_width[0])
-    assert length < float(alone.contact_length[0]) < width
+    one, alone = (run(body, vc.step(force), Grid(cells, (pitch, pitch))) for body in (alike, ball))
+    for name in ("contact_length", "contact_width", "peak_pressure"):
+        change, expected = (float(each[name][0] - alone[name][0]) for each in (row, one))
+        # The next term is of the order (a/pitch)² = 0.1 of the change.
+        assert change == pytest.approx(expected, rel=0.15), name
+        assert abs(expected) > 0.01 * float(alone[name][0])
 
 
 def test_a_moved_body_moves_its_contact():

@@ -135,8 +135,17 @@ def test_error_is_of_second_order_in_steps_of_whole_cells() -> None:
 def test_body_with_free_tilt_turns_by_its_friction_coefficient() -> None:
     # The moment of a parabola about its axis is resistance times radius: with none, mu = -tilt.
     with pytest.warns(vc.AccuracyWarning, match="axle give tilt_y = 0"):
-        ds = travelled(load=vc.step(10.0, tilt_x=0.0))
+        ds = travelled(load=vc.step(10.0, tilt_x=0.0), fields=[16.0])
     assert ds.friction_coefficient.values[1:] == pytest.approx(-ds.tilt_y.values[1:], rel=1e-6)
+    # The slopes of the surface under it give the same force; that of a level body, which turns not,
+    # is 2 % smaller so soon after the start.
+    fields, grid = ds.isel(field_time=-1), vc.Grid((40, 60), (3.2, 4.8), centre=(0.0, 0.8))
+    _, force = resistance_by_displacement(fields.pressure.values, fields.displacement.values, grid)
+    assert float(ds.friction_coefficient[-1]) == pytest.approx(force / 10, rel=3e-3)
+    level = travelled()
+    assert float(ds.friction_coefficient[-1] / level.friction_coefficient[-1]) == pytest.approx(
+        1.02, abs=0.01
+    )
 
 
 @pytest.mark.slow
@@ -211,6 +220,14 @@ def test_result_is_read_as_it_was_saved(tmp_path: Path) -> None:
 #: Scalars with error bars whose values depend on the motion.
 ESTIMATED = ("resistance_y", "friction_coefficient", "motion_work", "dissipation", "heat")
 
+#: Largest bars at the end of the run below over the values.
+LARGEST_BARS = dict.fromkeys(ESTIMATED, 0.17) | {
+    "approach": 0.015,
+    "work": 0.03,
+    "contact_area": 0.13,
+    "peak_pressure": 0.6,
+}
+
 
 @pytest.mark.parametrize("cells_a_step", [1, pytest.param(0.7, marks=pytest.mark.slow)])
 def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
@@ -218,10 +235,10 @@ def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
     ds = travelled(cell=0.08, cells_a_step=cells_a_step, errors=True, **way)
     finer = travelled(cell=0.04, cells_a_step=cells_a_step, **way)
     finer = finer.sel(time=ds.time, method="nearest", tolerance=1e-9)
-    for name in (*ESTIMATED, "approach", "work", "contact_area", "peak_pressure"):
+    for name, largest in LARGEST_BARS.items():
         error, bar = abs(ds[name] - finer[name]), ds[f"{name}_error"]
         assert float((error[1:] <= bar[1:]).mean()) > 0.9, name
-        assert float(bar[-1] / ds[name][-1]) < 0.6, name
+        assert float(bar[-1] / ds[name][-1]) < largest, name
 
 
 def test_nothing_is_uncertain_before_the_first_contact() -> None:
@@ -244,7 +261,9 @@ def test_coarser_runs_move_by_whole_cells_that_lie_alike() -> None:
         "peak_pressure": np.ones(run.problem.instants.size),
         "cells_across": np.array([15.0]),
     }
-    for coarser in plan_coarser_runs(run, history):
+    planned = list(plan_coarser_runs(run, history))
+    assert [coarser.divides_steps for coarser in planned] == [False, False, True]
+    for coarser in planned[:2]:
         own = (path.position_at(coarser.run.problem.instants) - coarser.run.grid.y[0])[:, 1]
         parts = own / coarser.run.grid.cell_size[1] % 1
         assert parts == pytest.approx((0.0 - grid.y[0]) / 0.05 % 1)
@@ -315,11 +334,14 @@ def test_adaptive_steps_see_the_loss_and_meet_whole_cells(speed: float) -> None:
     fine = vc.simulate(*given, np.linspace(0.0, end, 129), fields="none", **options)
     found = vc.simulate(*given, vc.adaptive_times(end, 1e-2), fields="none", **options)
     exact = float(fine.friction_coefficient[-1])
-    assert float(found.friction_coefficient[-1]) == pytest.approx(exact, rel=1e-2)
-    ways = found.position_y.values / 0.08
-    whole = [np.isclose(ways, cell, atol=1e-6).any() for cell in range(17)]
-    assert all(whole) == (np.diff(ways).max() < 2)
-    assert all(whole[-3:])
+    # A tenth of the tolerance: measured 4e-4 and 1e-4.
+    assert float(found.friction_coefficient[-1]) == pytest.approx(exact, rel=1e-3)
+    cells = found.position_y.values / 0.08
+    steps = np.diff(cells)
+    # Steps of up to 0.4 cells end at each cell; behind the start, of less than a tenth, at none.
+    assert steps.max() < 0.5
+    assert all(np.isclose(cells, cell, atol=1e-9).any() for cell in range(1, 17))
+    assert len(cells) < 70
 
 
 COARSE = AutomaticGrid(0.2, ["approach"])
