@@ -114,13 +114,13 @@ def curve(cells: int) -> None:
     request = vc.AutomaticGrid(tolerance=(6.0 / (0.6 * cells)) ** 2)
     found = solver(10, speeds, request)
     started = time.perf_counter()
-    run = prepare(found.problem, found.transforms)
+    run = prepare(found.problem)
     searched = time.perf_counter() - started
-    solved = SteadyCurve(found.problem, run, errors=False)
-    for _ in solved.states():
+    solved = SteadyCurve(run, errors=False)
+    for _ in solved:
         pass
     passed = time.perf_counter() - started
-    work = sum(solved.work.values())
+    work = sum(solved.work)
     sizes = [grid.shape[0] for grid in run.grids]
     print(f"20 speeds from 1e-3 to 1e3, {min(sizes)} to {max(sizes)} cells along the motion")
     print(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +100,8 @@ class ContactState:
         kept as a Boltzmann sum.
     heat : float or None
         Energy lost in them since the start [J].
+    speed : float or None
+        Speed of a body in steady motion [m/s]; None for a contact over time.
 
     Examples
     --------
@@ -144,6 +147,12 @@ class ContactState:
     motion_work: float | None = None
     dissipation: float | None = None
     heat: float | None = None
+    speed: float | None = None
+
+    @property
+    def over(self) -> Literal["time", "speed"]:
+        """Quantity in which the states of a run differ: time, or speed in steady motion."""
+        return "time" if self.speed is None else "speed"
 
     @property
     def moving(self) -> bool:

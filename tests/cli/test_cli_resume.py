@@ -28,9 +28,9 @@ from interrupted_runs import (
     whole,
 )
 from viscontact.cli import main
-from viscontact.cli.run import execution
+from viscontact.cli.run import summary
 from viscontact.cli.terminal.interruption import watched_interruption
-from viscontact.runs.directory import recorded_run, recorder
+from viscontact.runs.directory import recorded, recorder
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.execution import checked_run
@@ -362,14 +362,14 @@ def test_request_before_the_first_step_changes_nothing(
 def test_request_while_the_run_is_opened_leaves_nothing(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    opening = recorded_run.ResultWriter
+    opening = recorded.ResultWriter
 
     def asked(*arguments: Any) -> Any:
         writer = opening(*arguments)
         signal.raise_signal(signal.SIGINT)
         return writer
 
-    monkeypatch.setattr(recorded_run, "ResultWriter", asked)
+    monkeypatch.setattr(recorded, "ResultWriter", asked)
     assert main(["run", "case.yaml"]) == 130
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
@@ -600,12 +600,12 @@ def test_directory_that_is_gone_is_not_said_to_keep_anything(
 def test_request_after_the_last_instant_is_saved_changes_nothing(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    shown = execution.print_summary
+    shown = summary.print_summary
 
     def asked(directory: Path) -> None:
         signal.raise_signal(signal.SIGTERM)
         shown(directory)
 
-    monkeypatch.setattr(execution, "print_summary", asked)
+    monkeypatch.setattr(summary, "print_summary", asked)
     assert main(["run", "case.yaml"]) == 0
     assert "11 instants in" in capsys.readouterr().out

@@ -28,8 +28,7 @@ def test_what_belongs_to_runs_over_time_is_refused(
     stored: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for arguments, message in (
-        (["show", str(stored)], "is a result of steady motion"),
-        (["plot", str(stored), "history"], "friction and motion-profile"),
+        (["plot", str(stored), "history"], "draw friction, motion-profile, pressure-map"),
         (["plot", str(stored), "friction", "--time", "1 s"], "--time: does not apply"),
     ):
         assert main(arguments) == 2

@@ -109,3 +109,23 @@ def test_example_says_what_to_look_at(name: str) -> None:
     text = (files("viscontact.examples") / f"{name}.yaml").read_text(encoding="utf-8")
     assert "viscontact plot my" in text
     assert "viscontact run my.yaml" in text
+
+
+def test_friction_of_a_rolling_roller_is_its_lever_over_its_radius(tmp_path: Path) -> None:
+    """The moment of the pressure about the axis of the arc vanishes, as on an axle.
+
+    For a body of constant curvature, resistance times radius is force times eccentricity, as ∂h/∂y
+    is y/R (Goryacheva 1998, chapter 6).
+    """
+    case, directory = tmp_path / "roller-rolling.yaml", tmp_path / "roller-rolling"
+    assert main(["example", "roller-rolling", "-o", str(case)]) == 0
+    assert main(["run", str(case), "--quiet", "--set", "motion.speed=[10 mm/s, 1 m/s]"]) == 0
+    assert main(["plot", str(directory), "pressure-map", "--speed", "1 m/s"]) == 0
+    assert main(["report", str(directory)]) == 0
+    page = (directory / "report.html").read_text(encoding="utf-8")
+    assert "The friction coefficient is largest at 10" in page
+    with vc.open_results(directory) as ds:
+        assert ds.dissipation.values == pytest.approx((ds.resistance_y * ds.speed).values)
+        # The cells of the example, 218 um, and the form by the dissipation differ by their bars.
+        lever = ds.eccentricity_y / 20e-3
+        assert ds.friction_coefficient.values == pytest.approx(lever.values, rel=0.03)

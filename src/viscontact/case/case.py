@@ -11,6 +11,7 @@ from viscontact.case.error_messages import object_problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
 from viscontact.display import Displayable, DisplayableGroup
+from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.problem.problem import Problem
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.units.formatting import format_quantity
@@ -33,6 +34,8 @@ class Case(DisplayableGroup, Problem):
         The CSV of the load history, if it has one.
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
+    steady : SteadyMotion or None
+        Steady motion, whose speeds take the place of times; None for a run over time.
     digests : mapping of Path to bytes
         SHA-256 of each of those files when it was read.
     notes : tuple of str
@@ -45,6 +48,7 @@ class Case(DisplayableGroup, Problem):
     errors: bool
     load_file: Path | None
     files: Mapping[KeyPath, Path]
+    steady: SteadyMotion | None
     digests: Mapping[Path, bytes] = field(repr=False)
     notes: tuple[str, ...]
     document: Document = field(repr=False)
@@ -62,7 +66,7 @@ class Case(DisplayableGroup, Problem):
             "indenter material": self.indenter_material or "rigid",
             "load": self.load,
             "grid": self.grid or "automatic",
-            "steps": _format_steps(self),
+            **_format_rows(self),
             "tolerance": f"{self.tolerance:g}",
         }
 
@@ -94,6 +98,15 @@ class Case(DisplayableGroup, Problem):
     def error(self, why: str) -> CaseError:
         """Return an error of the run as an error at the key that it names."""
         return CaseError(object_problem(self.document, (), why))
+
+
+def _format_rows(case: Case) -> dict[str, str]:
+    if case.steady is None:
+        return {"steps": _format_steps(case)}
+    speeds = case.steady.speeds
+    low, high = (format_quantity(each, "m/s") for each in (min(speeds), max(speeds)))
+    several = f"{len(speeds)} from {low} to {high}"
+    return {"speeds" if len(speeds) > 1 else "speed": several if len(speeds) > 1 else low}
 
 
 def _format_steps(problem: Problem) -> str:

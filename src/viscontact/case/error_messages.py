@@ -18,7 +18,7 @@ from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.materials.shifts import AnyShift
-from viscontact.case.motion import AnyMotion
+from viscontact.case.motion import AnyMotion, SpeedRange
 from viscontact.case.quantities import alternatives
 from viscontact.case.sections import CaseFile
 from viscontact.units.dimensions import DIMENSIONS
@@ -33,7 +33,7 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)
 _MOTIONS = alternatives(AnyMotion)
 _NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyMaterial) | alternatives(AnyLoad)
-_ALTERNATIVES = _NO_SHIFTS | _SHIFTS | _MOTIONS
+_ALTERNATIVES = _NO_SHIFTS | _SHIFTS | _MOTIONS | {"range": SpeedRange}
 # Values of these keys are identified by `kind`.
 _WITHIN: dict[str | int, dict[str | int, Any]] = {
     "shift": _SHIFTS,
@@ -193,7 +193,8 @@ def _unknown(what: str, given: object, allowed: list[str]) -> str:
 
 def _unknown_key(model: type[BaseModel], given: object) -> str:
     """Message with the allowed keys, or the other kinds, laws or shapes that have the key."""
-    unknown = _unknown("key", given, sorted(model.model_fields))
+    names = (each.alias or name for name, each in model.model_fields.items())
+    unknown = _unknown("key", given, sorted(names))
     alike = next((each for each in _WITHIN.values() if model in each.values()), _NO_SHIFTS)
     for discriminator in ("kind", "law", "shape"):
         if discriminator not in model.model_fields:
@@ -217,12 +218,13 @@ def _nearest(given: object, allowed: list[str]) -> str | None:
 
 def _example(model: type[BaseModel], key: str) -> str:
     """Example for a missing key."""
-    if key not in model.model_fields:
+    fields = {each.alias or name: each for name, each in model.model_fields.items()}
+    if key not in fields:
         return ""
-    for annotation in model.model_fields[key].metadata:
+    for annotation in fields[key].metadata:
         if dimension := getattr(annotation, "dimension", None):
             return f"; write e.g. '{key}: {DIMENSIONS[dimension].example}'"
-    described = model.model_fields[key].description
+    described = fields[key].description
     return f"; {described}" if described else ""
 
 

@@ -7,12 +7,23 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+import numpy as np
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from viscontact import loads
 from viscontact.case.data_file import DataFile
-from viscontact.case.quantities import CycleCount, Duration, Instant, Length, Offset, Section
+from viscontact.case.quantities import (
+    CycleCount,
+    Duration,
+    Instant,
+    Length,
+    Offset,
+    Section,
+    Speed,
+    SpeedCount,
+)
 from viscontact.loads.motion import Motion
+from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.tables import read_table
 from viscontact.tables.text import read_rows
 
@@ -31,11 +42,11 @@ class MotionSection(Section):
     )
 
     @abstractmethod
-    def build(self) -> Motion:
+    def build(self) -> Motion | SteadyMotion:
         """Return the motion."""
 
     @cached_property
-    def built(self) -> Motion:
+    def built(self) -> Motion | SteadyMotion:
         """The motion, built once: its file is read once."""
         return self.build()
 
@@ -123,4 +134,58 @@ class Reciprocating(MotionSection):
         )
 
 
-AnyMotion = Annotated[Travel | Reciprocating, Field(discriminator="kind")]
+class SpeedRange(Section):
+    """Speeds from one to another."""
+
+    first: Speed = Field(alias="from", description="first speed")
+    to: Speed = Field(description="last speed")
+    count: SpeedCount = Field(description="number of speeds, with both ends")
+    spacing: Literal["log", "uniform"] = Field(
+        default="log", description="log: equal ratios of neighbours; uniform: equal differences"
+    )
+
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """The speeds [m/s]."""
+        space = np.geomspace if self.spacing == "log" else np.linspace
+        return tuple(space(self.first, self.to, self.count).tolist())
+
+
+def _form_of_speed(given: Any) -> str:
+    if isinstance(given, list | tuple):
+        return "list"
+    return "range" if isinstance(given, dict | SpeedRange) else "one"
+
+
+class Steady(MotionSection):
+    """A motion at constant speed, after so long a way that nothing changes any more."""
+
+    kind: Literal["steady"]
+    speed: Annotated[
+        Annotated[Speed, Tag("one")]
+        | Annotated[list[Speed], Field(min_length=1), Tag("list")]
+        | Annotated[SpeedRange, Tag("range")],
+        Discriminator(_form_of_speed),
+    ] = Field(
+        description="speed towards +x or +y, or several, each of which is computed",
+        examples=[
+            "0.5 m/s",
+            ["0.1 m/s", "1 m/s"],
+            {"from": "1 mm/s", "to": "1 m/s", "count": 7, "spacing": "log"},
+        ],
+    )
+    along: Literal["x", "y"] = Field(
+        default="y", description="axis of the motion; a roller rolls along y"
+    )
+
+    def build(self) -> SteadyMotion:
+        """Return the motion."""
+        given = self.speed
+        if isinstance(given, SpeedRange):
+            speeds = given.speeds
+        else:
+            speeds = tuple(given) if isinstance(given, list) else (given,)
+        return SteadyMotion(speeds, self.along, self.rolling)
+
+
+AnyMotion = Annotated[Travel | Reciprocating | Steady, Field(discriminator="kind")]

@@ -26,9 +26,9 @@ from viscontact.units.parsing import parse_quantity
 # Limits whose squares and products do not overflow.
 _SMALLEST, _LARGEST = 1e-100, 1e100
 
-# Limits on cells along an axis and on steps: without them arrays would be allocated before they
-# are refused.
-_MOST_CELLS, _MOST_STEPS = 10**9, 10**5
+# Limits on cells along an axis, on steps and on speeds: without them arrays would be allocated
+# before they are refused.
+_MOST_CELLS, _MOST_STEPS, _MOST_SPEEDS = 10**9, 10**5, 1000
 
 #: Word for a radius of curvature without end.
 INFINITE = "infinite"
@@ -124,6 +124,7 @@ Viscosity = Annotated[float, Quantity("viscosity", POSITIVE)]
 Fluidity = Annotated[float, Quantity("fluidity", NOT_NEGATIVE)]
 Instant = Annotated[float, Quantity("time", NOT_NEGATIVE)]
 Duration = Annotated[float, Quantity("time", POSITIVE)]
+Speed = Annotated[float, Quantity("speed", POSITIVE)]
 Temperature = Annotated[float, Quantity("temperature", POSITIVE)]
 TemperatureDifference = Annotated[float, Quantity("temperature difference", POSITIVE)]
 MolarEnergy = Annotated[float, Quantity("molar energy", POSITIVE)]
@@ -131,6 +132,7 @@ Exponent = Annotated[float, Field(gt=0, le=1)]
 PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
 CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]
 StepCount = Annotated[int, Field(ge=1, le=_MOST_STEPS)]
+SpeedCount = Annotated[int, Field(ge=2, le=_MOST_SPEEDS)]
 TimeTolerance = Annotated[float, Field(ge=FINEST_TIME_ERROR, le=COARSEST_TIME_ERROR)]
 CycleCount = Annotated[int, Field(ge=1, le=MOST_CYCLES)]
 

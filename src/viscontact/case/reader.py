@@ -16,8 +16,9 @@ from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.indenters.shapes import combined
 from viscontact.case.overrides import override
-from viscontact.case.sections import CaseFile
-from viscontact.case.time_grid_output import kept_fields, with_instants
+from viscontact.case.sections import CaseFile, is_steady
+from viscontact.case.time_grid_output import kept_fields, kept_speeds, with_instants
+from viscontact.loads.motion import Motion
 
 # Largest number of problems that are reported.
 _MOST_PROBLEMS = 200
@@ -92,18 +93,31 @@ def digest(path: Path) -> bytes:
 
 
 def _checked(document: Document) -> CaseFile:
+    lacks_time = _lacks_time(document)
     try:
-        return _validated(document, document.data)
+        found = _validated(document, document.data)
     except ValidationError as error:
         findings = error.errors()
+    else:
+        if lacks_time:
+            raise CaseError(lacks_time)
+        return found
     if guess := corrected(document.data, findings):
         try:
             _validated(document, guess)
         except ValidationError as error:
             findings += error.errors()
     problems = dict.fromkeys(problem(document, each) for each in findings[:_MOST_PROBLEMS])
+    problems |= {lacks_time: None} if lacks_time else {}
     more = len(findings) - _MOST_PROBLEMS
     raise CaseError(*problems, *([f"{document.path}: and {more} more"] if more > 0 else []))
+
+
+def _lacks_time(document: Document) -> str:
+    """Problem of a case over time that has no section `time`; empty if there is none."""
+    if document.data.get("time") is not None or is_steady(document.data):
+        return ""
+    return document.problem(("time",), "is missing; instants of the run")
 
 
 def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
@@ -112,20 +126,27 @@ def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
 
 
 def _case(document: Document, found: CaseFile) -> Case:
-    times = found.instants()
+    steady, times = found.steady, None
     try:
-        fields = kept_fields(found.output, times)
+        if steady is not None:
+            fields = kept_speeds(found.output, steady.speeds)
+        else:
+            times = found.instants()
+            fields = kept_fields(found.output, times)
+            times = with_instants(times, fields)
     except ValueError as error:
         raise CaseError(document.problem(("output", "fields"), str(error))) from error
+    motion = found.motion.built if found.motion else None
     of_indenter, files = found.indenter_material, _files(found, document)
     return Case(
         title=found.title,
         indenter=combined(found.indenter),
         material=found.material.built,
         load=found.history(),
-        motion=found.motion.built if found.motion else None,
+        motion=motion if isinstance(motion, Motion) else None,
+        steady=steady,
         grid=found.grid.build() if found.grid else None,
-        times=with_instants(times, fields),
+        times=times,
         indenter_material=of_indenter.built if of_indenter else None,
         tolerance=found.tolerance,
         fields=fields,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
@@ -16,6 +17,8 @@ from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
+from viscontact.loads.motion import Motion
+from viscontact.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
 from viscontact.time_integration.moving_times import CellTimes, moving_times
 from viscontact.time_integration.requested_times import AdaptiveTimes
@@ -36,7 +39,9 @@ class CaseFile(Section):
     motion: AnyMotion | None = Field(
         default=None, description="motion of the body over the surface; at rest when left out"
     )
-    time: Time = Field(description="instants of the run")
+    time: Time | None = Field(
+        default=None, description="instants of the run; left out with a steady motion only"
+    )
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
     output: Output = Field(default=Output(), description="results to keep")
     tolerance: Annotated[float, Field(ge=FINEST_TOLERANCE, le=COARSEST_TOLERANCE)] = Field(
@@ -52,9 +57,27 @@ class CaseFile(Section):
             )
         return self
 
+    @property
+    def steady(self) -> SteadyMotion | None:
+        """The steady motion, None for a run over time."""
+        built = self.motion.built if self.motion else None
+        return built if isinstance(built, SteadyMotion) else None
+
+    @model_validator(mode="after")
+    def _steady_if_without_time(self) -> CaseFile:
+        if self.steady is None:
+            return self
+        if self.time is not None:
+            raise ValueError(
+                "time: a steady motion has no steps in time, but a row for each speed; leave this "
+                "section out"
+            )
+        constant_load(self.history())
+        return self
+
     @model_validator(mode="after")
     def _moves_if_steps_are_cells(self) -> CaseFile:
-        if self.time.spacing != "cells":
+        if self.time is None or self.time.spacing != "cells":
             return self
         if self.motion is None:
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
@@ -62,12 +85,14 @@ class CaseFile(Section):
 
     def instants(self) -> NDArray[np.float64] | AdaptiveTimes | CellTimes:
         """Return the instants of the run [s], or the settings of steps that are chosen later."""
-        if self.time.spacing != "cells" or self.motion is None:
+        assert self.time is not None  # refused otherwise
+        motion = self.motion.built if self.motion else None
+        if self.time.spacing != "cells" or not isinstance(motion, Motion):
             return self.time.instants()
         grid = self.grid.build() if self.grid else None
         if not isinstance(grid, Grid):
             return CellTimes(self.time.end)
-        return moving_times(self.motion.built, self.history(), grid.cell_size, self.time.end)
+        return moving_times(motion, self.history(), grid.cell_size, self.time.end)
 
     def history(self) -> LoadHistory:
         """Return the load; a mean pressure acts on the area of the grid."""
@@ -75,6 +100,21 @@ class CaseFile(Section):
         if self.load.is_by_pressure and isinstance(cells, Grid):
             return self.load.build(cells.area)
         return self.load.built
+
+
+def is_steady(data: Mapping[str, Any]) -> bool:
+    """True if the data of a case describe a steady motion, valid or not."""
+    motion = data.get("motion")
+    return isinstance(motion, dict) and motion.get("kind") == "steady"
+
+
+#: A section `time` is required, and with a steady motion refused.
+_STEADY = {"properties": {"kind": {"const": "steady"}}, "required": ["kind"]}
+_TIME_UNLESS_STEADY = {
+    "if": {"properties": {"motion": _STEADY}, "required": ["motion"]},
+    "then": {"properties": {"time": False}},
+    "else": {"required": ["time"]},
+}
 
 
 def case_schema() -> dict[str, Any]:
@@ -89,10 +129,11 @@ def case_schema() -> dict[str, Any]:
 
     Examples
     --------
-    >>> sorted(case_schema()["required"])
-    ['indenter', 'load', 'material', 'time']
+    >>> schema = case_schema()
+    >>> schema["required"], schema["else"]["required"]
+    (['indenter', 'material', 'load'], ['time'])
     """
-    schema = CaseFile.model_json_schema()
+    schema = CaseFile.model_json_schema() | _TIME_UNLESS_STEADY
     units = {name: list(dimension.units) for name, dimension in DIMENSIONS.items()}
     draft = "https://json-schema.org/draft/2020-12/schema"
     return {"$schema": draft, "x-units": units, **schema}

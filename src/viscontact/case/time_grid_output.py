@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from viscontact import grid
 from viscontact.case.quantities import (
@@ -17,6 +18,7 @@ from viscontact.case.quantities import (
     Length,
     Offset,
     Section,
+    Speed,
     StepCount,
     TimeTolerance,
 )
@@ -29,6 +31,7 @@ from viscontact.time_integration.requested_times import (
 )
 from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.formatting import format_quantity
+from viscontact.units.parsing import parse_quantity
 
 #: Default of `first` for log spacing, as a part of the end.
 FIRST_OF_END = 1e-3
@@ -188,13 +191,30 @@ class Cells(Section):
         return self
 
 
-def _word_or_list(given: Any) -> str:
-    return "word" if isinstance(given, str) else "instants"
+def _form_of_fields(given: Any) -> str:
+    if isinstance(given, str):
+        return "word"
+    first = given[0] if isinstance(given, list) and given else None
+    return "speeds" if isinstance(first, str) and _is_speed(first) else "instants"
+
+
+def _is_speed(text: str) -> bool:
+    try:
+        parse_quantity(text, "speed")
+    except ValueError:
+        return False
+    return True
+
+
+class Speeds(tuple[float, ...]):
+    """Speeds whose fields are kept [m/s], as distinct from instants."""
 
 
 _Fields = Annotated[
-    Annotated[Literal["all", "none"], Tag("word")] | Annotated[list[Instant], Tag("instants")],
-    Discriminator(_word_or_list),
+    Annotated[Literal["all", "none"], Tag("word")]
+    | Annotated[list[Instant], Tag("instants")]
+    | Annotated[list[Speed], AfterValidator(Speeds), Tag("speeds")],
+    Discriminator(_form_of_fields),
 ]
 
 
@@ -204,7 +224,7 @@ class Output(Section):
     fields: _Fields | None = Field(
         default=None,
         description="instants whose pressure, gap and displacement are kept, or all, or none; "
-        "ten of the run's instants when left out",
+        "ten of the run's instants when left out; in steady motion speeds in place of instants",
     )
     errors: bool = Field(
         default=True,
@@ -225,6 +245,8 @@ def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
     """
     if isinstance(output.fields, str):
         return output.fields
+    if isinstance(output.fields, Speeds):
+        raise ValueError("speeds go with a steady motion; give instants, such as '30 s'")
     end = times.end if isinstance(times, AdaptiveTimes | CellTimes) else float(times[-1])
     if output.fields is None:
         return _default_fields(times)
@@ -235,6 +257,36 @@ def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
             f"{format_quantity(end, 's', 6)}"
         )
     return tuple(sorted({min(instant, end) for instant in output.fields}))
+
+
+def kept_speeds(output: Output, speeds: Sequence[float]) -> str | tuple[float, ...]:
+    """Return the speeds whose fields are kept [m/s].
+
+    Examples
+    --------
+    >>> kept_speeds(Output(fields=["100 mm/s"]), (0.01, 0.1, 1.0))
+    (0.1,)
+    >>> kept_speeds(Output(), (0.01, 0.1, 1.0))
+    'all'
+    """
+    fields = output.fields
+    if isinstance(fields, str):
+        return fields
+    if fields is None:
+        if len(speeds) <= DEFAULT_FIELDS:
+            return "all"
+        chosen = np.linspace(0, len(speeds) - 1, DEFAULT_FIELDS).round().astype(int)
+        return tuple(speeds[index] for index in chosen)
+    if not isinstance(fields, Speeds) and fields:
+        raise ValueError("a steady motion has no instants; give speeds, such as '0.5 m/s'")
+    nearest = [min(speeds, key=lambda each: abs(each - wanted)) for wanted in fields]
+    for wanted, found in zip(fields, nearest, strict=True):
+        if abs(found - wanted) > 1e-9 * wanted:
+            raise ValueError(
+                f"{format_quantity(wanted, 'm/s', 6)} is not among the speeds of motion; the "
+                f"nearest is {format_quantity(found, 'm/s', 6)}"
+            )
+    return tuple(dict.fromkeys(nearest)) or "none"
 
 
 def _default_fields(times: Times) -> tuple[float, ...]:

@@ -20,6 +20,8 @@ from viscontact.plot.histories.history import history
 from viscontact.plot.histories.hysteresis import hysteresis
 from viscontact.plot.histories.von_mises import von_mises_history
 from viscontact.plot.materials.creep import creep
+from viscontact.plot.motion.friction import friction
+from viscontact.plot.motion.motion_profile import motion_profile
 from viscontact.plot.pressure.contact_outline import contact_outline
 from viscontact.plot.pressure.deformed_surface import deformed_surface
 from viscontact.plot.pressure.line_load import line_load
@@ -58,6 +60,15 @@ class ResultPlots:
     """
 
     result: xr.Dataset
+
+    def __call__(self, figure: str, **how: Any) -> Panels | Film:
+        """Draw a figure by its name on the command line, such as ``"pressure-map"``."""
+        method = getattr(self, figure.replace("-", "_"), None)
+        if figure.startswith("_") or figure == "result" or method is None:
+            names = [name.replace("_", "-") for name in vars(type(self)) if name[0] != "_"]
+            raise ValueError(f"no figure is called {figure!r}; there are {', '.join(names)}")
+        drawn: Panels | Film = method(**how)
+        return drawn
 
     def pressure_map(self, **how: Any) -> Panels:
         """Draw contours of pressure: `viscontact.plot.pressure_map`."""
@@ -114,6 +125,14 @@ class ResultPlots:
     def von_mises(self, **how: Any) -> Panels:
         """Draw the largest von Mises stress over time: `viscontact.plot.von_mises_history`."""
         return self._panels(von_mises_history, how)
+
+    def friction(self, **how: Any) -> Panels:
+        """Draw the friction coefficient over the speed: `viscontact.plot.friction`."""
+        return self._panels(friction, how)
+
+    def motion_profile(self, **how: Any) -> Panels:
+        """Draw the pressure along a steady motion: `viscontact.plot.motion_profile`."""
+        return self._panels(motion_profile, how)
 
     def indenter(self, **how: Any) -> Panels:
         """Draw sections and plan of the indenter: `viscontact.plot.indenter`."""

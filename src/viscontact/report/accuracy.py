@@ -10,6 +10,7 @@ import xarray as xr
 
 from viscontact.results.formatting import format_bound
 from viscontact.results.recorded_case import case_of, prescribes_approach, recorded_grid
+from viscontact.results.run_axis import TIME, run_axis
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.results.summary import SummaryRow, summary_rows, summary_scalars
 from viscontact.units.formatting import format_quantity
@@ -17,8 +18,9 @@ from viscontact.units.formatting import format_quantity
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
     """Return the table of results and their errors."""
+    rows = f"{run_axis(ds).row}s"
     return [
-        (row.heading, row.first, row.last, row.largest, _worst(row), row.when)
+        (row.heading, row.first, row.last, row.largest, _worst(row, rows), row.when)
         for row in summary_rows(ds)
     ]
 
@@ -34,21 +36,22 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         "The gap under pressure and penetration elsewhere are no larger.",
     )
     yield "Balance", _balance(ds)
-    yield "Time steps", _steps(ds)
+    if run_axis(ds) is TIME:
+        yield "Time steps", _steps(ds)
     yield "Cells", _cells(ds)
     if memory := str(ds.attrs.get("memory", "")):
         yield "Memory of the past", memory
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
-    yield "Coarser runs", _coarser_runs(ds)
+    yield ("Coarser runs" if run_axis(ds) is TIME else "Coarser contacts"), _coarser_runs(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
 
 
-def _worst(row: SummaryRow) -> str:
+def _worst(row: SummaryRow, rows: str) -> str:
     error = f"{row.error} ({row.part})" if row.when else row.part or row.error
-    return f"{error}; not known at {row.unknown} instants" if row.part and row.unknown else error
+    return f"{error}; not known at {row.unknown} {rows}" if row.part and row.unknown else error
 
 
 def _balance(ds: xr.Dataset) -> str:
@@ -86,9 +89,10 @@ def _cells(ds: xr.Dataset) -> str:
 def _coarser_runs(ds: xr.Dataset) -> str:
     if not any(str(name).endswith("_error") and name != "time_error" for name in ds.data_vars):
         return "none: the errors of the numbers above are not estimated"
+    coarser = "runs" if run_axis(ds) is TIME else "contacts at each speed"
     return (
-        "coarser runs of the same problem, from which the errors are estimated: 95 of 100 true "
-        "errors are expected to lie within the stated ones"
+        f"coarser {coarser} of the same problem, from which the errors are estimated: 95 of 100 "
+        "true errors are expected to lie within the stated ones"
     )
 
 

@@ -14,17 +14,23 @@ from viscontact.indenters import Indenter
 from viscontact.notebook.curves import law_drawings
 from viscontact.notebook.html import element
 from viscontact.notebook.shapes import indenter_drawings
-from viscontact.plot import creep_curve, draw_indenter
+from viscontact.plot import creep_curve, draw_indenter, friction
 from viscontact.plot.layout.saving import as_svg
 from viscontact.plot.materials.creep import curve_times
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, recorded_grid, recorded_object
+from viscontact.results.run_axis import law_times
 
 
 def geometry(ds: xr.Dataset) -> Element:
     """Drawing of the indenter, with the largest contact shaded."""
     wide = _drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
     return _both(wide, partial(_small_sections, ds))
+
+
+def friction_curve(ds: xr.Dataset) -> Element:
+    """Friction coefficient over speed with its limits, or why it is not drawn."""
+    return _drawn(partial(friction, ds), "Friction coefficient over speed")
 
 
 def is_drawn_from_fields(ds: xr.Dataset) -> bool:
@@ -97,7 +103,7 @@ def _middle(ds: xr.Dataset) -> tuple[float, float]:
 
 def _curves(ds: xr.Dataset, part: str) -> Figure:
     law = recorded_object(ds, part, "creep").law
-    instants = ds["time"].values
+    instants = law_times(ds)
     positive = instants[instants > 0]
     end = float(positive.max(initial=0.0)) or 1.0
     return creep_curve(law, curve_times(end, float(positive.min(initial=end))))

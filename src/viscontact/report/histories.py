@@ -1,4 +1,4 @@
-"""Scalars over time as plain data for a page's figures, with their error bands."""
+"""Scalars over time or speed as plain data for a page's figures, with their error bands."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.map_data import finite_or_none, rounded
 from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
+from viscontact.results.recorded_motion import motion_axis
+from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import (
     NOT_DRAWN,
@@ -23,7 +25,7 @@ from viscontact.results.stated_errors import (
     lacks_curve,
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
-from viscontact.units.formatting import format_compact, format_quantity, readable_unit
+from viscontact.units.formatting import format_compact, readable_unit
 
 Floats = NDArray[np.float64]
 
@@ -39,10 +41,17 @@ _LEAST_RATIO = 30.0
 
 
 def time_axis(ds: xr.Dataset) -> dict[str, Any]:
-    """Return the axis of time, linear and, where steps are spread over decades, logarithmic."""
-    instants = np.asarray(ds["time"].values, dtype=np.float64)
-    unit = readable_unit("s", instants)
-    axis: dict[str, Any] = {"unit": unit.symbol, "linear": rounded(unit(instants)), "log": None}
+    """Return the axis of time or speed, linear and, over some decades, logarithmic."""
+    over = run_axis(ds)
+    instants = over.values(ds)
+    unit = readable_unit(over.unit, instants)
+    about = {"name": over.name.capitalize(), "symbol": over.symbol, "marked": over is SPEED}
+    axis: dict[str, Any] = {
+        **about,
+        "unit": unit.symbol,
+        "linear": rounded(unit(instants)),
+        "log": None,
+    }
     positive = unit(instants[instants > 0])
     if positive.size < 3 or positive[-1] < _LEAST_RATIO * positive[0]:
         return axis | {"startsLog": False}
@@ -55,7 +64,7 @@ def time_axis(ds: xr.Dataset) -> dict[str, Any]:
     return axis | {
         "log": rounded(places),
         "ticks": {"at": [place for place, _ in ticks], "text": [text for _, text in ticks]},
-        "startsLog": suits_log_time(ds),
+        "startsLog": over is SPEED or suits_log_time(ds),
     }
 
 
@@ -79,6 +88,8 @@ def panel_labels(ds: xr.Dataset) -> tuple[dict[str, str], dict[str, str]]:
 
 def _prescribed(ds: xr.Dataset) -> list[str]:
     names = [name for name in shown_in(Place.LOAD, ds) if name == "force" or _varies(ds, name)]
+    if run_axis(ds) is SPEED:
+        names = ["force"]  # a constant load
     if not prescribes_approach(ds):
         return names
     return ["approach", *(name for name in names if SCALARS[name].moving)]
@@ -87,6 +98,8 @@ def _prescribed(ds: xr.Dataset) -> list[str]:
 def _response(ds: xr.Dataset) -> list[str]:
     answer = {"approach": "force"} if prescribes_approach(ds) else {}
     shown = shown_scalars(ds, Place.RESPONSE)
+    if run_axis(ds) is SPEED:
+        shown.append(f"eccentricity_{motion_axis(ds)}")  # the contact lies ahead of the axis
     return [answer.get(name, name) for name in shown if not _is_idle(ds, name)]
 
 
@@ -113,20 +126,20 @@ def _panel(ds: xr.Dataset, name: str) -> dict[str, Any]:
         "half": finite_or_none(unit(errors)),
         "range": _range(unit(drawn), unit(errors)),
         "hover": _hover(ds, values, errors, units),
-        "note": _note(errors, values) if SCALARS[name].has_error else "",
+        "note": _note(errors, values, run_axis(ds)) if SCALARS[name].has_error else "",
         "words": NOT_DRAWN if lacks_curve(ds, name) else "",
     }
 
 
 def _hover(ds: xr.Dataset, values: Floats, errors: Floats, units: str) -> list[str]:
+    axis = run_axis(ds)
     return [
-        f"t = {format_quantity(float(instant), 's')}: "
-        f"{format_with_error(float(value), float(error), units)}"
-        for instant, value, error in zip(ds["time"].values, values, errors, strict=True)
+        f"{axis.place(float(instant))}: {format_with_error(float(value), float(error), units)}"
+        for instant, value, error in zip(axis.values(ds), values, errors, strict=True)
     ]
 
 
-def _note(errors: Floats, values: Floats) -> str:
+def _note(errors: Floats, values: Floats, axis: RunAxis) -> str:
     """Remark on errors that the band does not show."""
     given = np.isfinite(values)
     marked, unknown = int(np.isposinf(errors).sum()), int(np.isnan(errors[given]).sum())
@@ -134,7 +147,7 @@ def _note(errors: Floats, values: Floats) -> str:
         return MESH_DEPENDENT
     if unknown == int(given.sum()):
         return "error not known"
-    return f"error not known at {unknown} of {given.size} instants" if unknown else ""
+    return f"error not known at {unknown} of {given.size} {axis.row}s" if unknown else ""
 
 
 def _range(values: Floats, errors: Floats) -> list[float]:

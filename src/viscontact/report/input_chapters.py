@@ -18,7 +18,11 @@ from viscontact.notebook.html import element
 from viscontact.report import accuracy, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.results.citation import citations
-from viscontact.results.summary import LEGEND
+from viscontact.results.formatting import format_scalar
+from viscontact.results.run_axis import SPEED, TIME, run_axis
+from viscontact.results.shown_scalars import is_shown
+from viscontact.results.summary import legend
+from viscontact.results.variables import SCALARS
 from viscontact.run_files import CASE_NAME
 from viscontact.units.formatting import format_quantity
 
@@ -64,12 +68,26 @@ def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
     )
 
 
+def speed_table(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the friction curve of a result over speed, and the table of its chief scalars."""
+    yield element("figure", drawings.friction_curve(ds))
+    names = ["friction_coefficient", f"resistance_{ds.attrs.get('along', 'y')}"]
+    names += [name for name in ("peak_pressure", "contact_area", "approach") if is_shown(ds, name)]
+    heads = ["speed", *(SCALARS[name].label.lower() for name in names)]
+    rows = [
+        [SPEED.place(float(speed)), *(format_scalar(ds, name, row) for name in names)]
+        for row, speed in enumerate(SPEED.values(ds))
+    ]
+    yield _table(heads, rows)
+
+
 def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the table of errors, and the estimates behind them."""
-    ends = (f"t = {format_quantity(float(ds['time'][k]), 's')}" for k in (0, -1))
-    heads = ("", *ends, "largest", "largest error", "when")
+    axis = run_axis(ds)
+    ends = (axis.place(float(ds[axis.name][k])) for k in (0, -1))
+    heads = ("", *ends, "largest", "largest error", "when" if axis is TIME else "at")
     yield _table(heads, accuracy.error_rows(ds))
-    yield element("p", LEGEND, class_="faint")
+    yield element("p", legend(ds), class_="faint")
     yield _account(accuracy.accuracy_lines(ds))
 
 
@@ -112,7 +130,10 @@ def about_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 def _effort(ds: xr.Dataset) -> str:
     seconds = format_quantity(float(ds.attrs["wall_time"]), "s", 3)
-    return f"{ds.sizes['time']} instants in {seconds}, {int(ds['iterations'].sum())} iterations"
+    axis = run_axis(ds)
+    return (
+        f"{ds.sizes[axis.name]} {axis.row}s in {seconds}, {int(ds['iterations'].sum())} iterations"
+    )
 
 
 def _part(title: str, given: Iterable[Input]) -> Element:

@@ -24,6 +24,10 @@ _PARTS = {
 }
 
 
+#: Speeds up to this number are listed one by one.
+_FEW_SPEEDS = 6
+
+
 @dataclass(frozen=True)
 class Input:
     """One argument of a part of the case, with its value in a unit."""
@@ -46,13 +50,13 @@ def inputs(ds: xr.Dataset) -> list[Input]:
     found = [
         Input(title, name, value)
         for key, title in _PARTS.items()
-        if isinstance(case.get(key), dict)
+        if isinstance(case.get(key), dict) and case[key].get("kind") != "steady"
         for name, value in argument_rows(case[key])
     ]
     if case and case.get("indenter_material") is None and "indenter" in case:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)
         found.insert(place, Input(_PARTS["indenter_material"], "law", "rigid"))
-    return [*found, *_steps(case)]
+    return [*found, *_steady(case), *_steps(case)]
 
 
 def case_file(ds: xr.Dataset) -> str:
@@ -62,6 +66,22 @@ def case_file(ds: xr.Dataset) -> str:
     if source.name != RESULT_NAME or not beside.is_file():
         return ""
     return beside.read_text(encoding="utf-8", errors="replace")
+
+
+def _steady(case: Mapping[str, Any]) -> Iterator[Input]:
+    motion = case.get("motion") or {}
+    if motion.get("kind") != "steady":
+        return
+    speeds = [format_quantity(float(each), "m/s") for each in motion["speed"]]
+    few = len(speeds) <= _FEW_SPEEDS
+    listed = ", ".join(speeds) if few else f"{len(speeds)}, from {speeds[0]} to {speeds[-1]}"
+    yield Input("Motion", "kind", "steady")
+    yield Input("Motion", "speed" if len(speeds) == 1 else "speeds", listed)
+    yield Input("Motion", "along", str(motion["along"]))
+    if motion.get("rolling") is not None:
+        yield Input("Motion", "rolling", "yes" if motion["rolling"] else "no, it slides")
+    if "tolerance" in case:
+        yield Input("Motion", "tolerance at each speed", f"{case['tolerance']:g}")
 
 
 def _steps(case: Mapping[str, Any]) -> Iterator[Input]:

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.results.run_axis import SPEED, law_times, run_axis
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_number, format_quantity
 
@@ -17,8 +18,14 @@ from viscontact.units.formatting import format_number, format_quantity
 def notices(ds: xr.Dataset) -> list[str]:
     """Notices for the head of the page: an early end, failed instants."""
     said = []
-    times = case_of(ds).get("times") or []
-    reached = float(ds["time"][-1])
+    axis = run_axis(ds)
+    times, reached = case_of(ds).get("times") or [], float(ds[axis.name][-1])
+    speeds = (case_of(ds).get("motion") or {}).get("speed") or []
+    if axis is SPEED and ds.sizes["speed"] < len(speeds):
+        said.append(
+            f"The run ended after {ds.sizes['speed']} of {len(speeds)} speeds: this page shows "
+            "what it had completed."
+        )
     if times and reached < float(times[-1]):
         said.append(
             f"The run ended at t = {format_quantity(reached, 's')}, before its last instant, t = "
@@ -26,7 +33,9 @@ def notices(ds: xr.Dataset) -> list[str]:
         )
     failed = int((ds["outcome"].values == Outcome.NOT_CONVERGED).sum())
     if failed:
-        said.append(f"The solver did not converge at {failed} of {ds.sizes['time']} instants.")
+        said.append(
+            f"The solver did not converge at {failed} of {ds.sizes[axis.name]} {axis.row}s."
+        )
     return said
 
 
@@ -89,18 +98,22 @@ def _approach(ds: xr.Dataset) -> str:
     )
 
 
+def _when(ds: xr.Dataset) -> str:
+    return "after the slowest passage" if run_axis(ds) is SPEED else "at the end"
+
+
 def _strain(ds: xr.Dataset) -> str:
     """Pressure over stiffness, which is of the order of the strain."""
     try:
         creep = recorded_object(ds, "material", "limits").law
     except (ValueError, AttributeError, json.JSONDecodeError):
         return ""
-    compliance = float(creep(float(ds["time"][-1])))
+    compliance = float(creep(float(law_times(ds).max())))
     strain = float(ds["mean_pressure"].max()) * compliance
     if not math.isfinite(strain) or strain <= 0:
         return ""
     return (
-        f"Largest mean pressure times creep compliance at the end, which is of the order of the "
+        f"Largest mean pressure times creep compliance {_when(ds)}, which is of the order of the "
         f"strain: {format_number(strain, 2)}. Whether the material is still linear at that, its "
         "tests must say."
     )

@@ -17,8 +17,8 @@ from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report.shown_fields import ShownFields
 from viscontact.results.recorded_motion import contact_edges
 from viscontact.results.shown_scalars import is_long
-from viscontact.results.snapshots import Snapshot
-from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot, labels_of
+from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         "steps": STEPS,
         "parts": [_parts(each, fields, strides) for each in fields.snapshots],
         "rims": [_rim(each, length) for each in fields.snapshots],
-        "labels": list(time_labels(each.time for each in fields.snapshots)),
+        "labels": list(labels_of(fields.snapshots)),
         "peaks": _peaks(fields, pressure),
         "mesh": list(fields.marked),
         "colours": time_colours(len(fields.snapshots)),
@@ -139,7 +139,7 @@ def _csv(
 ) -> str:
     """Write positions, and a column of values for each instant, with its place in the heading."""
     heads = [
-        f"{quantity} at {each.time!r} s{place} [{units}]"
+        f"{quantity} at {each.time!r} {each.axis.unit}{place} [{units}]"
         for each, place in zip(fields.snapshots, places, strict=True)
     ]
     file = io.StringIO()

@@ -30,8 +30,8 @@
   let onLog = time.startsLog;
   const places = () => (onLog ? time.log : time.linear);
   const timeAxis = () => onLog
-    ? axis(`Time [${time.unit}], logarithmic`, { tickmode: "array", tickvals: time.ticks.at, ticktext: time.ticks.text })
-    : axis(`Time [${time.unit}]`, { rangemode: "tozero" });
+    ? axis(`${time.name} [${time.unit}], logarithmic`, { tickmode: "array", tickvals: time.ticks.at, ticktext: time.ticks.text })
+    : axis(`${time.name} [${time.unit}]`, { rangemode: "tozero" });
 
   // A closed polygon for each run of instants whose error is known.
   function band(panel) {
@@ -58,7 +58,8 @@
   const inWords = (text) => ({ text, showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 12, color: faint } });
   function drawPanel(panel) {
     const line = {
-      x: places(), y: panel.value, mode: panel.value.length < 2 ? "markers" : "lines",
+      x: places(), y: panel.value,
+      mode: panel.value.length < 2 ? "markers" : time.marked ? "lines+markers" : "lines",
       line: { color: blue, width: 2 }, text: panel.hover,
       hovertemplate: "%{text}<extra></extra>",
     };
@@ -83,7 +84,7 @@
   const drawHistories = () => panels.forEach(drawPanel);
   const timeButton = place("time-scale");
   if (timeButton) {
-    const name = () => { timeButton.textContent = onLog ? "Show linear time" : "Show logarithmic time"; };
+    const name = () => { timeButton.textContent = onLog ? `Show linear ${time.name.toLowerCase()}` : `Show logarithmic ${time.name.toLowerCase()}`; };
     timeButton.addEventListener("click", () => { onLog = !onLog; name(); drawHistories(); });
     name();
   }
@@ -192,7 +193,7 @@
   function showInstant(index) {
     shown = index;
     const peak = map.peaks[shown], label = map.labels[shown];
-    place("instant").value = `t = ${label}`;
+    place("instant").value = `${time.symbol}${label}`;
     place("map-account").textContent = peak ? `Largest pressure ${peak}` : "No contact";
     place("slider").setAttribute("aria-valuetext", label);
     drawMap();

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from importlib.resources import files
+from itertools import chain
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -19,6 +20,7 @@ from viscontact.report.histories import load_panels, response_panels, time_axis
 from viscontact.report.map_data import curves_data, map_data
 from viscontact.report.resistance_loops import loops_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
+from viscontact.results.run_axis import SPEED, TIME, run_axis
 
 _CHAPTERS = {
     "pressure": "Pressure",
@@ -89,8 +91,12 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
     ValueError
         If the result holds no instant.
     """
-    if not ds.sizes.get("time"):
-        raise ValueError("a report needs one instant at least, got a result without any; run it")
+    axis = run_axis(ds)
+    if not ds.sizes.get(axis.name):
+        raise ValueError(
+            f"a report needs one {axis.row} at least, got a result without any; run it"
+        )
+    ds = _in_order(ds)
     fields = _fields(ds)
     data = _data(ds, fields)
     folder, name = files("viscontact.report"), result_chapters.heading_of(ds, label)
@@ -104,6 +110,15 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         plotly=get_plotlyjs(),
         script=(folder / "page.js").read_text(encoding="utf-8"),
     )
+
+
+def _in_order(ds: xr.Dataset) -> xr.Dataset:
+    """A result over speed from the slowest to the fastest; others as they are."""
+    if run_axis(ds) is TIME:
+        return ds
+    ordered = ds.sortby([name for name in ("speed", "field_speed") if name in ds.dims])
+    ordered.encoding = ds.encoding  # the place of its file
+    return ordered
 
 
 def _fields(ds: xr.Dataset) -> ShownFields | None:
@@ -129,6 +144,9 @@ def _body(
     name: str, ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]
 ) -> Iterable[Element]:
     histories = result_chapters.history_chapter(ds, data)
+    titles = _CHAPTERS if run_axis(ds) is TIME else _CHAPTERS | {"histories": "Over speed"}
+    if run_axis(ds) is SPEED:
+        histories = chain(input_chapters.speed_table(ds), histories)
     chapters: dict[str, Iterable[Element]] = {
         "pressure": result_chapters.pressure_chapter(ds, fields),
         "histories": histories,
@@ -140,6 +158,6 @@ def _body(
         "about": input_chapters.about_chapter(ds),
     }
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
-    yield result_chapters.opening(name, ds, _CHAPTERS)
+    yield result_chapters.opening(name, ds, titles)
     for place, parts in chapters.items():
-        yield element("section", element("h2", _CHAPTERS[place]), *parts, id=place)
+        yield element("section", element("h2", titles[place]), *parts, id=place)

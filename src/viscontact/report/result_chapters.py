@@ -9,6 +9,7 @@ from typing import Any, Literal
 from urllib.parse import quote
 from xml.etree.ElementTree import Element
 
+import numpy as np
 import xarray as xr
 
 from viscontact.notebook.html import element
@@ -24,6 +25,7 @@ from viscontact.report.shown_fields import ShownFields
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_motion import motion_axis
+from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.shown_scalars import is_long, shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
@@ -83,7 +85,7 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
         yield _line_load(fields)
     yield element(
         "p",
-        "Bold: the instant of the slider.",
+        f"Bold: the {fields.snapshots[0].axis.row} of the slider.",
         " Full marker: leading edge, hollow: trailing edge." if fields.body else None,
         element(
             "span",
@@ -99,7 +101,8 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
 def history_chapter(ds: xr.Dataset, data: dict[str, Any]) -> Iterator[Element]:
     """Yield the panels of load and motion, of the contact's response, and loops of resistance."""
     axis, answers = data["time"], data["answers"]
-    button = element("button", "Show the other scale of time", type="button", id="time-scale")
+    other = f"Show the other scale of {run_axis(ds).name}"
+    button = element("button", other, type="button", id="time-scale")
     csv = io.StringIO()
     write_history(ds, csv)
     yield element(
@@ -122,21 +125,32 @@ def history_chapter(ds: xr.Dataset, data: dict[str, Any]) -> Iterator[Element]:
 
 
 def _facts(ds: xr.Dataset) -> Element:
-    area = ds["contact_area"].values
-    last = -1 if area[-1] > 0 else int(area.argmax())
-    when = "" if area[-1] > 0 else f" at t = {format_quantity(float(ds['time'][last]), 's')}"
     return element(
         "dl",
         *(
             element(
                 "div",
-                element("dt", _unbroken(name + when)),
-                element("dd", _unbroken(format_scalar(ds, scalar, last))),
+                element("dt", _unbroken(label + where)),
+                element("dd", _unbroken(format_scalar(ds, scalar, index))),
             )
-            for scalar, name in shown_labels(ds, Place.FACTS).items()
+            for scalar, label in shown_labels(ds, Place.FACTS).items()
+            for index, where in (_fact(ds, scalar),)
         ),
         class_="facts",
     )
+
+
+def _fact(ds: xr.Dataset, name: str) -> tuple[int, str]:
+    """Row of a result at the head of the page, and its place: the end, or the worst speed."""
+    if run_axis(ds) is SPEED:
+        index = int(np.nan_to_num(np.abs(ds[name].values)).argmax())
+        place = SPEED.place(float(ds["speed"][index]))
+        return index, f" at {place}" if ds.sizes["speed"] == 1 else f", largest at {place}"
+    area = ds["contact_area"].values
+    if area[-1] > 0:
+        return -1, ""
+    last = int(area.argmax())
+    return last, f" at t = {format_quantity(float(ds['time'][last]), 's')}"
 
 
 def _unbroken(text: str) -> str:
@@ -149,7 +163,7 @@ def _without_fields(ds: xr.Dataset) -> str:
         return "The bodies do not touch at any instant whose fields are stored: there is no map."
     return (
         "No fields are stored with this result, so there are no map, no sections and no outlines. "
-        "Run again with output.fields: all, or with a list of instants, to have them."
+        "Run again with output.fields: all, or with a list, to have them."
     )
 
 
@@ -163,7 +177,7 @@ def _map(fields: ShownFields) -> Element:
         max=str(count - 1),
         step="1",
         value=str(fields.start),
-        aria_label="Instant of the pressure map",
+        aria_label="Place of the pressure map in the run",
     )
     controls = element(
         "div",
@@ -193,7 +207,8 @@ def _remarks(fields: ShownFields) -> str:
             f"{MOST_CELLS} a side); sections are at full resolution."
         )
     if len(fields.snapshots) < fields.stored:
-        said.append(f"{len(fields.snapshots)} of {fields.stored} stored instants are shown.")
+        rows = fields.snapshots[0].axis.row
+        said.append(f"{len(fields.snapshots)} of {fields.stored} stored {rows}s are shown.")
     return " ".join(said)
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import Snapshot, field_times, take_snapshots
 from viscontact.results.stated_errors import mesh_dependent
 
@@ -100,7 +101,7 @@ def _body(ds: xr.Dataset, snapshots: Sequence[Snapshot]) -> tuple[BodyPlace, ...
 
 
 def _marked(ds: xr.Dataset, snapshots: Sequence[Snapshot]) -> tuple[bool, ...]:
-    instants, marked = ds["time"].values, mesh_dependent(ds, "peak_pressure")
+    instants, marked = run_axis(ds).values(ds), mesh_dependent(ds, "peak_pressure")
     return tuple(bool(marked[np.abs(instants - each.time).argmin()]) for each in snapshots)
 
 

@@ -22,6 +22,7 @@ from viscontact.results.largest_values import (
     compared_scalars,
     key_label,
     largest_values,
+    over_of,
     run_dims,
     varied_keys,
 )
@@ -83,7 +84,7 @@ def _figure(ds: xr.Dataset) -> Iterator[Element]:
         yield element("p", "The finished runs do not differ in their chief values.", class_="faint")
         return
     image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt="Response over the keys")
-    said = "Largest values over time; bars are their errors. "
+    said = f"Largest values over {over_of(ds)}; bars are their errors. "
     if any(np.isposinf(largest_values(ds, name)[1]).any() for name in compared_scalars(ds)):
         said += f"Hollow: the value depends on the mesh ({WHY_MESH_DEPENDENT})."
     yield element("figure", element("div", image, class_="scroll"), element("figcaption", said))
@@ -133,7 +134,7 @@ def _table(ds: xr.Dataset) -> Iterator[Element]:
     yield element("div", table, class_="scroll")
     more = "" if states.size <= MOST_ROWS else f"The first {MOST_ROWS} of {states.size} runs. "
     collect = element("code", "viscontact collect")
-    legend = f"{more}Largest values over time, with their errors. "
+    legend = f"{more}Largest values over {over_of(ds)}, with their errors. "
     yield element("p", legend, collect, " writes all numbers to one file.", class_="faint")
 
 

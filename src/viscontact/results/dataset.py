@@ -13,6 +13,7 @@ from viscontact.grid import Grid
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
+    AXES,
     COORDINATES,
     ERRORS,
     FIELDS,
@@ -20,6 +21,7 @@ from viscontact.results.variables import (
     OUTCOME_FLAGS,
     error_name,
     field_axis,
+    field_axis_attributes,
     scalar_attributes,
     scalars_of,
 )
@@ -32,34 +34,34 @@ def to_dataset(
     attributes: Mapping[str, Any],
     errors: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> xr.Dataset:
-    """Label the states of a run as `simulate` returns them; errors by name, over the states."""
-    times = np.array([state.time for state in states])
+    """Label the states of a run, over time or speed; errors by name, over the states."""
+    over = states[0].over
+    values = np.array([getattr(state, over) for state in states])
     scalars = {
         name: (
-            "time",
+            over,
             np.array([getattr(state, name) for state in states], dtype=variable.kind),
             scalar_attributes(name, errors=errors is not None),
         )
-        for name, variable in scalars_of(moving=states[0].moving).items()
+        for name, variable in scalars_of(moving=states[0].moving, over=over).items()
     }
     scalars |= {
-        error_name(name): ("time", values, ERRORS[error_name(name)].attributes)
-        for name, values in (errors or {}).items()
+        error_name(name): (over, bars, ERRORS[error_name(name)].attributes)
+        for name, bars in (errors or {}).items()
     }
     grid = states[-1].grid  # the widest: a grid is enlarged only
-    dataset = xr.Dataset(scalars, coords=_coordinates(grid, times))
+    dataset = xr.Dataset(scalars, coords=_coordinates(grid, over, values))
     dataset["outcome"].attrs.update(OUTCOME_FLAGS)
     kept = [state for state in states if state.pressure.size]
     if kept:
-        dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields)))
+        dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields, over)))
     return dataset.assign_attrs(attributes)
 
 
-def _coordinates(grid: Grid, times: NDArray[np.float64]) -> dict[str, Any]:
-    values = {"time": times, "x": grid.x, "y": grid.y}
-    return {
-        name: (name, values[name], variable.attributes) for name, variable in COORDINATES.items()
-    }
+def _coordinates(grid: Grid, over: str, values: NDArray[np.float64]) -> dict[str, Any]:
+    places = {over: values, "x": grid.x, "y": grid.y}
+    variables = AXES | COORDINATES
+    return {name: (name, each, variables[name].attributes) for name, each in places.items()}
 
 
 def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict[str, Any]:
@@ -79,8 +81,8 @@ def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict
         )
         for name, variable in LINES.items()
     }
-    if axis != "time":
-        instants = np.array([state.time for state in states])
-        attributes = {"units": "s", "long_name": "time of the stored fields"}
-        arrays[axis] = (axis, instants, attributes)
+    over = states[0].over
+    if axis != over:
+        values = np.array([getattr(state, over) for state in states])
+        arrays[axis] = (axis, values, field_axis_attributes(over))
     return arrays

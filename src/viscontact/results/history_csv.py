@@ -8,19 +8,24 @@ from typing import IO
 
 import xarray as xr
 
+from viscontact.results.run_axis import run_axis
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.state import Outcome
 
 
 def write_history(ds: xr.Dataset, file: IO[str]) -> None:
-    """Write all scalars of a result and their errors, a row an instant: SI units, every digit."""
+    """Write all scalars of a result and their errors in SI units with every digit.
+
+    A row is an instant, or a speed in steady motion.
+    """
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(_header(ds))
     writer.writerows(_rows(ds))
 
 
 def _header(ds: xr.Dataset) -> Iterator[str]:
-    yield "time [s]"
+    axis = run_axis(ds)
+    yield f"{axis.name} [{axis.unit}]"
     for name in (*_scalars(ds), *_errors(ds)):
         units = SCALARS[name].units if name in SCALARS else str(ds[name].attrs["units"])
         unit = {"m2": "m^2"}.get(units, units)
@@ -39,7 +44,7 @@ def _errors(ds: xr.Dataset) -> list[str]:
 
 def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
     scalars = _scalars(ds)
-    numbers = [ds["time"].values, *(ds[name].values for name in (*scalars, *_errors(ds)))]
+    numbers = [run_axis(ds).values(ds), *(ds[name].values for name in (*scalars, *_errors(ds)))]
     place = 1 + scalars.index("outcome")  # the one column of words
     for row in zip(*numbers, strict=True):
         # repr: every digit, so that the numbers are those of the result

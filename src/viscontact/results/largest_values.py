@@ -1,4 +1,4 @@
-"""Largest values over time of the scalars of many runs, as `open_many` returns them."""
+"""Largest values over time or speed of the scalars of many runs, as `open_many` returns them."""
 
 from __future__ import annotations
 
@@ -18,6 +18,15 @@ _NO_KEYS = ("run", "name")
 def run_dims(ds: xr.Dataset) -> tuple[Hashable, ...]:
     """Dimensions of the runs in the joint result of a sweep."""
     return ds["state"].dims
+
+
+def over_of(ds: xr.Dataset) -> str:
+    """Quantity over which the runs of a sweep go, ``"time"`` or ``"speed"``.
+
+    >>> over_of(xr.Dataset({"speed": (("run", "step"), [[1.0]])}))
+    'speed'
+    """
+    return "speed" if "speed" in ds.variables else "time"
 
 
 def varied_keys(ds: xr.Dataset) -> list[str]:
@@ -43,7 +52,7 @@ def key_label(key: str) -> str:
 
 
 def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Largest magnitudes of a scalar over time for each run, and their errors, in its unit.
+    """Largest magnitudes of a scalar over time or speed, and their errors, for each run.
 
     Both are NaN for a run without a result; the error is NaN if it is unknown.
 
@@ -52,7 +61,7 @@ def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArra
     >>> largest_values(ds, "force")[0].values
     array([ 3., nan])
     """
-    along = str(ds[name].dims[-1])  # time or step
+    along = str(ds[name].dims[-1])  # time, speed or step
     size = abs(ds[name])
     at = size.fillna(-1.0).argmax(along)
     error = error_name(name)

@@ -1,4 +1,4 @@
-"""Motion of the body in a result over time: its axis, and its direction at an instant."""
+"""Motion of the body in a result: its axis, and its direction at an instant or a speed."""
 
 from __future__ import annotations
 
@@ -9,14 +9,20 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from viscontact.results.run_axis import SPEED, run_axis
+
 
 def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
     """Axis along which the body of a result moves farther, None for a standing contact.
+
+    That of a steady motion is recorded.
 
     >>> moved = xr.Dataset({"position_x": ("time", [0.0, 0.0]), "position_y": ("time", [0.0, 1.0])})
     >>> motion_axis(moved), motion_axis(xr.Dataset())
     ('y', None)
     """
+    if run_axis(results) is SPEED:
+        return "x" if results.attrs.get("along") == "x" else "y"
     if "position_x" not in results or "time" not in results["position_x"].dims:
         return None
     along_x, along_y = (float(np.ptp(results[f"position_{axis}"].values)) for axis in "xy")
@@ -28,7 +34,7 @@ def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
 def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None:
     """Direction (x, y) in which the body arrives at an instant [s], of length 1; None at rest.
 
-    At the first instant it is that in which it leaves.
+    At the first instant it is that in which it leaves; in steady motion that of the motion.
 
     >>> moved = xr.Dataset(
     ...     {"position_x": ("time", [0.0, 0.0, 0.0]), "position_y": ("time", [0.0, -2.0, -2.0])},
@@ -37,8 +43,11 @@ def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None
     >>> [direction_at(moved, time) for time in (0.0, 1.0, 2.0)]
     [(0.0, -1.0), (0.0, -1.0), None]
     """
-    if motion_axis(results) is None:
+    axis = motion_axis(results)
+    if axis is None:
         return None
+    if run_axis(results) is SPEED:
+        return (1.0, 0.0) if axis == "x" else (0.0, 1.0)
     index = max(1, int(np.abs(results["time"].values - time).argmin()))
     ways = [float(np.diff(results[f"position_{axis}"].values)[index - 1]) for axis in "xy"]
     length = math.hypot(*ways)

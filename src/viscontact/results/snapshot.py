@@ -1,4 +1,4 @@
-"""Pressure and gap at one instant."""
+"""Pressure and gap at one instant or speed."""
 
 from __future__ import annotations
 
@@ -10,21 +10,23 @@ from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import Outline
 from viscontact.grid import Grid
+from viscontact.results.run_axis import TIME, RunAxis
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """Pressure and gap at one instant."""
+    """Pressure and gap at one instant or speed."""
 
-    time: float  # [s]
+    time: float  # [s]; in steady motion the speed [m/s]
     x: NDArray[np.float64]  # cell centres, shape (nx,) [m]
     y: NDArray[np.float64]  # cell centres, shape (ny,) [m]
     pressure: NDArray[np.float64]  # shape (nx, ny), positive in compression [Pa]
     gap: NDArray[np.float64]  # shape (nx, ny), positive when open [m]
     body_end: Outline | None = None  # where the indenter ends between the cells, if known
     periodic: AxisFlags = NEITHER  # axes along which the fields are one period
+    axis: RunAxis = TIME  # quantity in which the snapshots of a result differ
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "periodic", AxisFlags(self.periodic, "periodic"))
@@ -85,7 +87,7 @@ class Snapshot:
         gap = _padded(self.gap, cells, self.periodic, np.inf)
         end = self.body_end
         body_end = None if end is None else _with_border(end, cells, self.periodic)
-        return Snapshot(self.time, x, y, pressure, gap, body_end)
+        return Snapshot(self.time, x, y, pressure, gap, body_end, axis=self.axis)
 
     @property
     def middle(self) -> tuple[float, float]:

@@ -1,8 +1,8 @@
-"""The stored fields of a result, one instant at a time."""
+"""The stored fields of a result, one instant or speed at a time."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,15 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.contact.body_edge import Outline, trace_outline
 from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_object
+from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot
-from viscontact.units.formatting import format_quantity
+from viscontact.units.formatting import time_labels
 
 #: Cells that a single one along a period is shown as.
 SHOWN_CELLS = 4
 
 
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
-    """Instants at which pressure and gap are stored [s], ascending."""
+    """Instants at which pressure and gap are stored [s], ascending; or speeds [m/s], as stored."""
     missing = [name for name in ("pressure", "gap") if name not in results]
     if missing:
         raise ValueError(
@@ -40,22 +41,38 @@ def take_snapshots(
     """Fields at the stored instants nearest to those requested [s].
 
     By default the first instant in contact, the last one, and some in between that are spread
-    evenly on a logarithmic scale.
+    evenly on a logarithmic scale. In steady motion speeds [m/s], from the slowest to the fastest.
     """
-    stored = field_times(results, figure)
-    if times is None:
-        chosen = _spread(stored, _in_contact(results, stored), count)
+    stored, axis = field_times(results, figure), run_axis(results)
+    if times is not None:
+        chosen = _nearest(stored, times, figure, axis)
+    elif axis is SPEED:
+        chosen = _ranked(stored, count)
     else:
-        chosen = _nearest(stored, times, figure)
+        chosen = _spread(stored, _in_contact(results, stored), count)
     snapshot_of = snapshot_reader(results)
     snapshots = [snapshot_of(index) for index in chosen]
     if not any(snapshot.touching for snapshot in snapshots):
-        instants = ", ".join(format_quantity(s.time, "s") for s in snapshots)
+        instants = ", ".join(axis.quantity(s.time) for s in snapshots)
         raise ValueError(
-            f"{figure}: the bodies do not touch at t = {instants or 'any stored instant'}; "
-            "choose other times"
+            f"{figure}: the bodies do not touch at {axis.symbol}"
+            f"{instants or f'any stored {axis.row}'}; choose other {axis.name}s"
         )
     return snapshots
+
+
+def labels_of(snapshots: Iterable[Snapshot]) -> tuple[str, ...]:
+    """Instants or speeds of snapshots of one result, all in one unit."""
+    shown = list(snapshots)
+    return time_labels((each.time for each in shown), shown[0].axis.unit if shown else "s")
+
+
+def headings_of(snapshots: Iterable[Snapshot]) -> list[str]:
+    """Instants or speeds of snapshots as headings: ``"t = 2 s"``, ``"500 mm/s"``."""
+    shown = list(snapshots)
+    return [
+        f"{each.axis.symbol}{label}" for each, label in zip(shown, labels_of(shown), strict=True)
+    ]
 
 
 def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
@@ -73,7 +90,8 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
             results[name].values if cells == 1 else lines
             for name, cells, lines in zip("xy", single, (shown.x, shown.y), strict=True)
         )
-        return Snapshot(float(fields[dimension]), x, y, pressure, gap, body_end, grid.periodic)
+        place, axis = float(fields[dimension]), run_axis(results)
+        return Snapshot(place, x, y, pressure, gap, body_end, grid.periodic, axis)
 
     return read
 
@@ -102,7 +120,7 @@ def _shown_cells(count: int) -> int:
 
 
 def _time_dimension(results: xr.Dataset) -> str:
-    return "field_time" if "field_time" in results["pressure"].dims else "time"
+    return str(results["pressure"].dims[0])
 
 
 def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -124,11 +142,22 @@ def _body_end(results: xr.Dataset, grid: Grid) -> Outline | None:
     return trace_outline(indenter, grid)
 
 
-def _nearest(stored: NDArray[np.float64], times: ArrayLike, figure: str) -> Sequence[int]:
+def _nearest(
+    stored: NDArray[np.float64], times: ArrayLike, figure: str, axis: RunAxis
+) -> Sequence[int]:
     wanted = np.atleast_1d(np.asarray(times, dtype=np.float64))
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
-        raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")
-    return sorted({int(np.argmin(np.abs(stored - instant))) for instant in wanted})
+        unit = "seconds" if axis.unit == "s" else axis.unit
+        raise ValueError(f"{figure}: {axis.name}s must be finite numbers of {unit}, got {times!r}")
+    found = {int(np.argmin(np.abs(stored - instant))) for instant in wanted}
+    return sorted(found, key=lambda index: stored[index])
+
+
+def _ranked(stored: NDArray[np.float64], count: int) -> Sequence[int]:
+    """Some speeds from the slowest to the fastest; a single one is the fastest."""
+    order = np.argsort(stored)
+    ranks = np.linspace(stored.size - 1, 0, min(count, stored.size)).round().astype(int)
+    return [int(order[rank]) for rank in ranks[::-1]]
 
 
 def _spread(

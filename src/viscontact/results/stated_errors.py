@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
 
@@ -43,7 +44,7 @@ def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
 def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:
     """Errors of a scalar over time, NaN at all instants if the result states none."""
     error = stated_error(ds, name)
-    return np.full(ds.sizes["time"], np.nan) if error is None else error
+    return np.full(ds.sizes[run_axis(ds).name], np.nan) if error is None else error
 
 
 def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
@@ -56,7 +57,11 @@ def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
     [False, True]
     """
     error = stated_error(results, name)
-    return np.zeros(results.sizes["time"], dtype=np.bool_) if error is None else np.isposinf(error)
+    return (
+        np.zeros(results.sizes[run_axis(results).name], dtype=np.bool_)
+        if error is None
+        else np.isposinf(error)
+    )
 
 
 def drawn_values(results: xr.Dataset, name: str) -> NDArray[np.float64]:
@@ -88,8 +93,8 @@ class LargestError:
 
     half_width: float  # in the unit of the scalar; inf if mesh-dependent, NaN if unknown
     part: float  # of the scalar's largest magnitude [-]
-    unknown: int  # number of instants with a value of unknown error
-    time: float  # first instant of this error [s]; NaN if unknown
+    unknown: int  # number of instants or speeds with a value of unknown error
+    place: float  # first instant [s] or speed [m/s] of this error; NaN if unknown
 
 
 def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
@@ -99,7 +104,7 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
     --------
     >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
     >>> largest_error(xr.Dataset(force, {"time": [0.0, 1.0]}), "force")
-    LargestError(half_width=0.1, part=0.025, unknown=1, time=0.0)
+    LargestError(half_width=0.1, part=0.025, unknown=1, place=0.0)
     """
     error, values = stated_error(ds, name), np.asarray(ds[name].values, dtype=np.float64)
     given = ~np.isnan(values)
@@ -112,7 +117,7 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
     at = int(np.where(known, error, -1.0).argmax())
     half_width, largest = float(error[at]), float(np.abs(values[given]).max())
     part = half_width / largest if largest > 0 else (np.inf if half_width > 0 else 0.0)
-    return LargestError(half_width, part, unknown, float(ds["time"][at]))
+    return LargestError(half_width, part, unknown, float(ds[run_axis(ds).name][at]))
 
 
 def is_rounding(ds: xr.Dataset, name: str) -> bool:

@@ -15,6 +15,7 @@ from viscontact.results.formatting import (
     format_scalar,
     format_with_error_in,
 )
+from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.shown_scalars import is_shown, lacks_datum
 from viscontact.results.stated_errors import (
     LargestError,
@@ -25,11 +26,22 @@ from viscontact.results.stated_errors import (
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
-#: Legend of the columns.
-LEGEND = (
-    "±: the error of each value at that instant (of 100 true errors 95 are meant to be smaller); "
+#: Legend of the columns, with the name of a row.
+_LEGEND = (
+    "±: the error of each value at that {row} (of 100 true errors 95 are meant to be smaller); "
     "left out below 0.01 %. Largest error: the worst of the run, in % of the largest value."
 )
+
+
+def legend(ds: xr.Dataset) -> str:
+    """Legend of the columns.
+
+    Examples
+    --------
+    >>> legend(xr.Dataset({"force": ("speed", [1.0])}))[:41]
+    '±: the error of each value at that speed '
+    """
+    return _LEGEND.format(row=run_axis(ds).row)
 
 
 @dataclass(frozen=True)
@@ -38,15 +50,15 @@ class SummaryRow:
 
     name: str  # in the result
     unit: str  # of the numbers
-    # Values at the first and the last instant, and where the magnitude is largest; each with the
-    # error that it has then, unless that is negligible.
+    # Values at the first and the last instant or speed, and where the magnitude is largest; each
+    # with the error that it has there, unless that is negligible.
     first: str
     last: str
     largest: str
     error: str  # the largest error over the run, in the unit, or the reason why there is none
     part: str  # the same relative to the largest value; empty where there is none
-    when: str  # time of the largest error; empty where it is negligible at all instants
-    unknown: int  # number of instants at which the error is unknown
+    when: str  # place of the largest error; empty where it is negligible everywhere
+    unknown: int  # number of instants or speeds at which the error is unknown
 
     @property
     def title(self) -> str:
@@ -98,23 +110,30 @@ def _row(ds: xr.Dataset, name: str) -> SummaryRow:
         format_with_error_in(unit, float(values[k]), float(errors[k])) for k in (0, -1, at_largest)
     )
     found = largest_error(ds, name)
-    error, part, when = _largest_error(found, unit)
+    error, part, when = _largest_error(found, unit, run_axis(ds))
     unknown = found.unknown if found else 0
     return SummaryRow(name, unit.symbol, first, last, largest, error, part, when, unknown)
 
 
-def _largest_error(found: LargestError | None, unit: ReadableUnit) -> tuple[str, str, str]:
-    """The largest error in the row's unit, as a part of the largest value, and when it occurs."""
+def _largest_error(
+    found: LargestError | None, unit: ReadableUnit, axis: RunAxis
+) -> tuple[str, str, str]:
+    """The largest error in the row's unit, as a part of the largest value, and where it occurs."""
     if found is None or math.isnan(found.half_width):
         return "not known", "", ""
     if math.isinf(found.half_width):
         return MESH_DEPENDENT, "", ""
     error, part = format_error(found.half_width / unit.factor), format_percent(found.part)
-    return error, part, format_quantity(found.time, "s", 3) if found.part > NEGLIGIBLE else ""
+    return error, part, axis.quantity(found.place, 3) if found.part > NEGLIGIBLE else ""
 
 
 def headline(ds: xr.Dataset) -> str:
-    """The result in a sentence: the contact at the end, or when largest if it is lost by then."""
+    """The result in a sentence: the contact at the end, or when largest if it is lost by then.
+
+    In steady motion the largest friction coefficient, and the contact at its speed.
+    """
+    if run_axis(ds) is SPEED:
+        return _headline_over_speed(ds)
     instants, area = ds["time"].values, ds["contact_area"].values
     end = format_quantity(float(instants[-1]), "s")
     if not np.any(area > 0):
@@ -128,6 +147,24 @@ def headline(ds: xr.Dataset) -> str:
         f"{_contact(ds, largest)}. The bodies come apart: from t = {lost} to the end, t = {end}, "
         "they do not touch."
     )
+
+
+def largest_friction(ds: xr.Dataset) -> int:
+    """Index of the speed with the largest friction coefficient."""
+    return int(np.nan_to_num(np.abs(ds["friction_coefficient"].values)).argmax())
+
+
+def _headline_over_speed(ds: xr.Dataset) -> str:
+    index = largest_friction(ds)
+    speed = SPEED.place(float(ds["speed"][index]))
+    if is_rounding(ds, "friction_coefficient"):
+        return (
+            f"Without loss in the bodies there is no resistance. At {speed} {_contact(ds, index)}."
+        )
+    value = format_scalar(ds, "friction_coefficient", index)
+    if ds.sizes["speed"] == 1:
+        return f"At {speed} the friction coefficient is {value}; {_contact(ds, index)}."
+    return f"The friction coefficient is largest at {speed}, {value}. There {_contact(ds, index)}."
 
 
 def _contact(ds: xr.Dataset, index: int) -> str:

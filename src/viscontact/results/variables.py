@@ -59,8 +59,14 @@ class Variable:
         return attributes | ({"comment": self.comment} if self.comment else {})
 
 
-COORDINATES = {
+#: Quantities in which the states of a run differ: time, or speed in steady motion.
+AXES = {
     "time": Variable("s", "time"),
+    "speed": Variable("m s-1", "speed of the body"),
+}
+
+COORDINATES = {
+    "time": AXES["time"],
     "x": Variable("m", "position along the indenter"),
     "y": Variable("m", "position across the indenter"),
 }
@@ -186,15 +192,31 @@ SCALARS = {
 }
 
 
-def scalars_of(*, moving: bool) -> dict[str, Variable]:
-    """Scalars of a result: all for a moving contact, else those without motion.
+#: Scalars that add up over time, belong to steps in time, or are the origin of coordinates.
+NOT_STEADY = (
+    *("work", "loss_per_cycle", "motion_work", "heat", "time_error", "position_x", "position_y"),
+)
+
+
+def scalars_of(*, moving: bool, over: str = "time") -> dict[str, Variable]:
+    """Scalars of a result over time or speed: those without motion, or all for a moving contact.
 
     Examples
     --------
     >>> set(SCALARS) - set(scalars_of(moving=False)) >= {"position_x", "resistance_x", "heat"}
     True
     """
-    return {name: each for name, each in SCALARS.items() if moving or not each.moving}
+    left_out = NOT_STEADY if over == "speed" else ()
+    return {
+        name: each
+        for name, each in SCALARS.items()
+        if name not in left_out and (moving or over == "speed" or not each.moving)
+    }
+
+
+def field_axis_attributes(over: str) -> dict[str, Any]:
+    """Attributes of the times or speeds of the stored fields."""
+    return AXES[over].attributes | {"long_name": f"{over} of the stored fields"}
 
 
 #: Scalars that tables, figures and warnings read by name. A result without one of the others was
@@ -225,9 +247,10 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
     return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
-def scalars_with_error(*, moving: bool = True) -> list[str]:
-    """Names of the scalars whose error is estimated, of a moving contact or of a standing one."""
-    return [name for name, variable in scalars_of(moving=moving).items() if variable.has_error]
+def scalars_with_error(*, moving: bool = True, over: str = "time") -> list[str]:
+    """Names of the scalars whose error is estimated, of the results as in `scalars_of`."""
+    found = scalars_of(moving=moving, over=over)
+    return [name for name, variable in found.items() if variable.has_error]
 
 
 #: CF's way to write an enumeration.
@@ -277,8 +300,10 @@ def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     return attributes
 
 
-def field_axis(fields: str | Sequence[float]) -> str:
+def field_axis(fields: str | Sequence[float], over: str = "time") -> str:
     """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
+
+    Over speed ``speed`` or ``field_speed``.
 
     Examples
     --------
@@ -286,4 +311,4 @@ def field_axis(fields: str | Sequence[float]) -> str:
     ('time', 'field_time')
     """
     # An array is not to be compared with a word.
-    return "time" if isinstance(fields, str) and fields == "all" else "field_time"
+    return over if isinstance(fields, str) and fields == "all" else f"field_{over}"

@@ -11,10 +11,12 @@ from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.grid import Grid
 from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.problem.problem import Problem
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.simulation.setup import RunSetup
+from viscontact.steady.preparation import SteadySetup
 from viscontact.units.formatting import format_number, format_quantity
 
 #: Loads from this fraction of the largest one on count as the largest.
@@ -31,14 +33,19 @@ def verdict(prepared: PreparedRun, expected: Forecast) -> str:
     return f"{prepared.case.document.path}: {verdict}"
 
 
-def drawn_size(run: RunSetup) -> tuple[float, float]:
+def contact_of(run: RunSetup | SteadySetup) -> Problem:
+    """Contact problem of a run over time or speed."""
+    return run.problem.contact if isinstance(run, SteadySetup) else run.problem
+
+
+def drawn_size(run: RunSetup | SteadySetup) -> tuple[float, float]:
     """Extents of the drawn region around the origin [m]: the grid, and nearby ends of the body."""
     size = list(run.grid.size_about_origin)
     for axis in (0, 1):
         beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
         places = np.zeros((2, 2, beyond.size))
         places[axis] = -beyond, beyond
-        gap = run.problem.indenter.gap(places[0], places[1])
+        gap = contact_of(run).indenter.gap(places[0], places[1])
         if np.isinf(gap[:, -1]).any() and np.isfinite(gap[:, 0]).any():
             last = beyond[np.flatnonzero(np.isfinite(gap).any(axis=0))[-1]]
             size[axis] = 2.1 * float(last)
@@ -46,11 +53,12 @@ def drawn_size(run: RunSetup) -> tuple[float, float]:
 
 
 def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
-    """Return grid, steps, memory and time of a run as rows of name and value."""
+    """Return grid, steps or speeds, memory and time of a run as rows of name and value."""
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
-    chosen = " (automatic)" if run.problem.automatic_grid is not None else ""
-    growing = "; more if the grid has to grow" if run.grows else ""
+    chosen = " (automatic)" if contact_of(run).automatic_grid is not None else ""
+    grows = isinstance(run, RunSetup) and run.grows
+    growing = "; more if the grid has to grow" if grows else ""
     period = _period(run.grid)
     free = f"of {_bytes(expected.available)} free"
     return [
@@ -60,11 +68,22 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
             f"{format_quantity(ly, 'm')}{_place(run.grid)}{chosen}{period}",
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
-        *_grid_error(run),
-        ("time steps", f"{_steps(run)}, up to t = {format_quantity(run.problem.end, 's')}"),
-        ("fields kept", _kept(prepared.case.fields)),
+        *_of_course(run),
+        ("fields kept", _kept(prepared.case.fields, run)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
+    ]
+
+
+def _of_course(run: RunSetup | SteadySetup) -> list[tuple[str, str]]:
+    """Time steps and the error of the grid under their loads; or the speeds."""
+    if isinstance(run, RunSetup):
+        end = format_quantity(run.problem.end, "s")
+        return [*_grid_error(run), ("time steps", f"{_steps(run)}, up to t = {end}")]
+    speeds = run.problem.speeds
+    low, high = (format_quantity(float(each), "m/s") for each in (speeds.min(), speeds.max()))
+    return [
+        ("speeds", f"{len(speeds)}, from {low} to {high}") if len(speeds) > 1 else ("speed", low)
     ]
 
 
@@ -121,16 +140,17 @@ def _steps(run: RunSetup) -> str:
     return f"as needed for an error of {100 * run.problem.adaptive.tolerance:g} %"
 
 
-def _kept(fields: str | Sequence[float]) -> str:
+def _kept(fields: str | Sequence[float], run: RunSetup | SteadySetup) -> str:
     if fields == "none":
         return "none"
-    when = "every instant" if fields == "all" else f"{len(fields)} instants"
+    row = "speed" if isinstance(run, SteadySetup) else "instant"
+    when = f"every {row}" if fields == "all" else f"{len(fields)} {row}s"
     return f"pressure, gap and displacement at {when}"
 
 
 def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
     """Return title and rows of the expected contact; no rows without a load."""
-    found, control = expected.estimate, prepared.run.problem.load.control
+    found, control = expected.estimate, contact_of(prepared.run).load.control
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []

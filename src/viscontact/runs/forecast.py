@@ -102,7 +102,7 @@ def _representative_compliance(problem: Problem, time: float) -> tuple[float, st
 
 def run_seconds(run: RunSetup, *, errors: bool) -> float:
     """Run time on this machine, within a factor of two or three [s]; `errors` as in `forecast`."""
-    steps, each = run.problem.step_count, _convolution_time(run.grid)
+    steps, each = run.problem.step_count, convolution_time(run.grid)
     marches = [(steps, each)]
     if errors:
         marches += [
@@ -114,7 +114,7 @@ def run_seconds(run: RunSetup, *, errors: bool) -> float:
     )
 
 
-def _convolution_time(grid: Grid) -> float:
+def convolution_time(grid: Grid) -> float:
     """Duration of a plain zero-padded convolution [s], the unit of work of a run."""
     cells = grid.shape[0] * grid.shape[1]
     shrink = max(1.0, math.sqrt(cells / _TIMED_CELLS))

@@ -8,8 +8,11 @@ from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.runs.forecast import Forecast, forecast
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import least_memory, needed_memory
+from viscontact.runs.resources import curve_memory, least_memory, needed_memory
+from viscontact.runs.steady_forecast import steady_forecast
 from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.steady.preparation import SteadySetup, prepare
+from viscontact.steady.problem import steady_problem
 from viscontact.units.formatting import format_number
 
 
@@ -18,7 +21,7 @@ class PreparedRun:
     """A checked case and its run."""
 
     case: Case
-    run: RunSetup
+    run: RunSetup | SteadySetup
 
 
 def prepared(case: Case, threads: int = 1, memory: float | None = None) -> PreparedRun:
@@ -30,7 +33,10 @@ def prepared(case: Case, threads: int = 1, memory: float | None = None) -> Prepa
     if isinstance(case.grid, Grid):  # before arrays of its size are allocated
         _refuse_beyond(available, case, case.grid, least_memory(case.grid, case.compliance))
     run = _prepared_run(case, threads)
-    needed = needed_memory(run.grid, run.hereditary.fields_kept)
+    if isinstance(run, SteadySetup):
+        needed = curve_memory(run)
+    else:
+        needed = needed_memory(run.grid, run.hereditary.fields_kept)
     _refuse_beyond(available, case, run.grid, needed)
     return PreparedRun(case, run)
 
@@ -38,16 +44,25 @@ def prepared(case: Case, threads: int = 1, memory: float | None = None) -> Prepa
 def predicted(prepared: PreparedRun) -> Forecast:
     """Return the forecast of a checked case; CaseError if no contact can carry the load."""
     try:
+        if isinstance(prepared.run, SteadySetup):
+            return steady_forecast(prepared.run, errors=prepared.case.errors)
         return forecast(prepared.run, errors=prepared.case.errors)
     except ValueError as error:
         raise prepared.case.error(str(error)) from error
 
 
-def _prepared_run(case: Case, threads: int) -> RunSetup:
+def _prepared_run(case: Case, threads: int) -> RunSetup | SteadySetup:
     try:
-        return prepare_run(case, threads)
+        if case.steady is None:
+            return prepare_run(case, threads)
+        motion = case.steady
+        along, rolling = motion.along, motion.rolling
+        return prepare(steady_problem(case, motion.speeds, along, rolling, case.fields), threads)
     except ValueError as error:
-        raise case.error(str(error)) from error
+        why = str(error)
+        # A key of the motion, which is an argument of its own in Python.
+        of_motion = why.startswith(("rolling:", "along:", "speed:"))
+        raise case.error(f"motion.{why}" if of_motion else why) from error
 
 
 def _refuse_beyond(available: float, case: Case, grid: Grid, needed: float) -> None:

@@ -8,11 +8,15 @@ from itertools import accumulate
 from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.simulation.setup import RunSetup
+from viscontact.steady.preparation import SteadySetup
 
 #: Memory of the program [bytes], and number of grid-sized arrays of a run, both measured for a body
 #: without symmetry planes; each term of the law adds two arrays. The program takes 150 to 190 MB,
 #: since the buffers of the linear algebra library differ between processors.
 PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 64, 2
+
+#: Arrays of a state over speed on the grid of all speeds.
+ARRAYS_OF_STATE = 4
 
 #: Memory of the time and the scalars of a step [bytes], measured.
 BYTES_PER_STEP = 2000.0
@@ -22,6 +26,13 @@ def run_memory(run: RunSetup) -> float:
     """Memory of a checked run [bytes], with the scalars of its steps."""
     kept = BYTES_PER_STEP * run.problem.step_count
     return needed_memory(run.grid, run.hereditary.fields_kept) + kept
+
+
+def curve_memory(run: SteadySetup) -> float:
+    """Memory of a checked run over speed [bytes]; its fields are written as they are found."""
+    largest = max(run.grids, key=lambda grid: grid.shape[0] * grid.shape[1])
+    kept = 8.0 * ARRAYS_OF_STATE * run.grid.shape[0] * run.grid.shape[1]
+    return needed_memory(largest, 0) + kept
 
 
 def needed_memory(grid: Grid, fields_kept: int) -> float:

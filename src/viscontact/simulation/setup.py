@@ -20,7 +20,7 @@ from viscontact.checks.arguments import (
 from viscontact.checks.motion import check_motion, check_path
 from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
-from viscontact.fourier import fastest_transforms
+from viscontact.fourier import fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, PlacedIndenter
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh
@@ -79,6 +79,11 @@ class RunSetup:
     def on(self, grid: Grid) -> RunSetup:
         """Return the same run on another grid."""
         return replace(self, grid=grid, open_gap=_gap_on(self.problem, grid))
+
+    def with_transforms(self, library: str) -> RunSetup:
+        """Return the run with another library of transforms; ValueError if not installed."""
+        transforms_by(library)
+        return replace(self, transforms=library)
 
     def position_at(self, time: float) -> tuple[float, float]:
         """Position of the body's axis at a time [m]; the origin if it does not move."""

@@ -25,6 +25,16 @@ LEAST_DISPLACEMENT = 1e-14
 
 
 @dataclass(frozen=True, eq=False)
+class Neighbour:
+    """Contact at a similar speed or on other cells, from which the guess of the next is taken."""
+
+    speed: float  # [m/s]
+    grid: Grid
+    pressure: NDArray[np.float64]  # on the whole grid [Pa]
+    motion: NDArray[np.float64]  # approach [m] and tilts [rad]
+
+
+@dataclass(frozen=True, eq=False)
 class SteadyContact:
     """Solution at one speed, and the operators that it belongs to."""
 
@@ -36,6 +46,11 @@ class SteadyContact:
     def grid(self) -> Grid:
         """The cells."""
         return self.domain.grid
+
+    @property
+    def neighbour(self) -> Neighbour:
+        """What the guess of a similar contact needs."""
+        return Neighbour(self.speed, self.grid, self.pressure, self.solution.motion)
 
     @property
     def pressure(self) -> NDArray[np.float64]:
@@ -63,7 +78,7 @@ class SteadySolver:
     transforms: Transforms
 
     def solve(
-        self, speed: float, grid: Grid, tolerance: float, near: SteadyContact | None = None
+        self, speed: float, grid: Grid, tolerance: float, near: Neighbour | None = None
     ) -> SteadyContact:
         """Solve at a speed [m/s], from a contact on other cells at a similar speed if given."""
         open_gap = gap_on(self.problem, grid)
@@ -98,7 +113,7 @@ def gap_on(problem: SteadyProblem, grid: Grid) -> NDArray[np.float64]:
     return problem.contact.indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
-def _guess(near: SteadyContact, domain: MovingDomain) -> Guess | None:
+def _guess(near: Neighbour, domain: MovingDomain) -> Guess | None:
     """Pressure of a contact on the cells of a domain, by the nearest cell; None if there is none.
 
     It is scaled to the same force, and balanced by the search.
@@ -117,4 +132,4 @@ def _guess(near: SteadyContact, domain: MovingDomain) -> Guess | None:
     pressure = domain.reduce_by_symmetry(np.where(inside, near.pressure[clipped], 0.0))
     if not pressure.any():
         return None
-    return Guess(pressure, pressure, near.solution.motion)
+    return Guess(pressure, pressure, near.motion)

@@ -1,13 +1,12 @@
-"""Curve of steady contacts over speed: solved, measured, checked and labelled."""
+"""Curve of steady contacts over speed: solved, measured and checked."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import replace
 
 import numpy as np
-import xarray as xr
 
 from viscontact.checks.collector import WarningCollector
 from viscontact.checks.half_space_theory import (
@@ -25,18 +24,18 @@ from viscontact.contact.rim import Rim
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import MIN_CELLS_ACROSS, Grid
 from viscontact.simulation.grid_enlargement import overrun
-from viscontact.state import ContactState
-from viscontact.steady.contact import SteadyContact, gap_on
-from viscontact.steady.dataset import steady_dataset
+from viscontact.state import ContactState, Outcome
+from viscontact.steady.contact import Neighbour, SteadyContact, gap_on
 from viscontact.steady.error_bars import (
     Measured,
     entry_is_singular,
     error_bars,
     unknown_bars,
 )
-from viscontact.steady.preparation import PreparedRun
+from viscontact.steady.preparation import SteadySetup
 from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.state import force_across, resistance_of, rim_of, state_of
+from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
 #: Remedy where chosen grids have too few cells.
@@ -46,98 +45,128 @@ FEWER_SPEEDS = "compute the fast and the slow speeds in different runs"
 NEAR = 2.5
 
 
-@dataclass
 class SteadyCurve:
-    """Contacts at the speeds of a run, from the fastest to the slowest.
+    """Loop over the speeds of a run, in their order, which can stop and continue after any of them.
 
-    `done` holds the states so far by speed [m/s], `bars` their error bars, `work` the convolutions
-    of the solver at each speed, in those of its grid.
+    With the restart data of the same run it continues after that speed, to the same bits.
+
+    Attributes
+    ----------
+    done : int
+        Speeds so far.
+    bars : list
+        Error bars of the scalars at each of them, by name; empty without errors.
+    work : list of float
+        Convolutions of the solver at each of them, in those of its grid; not of an earlier process.
+    warnings : WarningCollector
+        Warnings so far.
+    outcome : Outcome
+        Outcome of the last speed; a curve stops with an error before another one than converged.
     """
 
-    problem: SteadyProblem
-    run: PreparedRun
-    errors: bool
-    done: dict[float, ContactState] = field(default_factory=dict)
-    bars: dict[float, Mapping[str, float]] = field(default_factory=dict)
-    work: dict[float, float] = field(default_factory=dict)
-    warnings: WarningCollector = field(default_factory=WarningCollector)
+    outcome = Outcome.CONVERGED
 
-    def states(self) -> Iterator[tuple[ContactState, tuple[str, ...]]]:
-        """Solve at each speed; yield the state, and the warnings that are new."""
-        speeds = self.problem.speeds
-        fresh = self.warnings.new(_run_warnings(self.problem, self.run))
-        before: SteadyContact | None = None
-        for index in np.argsort(-speeds).tolist():
-            speed, grid = float(speeds[index]), self.run.grids[index]
-            before, state, found = self._solve(speed, grid, before)
-            fresh += self.warnings.new(found)
-            yield state, fresh
-            fresh = ()
+    def __init__(
+        self, run: SteadySetup, restart_data: RestartData | None = None, *, errors: bool = True
+    ) -> None:
+        self._run, self._errors = run, errors
+        self.done = 0
+        self._before: Neighbour | None = None
+        self.bars: list[Mapping[str, float]] = []
+        self.work: list[float] = []
+        self.warnings = WarningCollector()
+        if restart_data is not None:
+            self._restore(restart_data)
 
-    def dataset(self, transforms: str, wall_time: float) -> xr.Dataset | None:
-        """The states so far, in the order of the speeds; None if there are none.
+    def __iter__(self) -> Iterator[ContactState]:
+        """Solve at the remaining speeds; yield each state, with the warnings that are new.
 
-        With the library of the transforms and the time of the run [s].
+        Raises
+        ------
+        ConvergenceError, DomainError, ValueError
+            As in `steady`.
         """
-        speeds = np.array([speed for speed in self.problem.speeds.tolist() if speed in self.done])
-        if not speeds.size:
-            return None
-        attributes = {
-            "warnings": "\n".join(self.warnings.issued.values()),
-            "memory_error": self.run.solver.law.error,
-            "inversion_error": self.problem.contact.compliance.inversion_error,
-            "transforms": transforms,
-            "wall_time": wall_time,
-        }
-        states = [self.done[speed] for speed in speeds.tolist()]
-        bars = [self.bars[speed] for speed in speeds.tolist()] if self.errors else None
-        return steady_dataset(self.problem, speeds, states, bars, attributes)
+        speeds = self._run.problem.speeds.tolist()
+        for speed, grid in list(zip(speeds, self._run.grids, strict=True))[self.done :]:
+            fresh = self.warnings.new(run_warnings(self._run)) if not self.done else ()
+            state, found = self._solve(speed, grid)
+            self.done += 1
+            yield replace(state, warnings=fresh + self.warnings.new(found))
 
-    def _solve(
-        self, speed: float, grid: Grid, before: SteadyContact | None
-    ) -> tuple[SteadyContact, ContactState, dict[str, str]]:
-        """Contact at one speed with its state and warnings, added to those that are done."""
-        solver, tolerance = self.run.solver, self.problem.contact.tolerance
-        coarse = solver.coarser(speed, grid, tolerance) if self.errors else None
-        contact = solver.solve(speed, grid, tolerance, coarse or _near(before, speed, grid))
-        self.work[speed] = contact.solution.work
+    @property
+    def left(self) -> int:
+        """Speeds still to come."""
+        return len(self._run.grids) - self.done
+
+    def restart_data(self) -> RestartData:
+        """Return the state after a speed as plain data."""
+        before = self._before
+        return {
+            "done": self.done,
+            "warnings": dict(self.warnings.issued),
+            "bars": [dict(each) for each in self.bars],
+            "before": before and {"pressure": before.pressure, "motion": before.motion},
+        }
+
+    def _restore(self, data: RestartData) -> None:
+        self.done, self.bars = int(data["done"]), list(data["bars"])
+        self.warnings.new(data["warnings"])
+        if data["before"] is not None:
+            last = self.done - 1
+            speed, grid = float(self._run.problem.speeds[last]), self._run.grids[last]
+            pressure, motion = data["before"]["pressure"], data["before"]["motion"]
+            if pressure.shape != grid.shape:
+                raise ValueError("the pressure belongs to another grid")
+            self._before = Neighbour(speed, grid, pressure, motion)
+
+    def _solve(self, speed: float, grid: Grid) -> tuple[ContactState, dict[str, str]]:
+        """State and warnings of the contact at one speed."""
+        solver, problem = self._run.solver, self._run.problem
+        tolerance = problem.contact.tolerance
+        coarse = solver.coarser(speed, grid, tolerance) if self._errors else None
+        near = _near(self._before, speed, grid) if coarse is None else coarse.neighbour
+        contact = solver.solve(speed, grid, tolerance, near)
+        work = contact.solution.work
         if coarse is not None:
             part = coarse.solution.values[0].size / contact.solution.values[0].size
-            self.work[speed] += coarse.solution.work * part
-        _refuse(contact, tolerance, chosen=not isinstance(self.problem.contact.grid, Grid))
+            work += coarse.solution.work * part
+        _refuse(contact, tolerance, chosen=not isinstance(problem.contact.grid, Grid))
         fine = self._measured(contact)
-        found = _warnings(self.problem, contact, fine.rim)
-        if self.errors:
-            passed = grid.cell_size[self.problem.axis] / speed
-            singular = entry_is_singular(self.problem.contact.compliance, passed)
+        found = _warnings(problem, contact, fine.rim)
+        if self._errors:
+            passed = grid.cell_size[problem.axis] / speed
+            singular = entry_is_singular(problem.contact.compliance, passed)
             singular |= bool(SINGULAR_KINDS & set(found))
-            self.bars[speed] = self._bars(fine, coarse, singular=singular)
-        kept = bool(np.isin(speed, self.problem.kept))
-        self.done[speed] = fine.state if kept else fine.state.without_fields()
-        return contact, fine.state, found
+            self.bars.append(self._bars(fine, coarse, singular=singular))
+        self.work.append(work)
+        self._before = contact.neighbour
+        return fine.state, found
 
     def _bars(
         self, fine: Measured, coarse: SteadyContact | None, *, singular: bool
     ) -> Mapping[str, float]:
         """Error bars, from a contact on a coarser grid if there is one."""
+        problem = self._run.problem
         if coarse is None or not (coarse.solution.converged and coarse.pressure.any()):
-            return unknown_bars(self.problem)
-        return error_bars(self.problem, fine, self._measured(coarse), singular=singular)
+            return unknown_bars(problem)
+        return error_bars(problem, fine, self._measured(coarse), singular=singular)
 
     def _measured(self, contact: SteadyContact) -> Measured:
-        rim = rim_of(self.problem, contact)
-        against = resistance_of(self.problem, contact)
-        flows = self.run.solver.law.fluidity > 0 and not all(contact.grid.periodic)
+        problem = self._run.problem
+        rim = rim_of(problem, contact)
+        against = resistance_of(problem, contact)
+        flows = self._run.solver.law.fluidity > 0 and not all(contact.grid.periodic)
         datum = contact.grid.has_datum and not flows
-        state = state_of(self.problem, contact, rim, against, datum=datum)
+        state = state_of(problem, contact, rim, against, datum=datum)
         return Measured(state, rim, against)
 
 
-def _near(before: SteadyContact | None, speed: float, grid: Grid) -> SteadyContact | None:
-    """Contact at the neighbouring speed, if it is close by: elsewhere a coarser grid helps more."""
-    if before is None or before.grid != grid or before.speed > NEAR * speed:
+def _near(before: Neighbour | None, speed: float, grid: Grid) -> Neighbour | None:
+    """Contact at the last speed, if it is close by: elsewhere a coarser grid helps more."""
+    if before is None or before.grid != grid:
         return None
-    return before
+    ratio = before.speed / speed
+    return before if 1 / NEAR <= ratio <= NEAR else None
 
 
 def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
@@ -169,8 +198,9 @@ def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
         )
 
 
-def _run_warnings(problem: SteadyProblem, run: PreparedRun) -> dict[str, str]:
+def run_warnings(run: SteadySetup) -> dict[str, str]:
     """Warnings, by kind, that hold for all speeds."""
+    problem = run.problem
     compliance, law = problem.contact.compliance, run.solver.law
     found = law_warnings(law.error, compliance.inversion_error)
     found |= datum_warnings(run.grids[0], ("approach",))

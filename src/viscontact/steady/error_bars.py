@@ -10,10 +10,13 @@ import numpy as np
 
 from viscontact.contact.rim import Rim
 from viscontact.materials.compliance import ContactCompliance
+from viscontact.results.variables import scalars_with_error
 from viscontact.state import ContactState
-from viscontact.steady.dataset import WITH_ERROR
 from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.resistance import Resistance
+
+#: Scalars that have an error bar.
+WITH_ERROR = tuple(scalars_with_error(over="speed"))
 
 #: Least relative errors of scalars, times the square of the cells across the contact.
 LEAST_ERRORS = {

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
-from viscontact.fourier import Transforms
+from viscontact.fourier import fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.steady.contact import SteadySolver, gap_on
 from viscontact.steady.moving_law import MovingLaw, moving_law
 from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.region import SEARCH_CELLS, Lattice, Region, find_region, lattice_for
+from viscontact.steady.region import (
+    SEARCH_CELLS,
+    Lattice,
+    Region,
+    common_grid,
+    find_region,
+    lattice_for,
+)
 from viscontact.units.formatting import format_quantity
 
 #: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
@@ -36,19 +43,38 @@ ROUNDS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class PreparedRun:
-    """Solver of a problem, and the grid of each speed."""
+class SteadySetup:
+    """Checked and complete setup of a run over speed: its solver, and the grid of each speed."""
 
     solver: SteadySolver
     grids: tuple[Grid, ...]
+    threads: int
+    transforms: str  # library of the transforms
     #: Convolutions of the search for regions, in those of the grids.
-    work: float
+    work: float = 0.0
     #: Tolerance of a chosen grid, if its cells are too large for the requested one.
     tolerance_reached: float | None = None
 
+    @property
+    def problem(self) -> SteadyProblem:
+        """The problem."""
+        return self.solver.problem
 
-def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
+    @property
+    def grid(self) -> Grid:
+        """Smallest grid that holds the grids of all speeds."""
+        return common_grid(self.grids)
+
+    def with_transforms(self, library: str) -> SteadySetup:
+        """Return the run with another library of transforms; ValueError if not installed."""
+        solver = replace(self.solver, transforms=transforms_by(library, self.threads))
+        return replace(self, solver=solver, transforms=library)
+
+
+def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     """Find the law and the grids of a problem; refuse a body that does not touch."""
+    library = fastest_transforms()
+    transforms = transforms_by(library, threads)
     given, axis, contact = problem.contact.grid, problem.axis, problem.contact
     check_endless(contact.indenter, given if isinstance(given, Grid) else None)
     if isinstance(given, Grid):
@@ -59,19 +85,19 @@ def prepare(problem: SteadyProblem, transforms: Transforms) -> PreparedRun:
         law = moving_law(problem, extents)
         _refuse_flow(law, given)
         _refuse_long_grid(law, given, axis)
-        return PreparedRun(
-            SteadySolver(problem, law, transforms), (given,) * len(problem.speeds), 0.0
-        )
+        solver = SteadySolver(problem, law, transforms)
+        return SteadySetup(solver, (given,) * len(problem.speeds), threads, library)
     speeds = problem.speeds
-    fast, slow = (_estimate(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
+    fast, slow = (estimate_at(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
     law = moving_law(problem, (fast.extents[axis], slow.extents[axis]))
-    return _automatic(problem, SteadySolver(problem, law, transforms), fast)
+    solver = SteadySolver(problem, law, transforms)
+    setup = SteadySetup(solver, (), threads, library)
+    return _on_chosen_grids(setup, fast)
 
 
-def _automatic(
-    problem: SteadyProblem, solver: SteadySolver, estimate: ContactEstimate
-) -> PreparedRun:
-    """Grids of one lattice; regions are found from the fastest speed on, each from the last."""
+def _on_chosen_grids(setup: SteadySetup, estimate: ContactEstimate) -> SteadySetup:
+    """Setup on grids of one lattice; regions are found from the fastest speed, each by the last."""
+    problem, solver = setup.problem, setup.solver
     request = problem.contact.automatic_grid
     assert request is not None
     centre, half = np.array(estimate.centre), np.array(estimate.extents) / 2
@@ -95,7 +121,7 @@ def _automatic(
     )
     reached = _cells_across(list(regions.values()), lattice)
     coarse = (ACROSS / reached) ** 2 if reached < (1 - LITTLE_LESS) * across else None
-    return PreparedRun(solver, tuple(grids), float(work), coarse)
+    return replace(setup, grids=tuple(grids), work=float(work), tolerance_reached=coarse)
 
 
 def _cells_across(regions: list[Region], lattice: Lattice) -> float:
@@ -103,7 +129,7 @@ def _cells_across(regions: list[Region], lattice: Lattice) -> float:
     return min(float((region.extents / lattice.cell_size).min()) for region in regions)
 
 
-def _estimate(problem: SteadyProblem, speed: float) -> ContactEstimate:
+def estimate_at(problem: SteadyProblem, speed: float) -> ContactEstimate:
     """Elastic contact with the compliance of the time in which half of it is passed."""
     contact = problem.contact
     found = locate_contact(contact.indenter, float(contact.compliance(1.0)), problem.point)

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
-from viscontact.loads import LoadHistory, LoadPoint
+from viscontact.loads import LoadPoint
+from viscontact.loads.steady_motion import constant_load
 from viscontact.problem.problem import Problem
-from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,28 +74,6 @@ def steady_problem(
     _check_bodies(contact, axis, rolling)
     kept = _kept(fields, speeds)
     return SteadyProblem(contact, constant_load(contact.load), speeds, axis, rolling, kept)
-
-
-def constant_load(load: LoadHistory) -> LoadPoint:
-    """The load of a history that does not change after time 0."""
-    held = load.at(0.0)
-    later = [
-        load.at(float(time), side=side)
-        for time in load.kinks
-        for side in ("left", "right")
-        if time > 0 or side == "right"  # before time 0 there is no load
-    ]
-    if np.isfinite(load.longest_step) or any(point != held for point in later):
-        raise ValueError(
-            "load: a steady motion has a constant load, and this one changes in time; use "
-            "step(force=...) or step(approach=...)"
-        )
-    if held.force is not None and held.force <= 0:
-        raise ValueError(
-            "load: the force must be positive in steady motion, got "
-            f"{format_quantity(held.force, 'N')}"
-        )
-    return held
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:

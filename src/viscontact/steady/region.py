@@ -8,6 +8,7 @@ one lattice of cells, so that their fields have common coordinates.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,6 +88,24 @@ def lattice_for(regions: list[Region], across: float) -> Lattice:
     extents = np.array([region.extents for region in regions])
     smallest, largest = extents.min(axis=0), extents.max(axis=0)
     return Lattice(np.maximum(smallest / across, largest / (MOST_OF_LATTICE * across)))
+
+
+def common_grid(grids: Sequence[Grid]) -> Grid:
+    """Smallest grid that holds grids of one lattice of cells."""
+    if all(grid == grids[0] for grid in grids):
+        return grids[0]
+    cell = grids[0].cell_size
+    shape, centre = [], []
+    for axis in (0, 1):
+        edges = [
+            (grid.centre[axis] - grid.size[axis] / 2, grid.centre[axis] + grid.size[axis] / 2)
+            for grid in grids
+        ]
+        low, high = min(each[0] for each in edges), max(each[1] for each in edges)
+        shape.append(round((high - low) / cell[axis]))
+        centre.append((low + high) / 2)
+    size = (shape[0] * cell[0], shape[1] * cell[1])
+    return Grid((shape[0], shape[1]), size, centre=(centre[0], centre[1]))
 
 
 def find_region(

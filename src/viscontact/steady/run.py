@@ -11,7 +11,6 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.fourier import fastest_transforms, transforms_by
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
@@ -19,6 +18,7 @@ from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.state import ContactState
 from viscontact.steady.curve import SteadyCurve
+from viscontact.steady.dataset import steady_dataset
 from viscontact.steady.preparation import prepare
 from viscontact.steady.problem import steady_problem
 
@@ -79,7 +79,7 @@ def steady(
     threads : int, optional
         Threads of one Fourier transform.
     progress : callable, optional
-        Called with (state, done, total) after each speed, from the fastest to the slowest.
+        Called with (state, done, total) after each speed, in their order.
     errors : bool, optional
         Estimate the errors of the scalars, ``friction_coefficient_error`` and so on, from a
         contact on a coarser grid.
@@ -104,7 +104,7 @@ def steady(
         If an argument is invalid, or there is no steady state; the message says what to change.
     ConvergenceError, DomainError
         If a contact is not found, or reaches the rim of a given grid; ``partial`` holds the speeds
-        completed so far, the faster ones, as a dataset.
+        before that one as a dataset, or None.
 
     Warns
     -----
@@ -140,17 +140,23 @@ def steady(
     contact = Problem(indenter, material, load, grid, None, indenter_material, tolerance)
     problem = steady_problem(contact, speed, along, rolling, fields)
     started = clock.perf_counter()
-    transforms = fastest_transforms()
-    curve = SteadyCurve(problem, prepare(problem, transforms_by(transforms, threads)), errors)
+    run = prepare(problem, threads)
+    curve, states = SteadyCurve(run, errors=errors), list[ContactState]()
+    kept = frozenset(problem.kept.tolist())
+
+    def result() -> xr.Dataset:
+        issued = "\n".join(curve.warnings.issued.values())
+        attributes = {"warnings": issued, "wall_time": clock.perf_counter() - started}
+        return steady_dataset(run, states, curve.bars if errors else None, attributes)
+
     try:
-        for state, fresh in curve.states():
-            for text in fresh:
+        for state in curve:
+            states.append(state if state.speed in kept else state.without_fields())
+            for text in state.warnings:
                 warnings.warn(text, AccuracyWarning, stacklevel=2)
             if progress is not None:
-                progress(state, len(curve.done), len(problem.speeds))
+                progress(state, curve.done, len(problem.speeds))
     except (ConvergenceError, DomainError) as stop:
-        stop.partial = curve.dataset(transforms, clock.perf_counter() - started)
+        stop.partial = result() if states else None
         raise
-    found = curve.dataset(transforms, clock.perf_counter() - started)
-    assert found is not None  # there is at least one speed
-    return found
+    return result()

@@ -93,4 +93,5 @@ def state_of(
         resistance_y=forces[1],
         friction_coefficient=forces[axis] / force,
         dissipation=forces[axis] * contact.speed,
+        speed=contact.speed,
     )

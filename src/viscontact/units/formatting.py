@@ -185,8 +185,10 @@ def format_compact(value: float, digits: int = 3) -> str:
     return np.format_float_positional(float(f"{value:.{digits - 1}e}"), trim="-")
 
 
-def time_labels(times: Iterable[float]) -> tuple[str, ...]:
+def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
     """Format instants [s] for a legend, all in one unit, with enough digits to differ.
+
+    Speeds as well, with ``"m/s"`` as their SI unit.
 
     Examples
     --------
@@ -194,7 +196,7 @@ def time_labels(times: Iterable[float]) -> tuple[str, ...]:
     ('0 s', '30 s', '1000 s')
     """
     instants = [float(instant) for instant in times]
-    unit = readable_unit("s", instants)
+    unit = readable_unit(si, instants)
     labels: tuple[str, ...] = ()
     for digits in range(3, 18):
         labels = tuple(f"{format_compact(float(unit(t)), digits)} {unit.symbol}" for t in instants)

@@ -475,7 +475,7 @@ def taken_over(directory: Path, at: int, act: Callable[[], None]) -> None:
             with suppress(DirectoryInUse):
                 check = held.enter_context(leased(directory, SHORT))
         record = opened(directory, check)
-        begun = record.resumed.instants
+        begun = record.resumed.rows
         for number, _ in enumerate(record.steps(), start=begun):
             if number == max(at, begun):
                 act()

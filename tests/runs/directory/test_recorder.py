@@ -29,7 +29,8 @@ from viscontact.runs.directory.checkpoint import (
     save_checkpoint,
 )
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
-from viscontact.runs.directory.recorded_run import ChangedCaseError, RecordedRun
+from viscontact.runs.directory.recorded import ChangedCaseError
+from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -65,7 +66,7 @@ def finish(record: Recorder) -> None:
 
 def stop_after(record: Recorder, instants: int) -> None:
     """March so far, then leave everything as a process that is killed would."""
-    for number, _ in enumerate(record.steps(), record.resumed.instants + 1):
+    for number, _ in enumerate(record.steps(), record.resumed.rows + 1):
         if number == instants:
             break
     record.close()
@@ -204,7 +205,7 @@ def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_res
     record = Recorder(recorded)
     lines = recorded.directory / PROGRESS_NAME
     for _ in record.steps():
-        if record.saved.instants == 1:  # from here on the directory is this run's
+        if record.saved.rows == 1:  # from here on the directory is this run's
             events.clear()
             continue
         names = [name for name, *_ in events]
@@ -357,7 +358,7 @@ def test_hard_link_to_a_result_keeps_it_as_it_was(
     record = Recorder(recorded)
     linked = recorded.directory / "snapshot.nc"
     for _ in record.steps():
-        if record.saved.instants == 4:
+        if record.saved.rows == 4:
             linked.hardlink_to(recorded.directory / "result.nc")
             before = linked.read_bytes()
     record.finish()

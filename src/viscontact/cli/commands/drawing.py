@@ -24,7 +24,12 @@ Instants = Annotated[
     list[str] | None,
     typer.Option("--time", metavar="T", help="Instant such as '240 s'; may be repeated."),
 ]
-
+Speeds = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--speed", metavar="V", help="Speed of steady motion such as '0.5 m/s'; may be repeated."
+    ),
+]
 
 Width = Annotated[
     str | None,
@@ -61,6 +66,7 @@ def plot(
         ),
     ],
     times: Instants = None,
+    speeds: Speeds = None,
     output: FigureOrAnimation = None,
     width: Width = None,
     along: Along = None,
@@ -79,7 +85,7 @@ def plot(
     from viscontact.cli.results.figures import draw
 
     options = {"width": width, "along": along, "at": at, "seconds": seconds, "fps": fps}
-    draw(directory, figure, times or [], output, options)
+    draw(directory, figure, times or [], output, options, speeds or [])
 
 
 def compare(
@@ -95,6 +101,7 @@ def compare(
         ),
     ] = "history",
     times: Instants = None,
+    speeds: Speeds = None,
     output: Picture = None,
     width: Width = None,
     along: Along = None,
@@ -104,4 +111,4 @@ def compare(
     from viscontact.cli.results.figures import draw_comparison
 
     options = {"width": width, "along": along, "at": at}
-    draw_comparison(directories, figure, times or [], output, options)
+    draw_comparison(directories, figure, times or [], output, options, speeds or [])

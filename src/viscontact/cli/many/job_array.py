@@ -17,7 +17,6 @@ from viscontact.run_files import MANIFEST_NAME, STOP_NAME
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.execution import before_the_first_step
-from viscontact.runs.forecast import run_seconds
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.sweep.job_array import JobArray, pbs_script, slurm_script
 
@@ -71,7 +70,7 @@ def _longest(jobs: list[Job]) -> float:
     longest = max(jobs, key=lambda job: job.work)
     request = replace(longest.request, output=longest.directory)
     checked = checked_run(request, memory=math.inf)
-    return run_seconds(checked.recorded.run, errors=checked.recorded.errors)
+    return checked.recorded.seconds
 
 
 def _program() -> str:

@@ -15,6 +15,7 @@ from rich.table import Table
 
 from viscontact.results.formatting import format_percent, format_supported
 from viscontact.results.netcdf import open_results
+from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
@@ -34,6 +35,7 @@ class _Found:
     value depends on the mesh.
     """
 
+    over: str  # axis of the result
     largest: dict[str, float]
     marked: frozenset[str]  # scalars that depend on the mesh at any instant
     error: float
@@ -42,7 +44,7 @@ class _Found:
 
 
 def print_table(runs: Sequence[Ended]) -> None:
-    """Print the largest values over time of several runs, and their warnings."""
+    """Print the largest values over time or speed of several runs, and their warnings."""
     found = [_found(each) for each in runs]
     console = Console()
     console.print(_table(runs, found))
@@ -56,7 +58,7 @@ def _found(ended: Ended) -> _Found | None:
         return None
     try:
         with open_results(ended.job.directory) as ds:
-            return _of(ds) if ds.sizes["time"] else None
+            return _of(ds) if ds.sizes[run_axis(ds).name] else None
     except (OSError, ValueError, LookupError):
         return None
 
@@ -68,16 +70,18 @@ def _of(ds: xr.Dataset) -> _Found:
     known = [found.part for name in names if (found := largest_error(ds, name)) is not None]
     error = max((part for part in known if not math.isnan(part)), default=math.nan)
     marked = frozenset(name for name in names if mesh_dependent(ds, name).any())
-    return _Found(largest, marked, error, float(ds.attrs["wall_time"]), warnings)
+    over = run_axis(ds).name
+    return _Found(over, largest, marked, error, float(ds.attrs["wall_time"]), warnings)
 
 
 def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     # Narrow enough for long names on eighty characters.
+    over = " or ".join(sorted({each.over for each in found if each})) or "time"
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
         show_edge=False,
-        title="largest values over time",
+        title=f"largest values over {over}",
         title_justify="right",
     )
     table.add_column("run", no_wrap=True)

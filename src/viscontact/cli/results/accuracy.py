@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from viscontact.results.formatting import format_bound
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import (
     WHY_MESH_DEPENDENT,
     largest_error,
@@ -19,9 +19,11 @@ from viscontact.results.variables import MESH_DEPENDENT, error_name
 _EXACT = "recursion, exact"
 
 
-def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -> Iterator[str]:
+def accuracy_lines(ds: xr.Dataset) -> Iterator[str]:
     """Yield lines about errors of the time integration and of the law."""
-    largest = float(np.nanmax(np.asarray(time_error, dtype=float), initial=0.0))
+    memory = str(ds.attrs.get("memory", ""))
+    inversion_error = float(ds.attrs.get("inversion_error", 0.0))
+    largest = float(np.nanmax(ds["time_error"].values, initial=0.0)) if "time_error" in ds else 0.0
     if largest > 0:
         yield f"error due to the time steps: {format_bound(largest)} of the pressure (estimated)"
     if memory and not memory.startswith(_EXACT):
@@ -44,7 +46,8 @@ def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
 
 def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
     """Yield a line about scalars whose errors are unknown at some instants."""
-    count = ds.sizes["time"]
+    axis = run_axis(ds)
+    count = ds.sizes[axis.name]
     found = {name: largest_error(ds, name) for name in names}
     places = {name: each.unknown for name, each in found.items() if each and each.unknown}
     if not knows_errors(ds, names) and places:
@@ -54,7 +57,7 @@ def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
         )
     elif places:
         unknown = (f"{name.replace('_', ' ')} at {n} of {count}" for name, n in places.items())
-        yield f"error not known: {', '.join(unknown)} instants"
+        yield f"error not known: {', '.join(unknown)} {axis.row}s"
 
 
 def knows_errors(ds: xr.Dataset, names: Iterable[str]) -> bool:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import dataclass
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -13,12 +14,12 @@ import numpy as np
 import xarray as xr
 
 from viscontact.cli.results.compared_runs import compared_runs, note_changed, note_missing
-from viscontact.cli.results.stored import early_end, opened, opened_steady
+from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
+from viscontact.results.run_axis import SPEED, TIME, RunAxis, run_axis
 from viscontact.runs.sweep.open_many import open_many
 from viscontact.runs.sweep.states import State
-from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 
 #: Name of the animation, which is written differently.
@@ -29,6 +30,7 @@ RESPONSE = "response"
 _OF_INSTANTS = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
     *("line-load", "pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
+    "motion-profile",
 )
 
 
@@ -38,41 +40,41 @@ def draw(
     times: Sequence[str],
     output: Path | None,
     options: Mapping[str, str | float | None] | None = None,
+    speeds: Sequence[str] = (),
 ) -> Path:
     """Draw a figure of one run."""
     plot = plot_package()
     steady = {"friction": plot.friction, "motion-profile": plot.motion_profile}
     others = {ANIMATION: plot.animation, RESPONSE: plot.response}
     draw_it = _named(figure, {**plot.FIGURES, **steady, **others})
-    instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
+    wanted, chosen = _wanted(times, speeds), _chosen(options or {}, figure, draw_it)
     folder = directory if directory.is_dir() else directory.parent
     moves = figure == ANIMATION
     file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
     _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
-    if figure in steady:
-        if instants:
-            refuse(f"--time: does not apply to the figure {figure}")
-        with opened_steady(directory, figure) as ds:
-            save(plot, file, draw_it, ds, **chosen)
-        return file
+    place = next(
+        (name for name in ("times", "speeds") if name in signature(draw_it).parameters), ""
+    )
+    if wanted is not None and not place:
+        refuse(f"{wanted.option}: does not apply to the figure {figure}")
     if figure == RESPONSE:
-        save(plot, file, draw_it, _sweep(directory, instants), **chosen)
+        save(plot, file, draw_it, _sweep(directory), **chosen)
         return file
     with opened(directory) as ds:
         if figure != "creep":  # the law is known beyond the run
-            _refuse_outside(instants, ds, directory)
-        _note(early_end(ds), _snapped(instants, ds, figure))
+            _refuse_outside(wanted, ds, directory)
+        _note(early_end(ds), _snapped(wanted, ds, figure))
+        if place:
+            chosen[place] = None if wanted is None else wanted.values
         if moves:
-            save_animation(plot, file, ds, times=instants, **chosen)
+            save_animation(plot, file, ds, **chosen)
         else:
-            save(plot, file, draw_it, ds, times=instants, **chosen)
+            save(plot, file, draw_it, ds, **chosen)
     return file
 
 
-def _sweep(directory: Path, instants: list[float] | None) -> xr.Dataset:
-    """Joint result of a sweep for its figure, which takes no instants."""
-    if instants:
-        refuse(f"--time: does not apply to the figure {RESPONSE}")
+def _sweep(directory: Path) -> xr.Dataset:
+    """Joint result of a sweep for its figure."""
     try:
         ds = open_many(directory)
     except (OSError, ValueError) as error:
@@ -89,12 +91,13 @@ def draw_comparison(
     times: Sequence[str],
     output: Path | None,
     options: Mapping[str, str | float | None] | None = None,
+    speeds: Sequence[str] = (),
 ) -> Path:
     """Draw a figure of several runs."""
     plot = plot_package()
     directories = compared_runs(directories)
     draw_it = _named(figure, plot.COMPARISONS)
-    instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
+    wanted, chosen = _wanted(times, speeds), _chosen(options or {}, figure, draw_it)
     if len(directories) < 2:
         refuse("compare needs two runs or more")
     file = output or Path(f"compare-{figure}.png")
@@ -106,10 +109,12 @@ def draw_comparison(
             refuse("compare needs different runs, got one of them twice")
         for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
             if figure != "creep":  # the law is known beyond the run
-                _refuse_outside(instants, ds, directory)
-            notes = (early_end(ds), _snapped(instants, ds, figure))
+                _refuse_outside(wanted, ds, directory)
+            notes = (early_end(ds), _snapped(wanted, ds, figure))
             _note(*(f"{label}: {note}" for note in notes if note))
-        save(plot, file, draw_it, labelled, times=instants, **chosen)
+        _refuse_mixed(labelled)
+        times_of = None if wanted is None else wanted.values
+        save(plot, file, draw_it, labelled, times=times_of, **chosen)
     return file
 
 
@@ -132,16 +137,38 @@ def _named(figure: str, figures: dict[str, Any]) -> Any:
     return figures[figure]
 
 
-def _instants(times: Iterable[str]) -> list[float] | None:
+@dataclass(frozen=True)
+class _Wanted:
+    """Instants [s] or speeds [m/s] to draw."""
+
+    axis: RunAxis
+    values: list[float]
+
+    @property
+    def option(self) -> str:
+        """Option that they were given with."""
+        return f"--{self.axis.name}"
+
+
+def _wanted(times: Sequence[str], speeds: Sequence[str]) -> _Wanted | None:
+    if times and speeds:
+        refuse("--time and --speed: a run is over time or over speed; give one of them")
+    axis, texts = (SPEED, speeds) if speeds else (TIME, times)
     try:
-        return [parse_quantity(text, "time") for text in times] or None
+        values = [parse_quantity(text, axis.name) for text in texts]
     except ValueError as error:
-        refuse(f"--time: {error}")
+        refuse(f"--{axis.name}: {error}")
+    return _Wanted(axis, values) if values else None
 
 
-def _chosen(
-    options: Mapping[str, str | float | None], figure: str, draw_it: Any
-) -> dict[str, str | float]:
+def _refuse_mixed(runs: Mapping[str, xr.Dataset]) -> None:
+    """Refuse to compare runs over time with runs over speed."""
+    if len({run_axis(ds).name for ds in runs.values()}) > 1:
+        steady = ", ".join(label for label, ds in runs.items() if run_axis(ds) is SPEED)
+        refuse(f"compare needs runs over time only, or of steady motion only; over speed: {steady}")
+
+
+def _chosen(options: Mapping[str, str | float | None], figure: str, draw_it: Any) -> dict[str, Any]:
     """Options that were given, refused where they do not apply to the figure."""
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
@@ -183,28 +210,34 @@ def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
         refuse(f"{file}: {error}")
 
 
-def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Path) -> None:
-    start, end = (float(ds["time"][index]) for index in (0, -1))
+def _refuse_outside(wanted: _Wanted | None, ds: xr.Dataset, directory: Path) -> None:
+    if wanted is None:
+        return
+    axis = run_axis(ds)
+    if wanted.axis is not axis:
+        motion = "of steady motion" if axis is SPEED else "over time"
+        refuse(f"{wanted.option}: the run {directory} is {motion}; give --{axis.name} in its place")
+    start, end = float(axis.values(ds).min()), float(axis.values(ds).max())
     # Tolerance for rounding: "0.1 min" may differ from 6 s in the last digit.
     slack = 1e-9 * end
-    for instant in instants or ():
-        if not start - slack <= instant <= end + slack:
+    for value in wanted.values:
+        if not start - slack <= value <= end + slack:
             refuse(
-                f"--time: {format_quantity(instant, 's')} lies outside the run {directory}, "
-                f"which goes from {format_quantity(start, 's')} to {format_quantity(end, 's')}"
+                f"{wanted.option}: {axis.quantity(value)} lies outside the run {directory}, "
+                f"which goes from {axis.quantity(start)} to {axis.quantity(end)}"
             )
 
 
-def _snapped(instants: list[float] | None, ds: xr.Dataset, figure: str) -> str:
-    """Message about stored instants drawn in place of requested ones; empty without any."""
-    if not instants or figure not in _OF_INSTANTS or "pressure" not in ds:
+def _snapped(wanted: _Wanted | None, ds: xr.Dataset, figure: str) -> str:
+    """Message about stored fields drawn in place of requested ones; empty without any."""
+    if wanted is None or figure not in _OF_INSTANTS or "pressure" not in ds:
         return ""
-    stored = ds[ds["pressure"].dims[0]].values
-    nearest = {wanted: float(stored[np.abs(stored - wanted).argmin()]) for wanted in instants}
+    stored, axis = ds[ds["pressure"].dims[0]].values, wanted.axis
+    nearest = {each: float(stored[np.abs(stored - each).argmin()]) for each in wanted.values}
     return "; ".join(
-        f"{format_quantity(wanted, 's')} is not stored; drew {format_quantity(drawn, 's')}"
-        for wanted, drawn in nearest.items()
-        if not np.isclose(wanted, drawn, rtol=1e-9, atol=0.0)
+        f"{axis.quantity(each)} is not stored; drew {axis.quantity(drawn)}"
+        for each, drawn in nearest.items()
+        if not np.isclose(each, drawn, rtol=1e-9, atol=0.0)
     )
 
 

@@ -27,8 +27,10 @@ from viscontact.cli.results.stored import early_end
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.history_csv import write_history
+from viscontact.results.recorded_case import prescribes_approach
+from viscontact.results.run_axis import SPEED, TIME, run_axis
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
-from viscontact.results.variables import Place, shown_in
+from viscontact.results.variables import AXES, SCALARS, Place, shown_in
 from viscontact.units.formatting import (
     format_number,
     format_quantity,
@@ -37,26 +39,28 @@ from viscontact.units.formatting import (
 )
 
 _ROWS = 20
+_FRICTION = "friction_coefficient"
 #: Blanks between columns, and the spare width below which headings are wrapped here; rich would
 #: also break words.
 _GAP, _TO_SPARE = 2, 8
 
 
 def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
-    """Print scalars over time in readable units, with their errors below if requested."""
+    """Print scalars over time or speed in readable units, with their errors if requested."""
     if errors and not has_errors(ds):
         refuse("--errors: the result states none; it is older, or was run with errors: false")
     console = Console()
-    count = ds.sizes["time"]
+    axis = run_axis(ds)
+    count = ds.sizes[axis.name]
     rows = np.arange(count) if everything else _spread(count)
-    shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
-    columns = _columns(ds, ["time", *shown], rows, errors=errors)
+    shown = _shown(ds)
+    columns = _columns(ds, [axis.name, *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
     table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
     # Never truncated, even where the table is wider than the terminal.
     console.print(table, crop=False)
     if len(rows) < count:
-        console.print(f"{len(rows)} of {count} instants; --all shows every one")
+        console.print(f"{len(rows)} of {count} {axis.row}s; --all shows every one")
     for line in _footers(ds, shown, errors=errors):
         console.print(line, highlight=False)
     if ended := early_end(ds):
@@ -65,8 +69,18 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
         console.print(f"[yellow]warning:[/] {line}")
 
 
+def _shown(ds: xr.Dataset) -> list[str]:
+    """Scalars of the table; over speed with the friction, and without a constant force."""
+    shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
+    if run_axis(ds) is TIME:
+        return shown
+    left_out = () if prescribes_approach(ds) else ("force",)
+    friction = () if is_rounding(ds, _FRICTION) else (_FRICTION,)
+    return [*friction, *(name for name in shown if name not in left_out)]
+
+
 def write_csv(ds: xr.Dataset, output: Path | None) -> None:
-    """Write all scalars in SI units, one row per instant."""
+    """Write all scalars in SI units, one row per instant or speed."""
     if output is None:
         write_history(ds, sys.stdout)
         return
@@ -79,7 +93,9 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
 
 def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:
     """Lines about the loss per cycle and about errors."""
-    losses = ds["loss_per_cycle"].values
+    if run_axis(ds) is SPEED and not prescribes_approach(ds):
+        yield f"force: {format_quantity(float(ds['force'][0]), 'N')} at each speed"
+    losses = ds["loss_per_cycle"].values if "loss_per_cycle" in ds else np.empty(0)
     # The loss of a cycle is repeated until the next cycle is complete.
     known = losses[np.isfinite(losses)]
     if known.size:
@@ -88,11 +104,14 @@ def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]
         yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
     if knows_errors(ds, shown):
         legend = "largest error: of the whole run, in % of the largest value"
-        yield f"{legend}; ±: at that instant" if errors else f"{legend}; --errors shows each one"
+        yield (
+            f"{legend}; ±: at that {run_axis(ds).row}"
+            if errors
+            else f"{legend}; --errors shows each one"
+        )
     yield from unknown_lines(ds, shown)
     yield from mesh_lines(ds, shown)
-    attributes = (str(ds.attrs.get("memory", "")), float(ds.attrs.get("inversion_error", 0.0)))
-    yield from accuracy_lines(ds["time_error"].values, *attributes)
+    yield from accuracy_lines(ds)
 
 
 def _spread(count: int) -> NDArray[np.int_]:
@@ -126,13 +145,13 @@ class _Column:
 def _columns(
     ds: xr.Dataset, names: list[str], rows: NDArray[np.int_], *, errors: bool
 ) -> list[_Column]:
-    columns = []
+    columns, axis = [], run_axis(ds)
     for name in names:
         largest = _largest(ds, name)
         if largest == 0:  # the time of a run with a single instant at 0
             continue
-        unit = readable_unit(ds[name].attrs["units"], largest)
-        foot = "largest\nerror" if name == "time" else _error_in_percent(largest_error(ds, name))
+        unit = readable_unit(axis.unit if name == axis.name else SCALARS[name].units, largest)
+        foot = "largest\nerror" if name in AXES else _error_in_percent(largest_error(ds, name))
         cells = _cells(ds, name, rows, unit.factor, errors=errors)
         head = unit.label(name.replace("_", " ")).split()
         columns.append(_Column(tuple(head), cells, foot))
@@ -162,7 +181,7 @@ def _cells(
     ds: xr.Dataset, name: str, rows: NDArray[np.int_], factor: float, *, errors: bool
 ) -> list[str]:
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
-    if name == "time":
+    if name in AXES:
         # Adaptive steps are short at first: "0.005" takes less space than "0.005000".
         times = [without_trailing_zeros(format_number(float(value))) for value in values]
         return [f"{time}\n" for time in times] if errors else times

@@ -12,10 +12,11 @@ import xarray as xr
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import case_of
-from viscontact.results.variables import REQUIRED, SCALARS
+from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
 from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.execution.checked_run import progress_made
+from viscontact.runs.directory.recorded_run import progress_made
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
 
@@ -35,53 +36,45 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
     except (OSError, ValueError) as error:
         refuse(_unreadable(path, error))
     with ds:
-        if "speed" in ds.dims:
-            refuse(
-                f"{path}: is a result of steady motion, over speed; it has the figures friction "
-                "and motion-profile, and vc.open_results reads it in Python"
-            )
-        missing = [name for name in ("time", *REQUIRED) if name not in ds]
+        axis = run_axis(ds)
+        required = [name for name in REQUIRED if name in scalars_of(moving=False, over=axis.name)]
+        missing = [name for name in (axis.name, *required) if name not in ds]
         if missing:
             refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
-        stored = [name for name in ("time", *SCALARS) if name in ds]
-        strange = [name for name in stored if ds[name].dims != ("time",)]
+        stored = [name for name in (axis.name, *SCALARS) if name in ds]
+        strange = [name for name in stored if ds[name].dims != (axis.name,)]
         if strange:
-            refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over time")
-        if not ds.sizes["time"]:
-            refuse(f"{path}: the run was stopped before its first instant was complete")
-        yield ds
-
-
-@contextmanager
-def opened_steady(path: Path, figure: str) -> Iterator[xr.Dataset]:
-    """Open a result of steady motion for a figure, or refuse it with a message."""
-    try:
-        ds = open_results(path)
-    except (OSError, ValueError) as error:
-        refuse(_unreadable(path, error))
-    with ds:
-        if "speed" not in ds.dims:
-            refuse(f"{path}: {figure} is a figure of steady motion, and this is a run over time")
+            refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over {axis.name}")
+        if not ds.sizes[axis.name]:
+            refuse(f"{path}: the run was stopped before its first {axis.row} was complete")
         yield ds
 
 
 def early_end(ds: xr.Dataset) -> str:
     """Message about a run that ended early; empty for a complete one."""
     try:
-        case = case_of(ds)
-        times, adaptive = case["times"], case.get("adaptive")
-        end = float(times[-1])
+        made = _made(ds)
     except (KeyError, IndexError, TypeError, ValueError):  # not written by a run
         return ""
-    reached = float(ds["time"][-1])
-    if reached >= end:
+    if not made:
         return ""
-    made = progress_made(ds.sizes["time"], reached, times, adaptive)
     directory = _run_directory(ds)
     if directory is not None and is_locked(directory):
         return f"the run is still active, at {made}"
     failed = int(ds["outcome"][-1]) == Outcome.NOT_CONVERGED  # would fail again
     return f"the run stopped at {made}{'' if failed or directory is None else _remedy(directory)}"
+
+
+def _made(ds: xr.Dataset) -> str:
+    """Progress of a run that ended early; empty for a complete one."""
+    case = case_of(ds)
+    if run_axis(ds) is SPEED:
+        count, speeds = ds.sizes["speed"], case["motion"]["speed"]
+        return f"{count} of {len(speeds)} speeds" if count < len(speeds) else ""
+    times, reached = case["times"], float(ds["time"][-1])
+    if reached >= float(times[-1]):
+        return ""
+    return progress_made(ds.sizes["time"], reached, times, case.get("adaptive"))
 
 
 def _run_directory(ds: xr.Dataset) -> Path | None:

@@ -17,10 +17,10 @@ def draw_body(
     width: str | float | None = None,
 ) -> None:
     """Draw the indenter on the grid and around it, with the expected contact shaded."""
-    plot, found, run = plot_package(), expected.estimate, prepared.run
+    plot, found = plot_package(), expected.estimate
     contact = found and (found.centre_x, found.centre_y, found.length, found.width)
     path = prepared.case.document.path
     file = picture or path.with_name(f"{path.stem}-indenter.png")
-    size = drawn_size(run)
+    size = drawn_size(prepared.run)
     options = {"size": size, "contact": contact, "width": width}
-    save(plot, file, plot.draw_indenter, run.problem.indenter, **options)
+    save(plot, file, plot.draw_indenter, prepared.case.indenter, **options)

@@ -16,7 +16,8 @@ from rich.table import Table
 
 from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
 from viscontact.results.netcdf import open_results
-from viscontact.results.summary import LEGEND, SummaryRow, summary_rows
+from viscontact.results.run_axis import SPEED, RunAxis, run_axis
+from viscontact.results.summary import SummaryRow, legend, summary_rows
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
 
@@ -36,34 +37,35 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
     # Never truncated, even where the table is wider than the terminal.
     console.print(_table(ds, rows, console.width), crop=False)
     if _states_errors(ds, rows):
-        console.print(LEGEND, highlight=False)
-    count, seconds = ds.sizes["time"], float(ds.attrs["wall_time"])
+        console.print(legend(ds), highlight=False)
+    axis, seconds = run_axis(ds), format_quantity(float(ds.attrs["wall_time"]), "s", 3)
+    count = ds.sizes[axis.name]
+    rows_of = axis.row if axis is SPEED and count == 1 else f"{axis.row}s"
     console.print(
-        f"{count} instants in {format_quantity(seconds, 's', 3)}, {int(ds['iterations'].sum())} "
-        f"iterations, residual at most {float(ds['residual'].max()):.1e}"
+        f"{count} {rows_of} in {seconds}, {int(ds['iterations'].sum())} iterations, residual at "
+        f"most {float(ds['residual'].max()):.1e}"
     )
-    attributes = (str(ds.attrs["memory"]), float(ds.attrs["inversion_error"]))
     shown = [row.name for row in rows]
     for line in (*unknown_lines(ds, shown), *mesh_lines(ds, shown)):
         console.print(line, highlight=False)
-    for line in accuracy_lines(ds["time_error"].values, *attributes):
+    for line in accuracy_lines(ds):
         console.print(line, highlight=False)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
         console.print(f"grid enlarged at {line}", highlight=False)
-    for line in _warnings(directory / PROGRESS_NAME, str(ds.attrs.get("warnings", ""))):
+    for line in _warnings(directory / PROGRESS_NAME, axis, str(ds.attrs.get("warnings", ""))):
         console.print(f"[yellow]warning:[/] {escape(line)}")
     console.print(f"{directory / RESULT_NAME}", soft_wrap=True, highlight=False)
 
 
-def _warnings(lines: Path, of_result: str) -> Iterator[str]:
-    """Warnings of each instant with its time, then those of the whole run."""
+def _warnings(lines: Path, axis: RunAxis, of_result: str) -> Iterator[str]:
+    """Warnings of each instant or speed with its value, then those of the whole run."""
     printed: set[str] = set()
     with lines.open(encoding="utf-8") as file:
         for line in file:
             state = json.loads(line)
             printed |= set(state["warnings"])
             for text in state["warnings"]:
-                yield f"t = {format_quantity(state['time'], 's')}: {text}"
+                yield f"{axis.place(state[axis.name])}: {text}"
     yield from (text for text in of_result.splitlines() if text not in printed)
 
 
@@ -86,7 +88,8 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
 
 def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
     columns = {"": [row.heading for row in rows]}
-    first, last = (f"t = {format_quantity(float(ds['time'][index]), 's')}" for index in (0, -1))
+    axis = run_axis(ds)
+    first, last = (axis.place(float(ds[axis.name][index])) for index in (0, -1))
     # A load that starts at 0 has no values at its first instant.
     if not all(row.first.split()[0] in ("0", "-") for row in rows):
         columns[first] = _aligned([row.first for row in rows])

@@ -26,11 +26,11 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
         yield lambda state, done, total: None
     elif sys.stderr.isatty():
         bar = _bar()
-        task = bar.add_task("", total=total, completed=done, details="")
+        task = bar.add_task("", total=total, completed=done, row="", details="")
         bar.start()
         try:
             yield lambda state, done, total: bar.update(
-                task, completed=done, total=total, details=_details(state)
+                task, completed=done, total=total, row=_row(state), details=_details(state)
             )
         finally:
             # A closed terminal is not a reason for a run to fail.
@@ -63,7 +63,7 @@ def counted(unit: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], 
 
 def _bar() -> Progress:
     return Progress(
-        TextColumn("step"),
+        TextColumn("{task.fields[row]}"),
         MofNCompleteColumn(),
         BarColumn(bar_width=16),  # fixed, so that the rest does not jump
         TimeRemainingColumn(),
@@ -88,10 +88,19 @@ class _PlainLines:
         self._next, self._said_at = done + max(1, round(total * _LINE_PART)), now
         left = (now - self._started) / (done - self._before) * (total - done)
         of = self._of if done < total else "/"
-        say(f"step {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
+        say(f"{_row(state)} {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
 
 
 def _details(state: ContactState) -> str:
     area = state.contact_area
     contact = f"contact {format_quantity(area, 'm2')}" if area else "no contact"
-    return f"t = {format_quantity(state.time, 's')}, {state.iterations} iterations, {contact}"
+    place = (
+        f"t = {format_quantity(state.time, 's')}"
+        if state.speed is None
+        else format_quantity(state.speed, "m/s")
+    )
+    return f"{place}, {state.iterations} iterations, {contact}"
+
+
+def _row(state: ContactState) -> str:
+    return "step" if state.speed is None else "speed"

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 from viscontact.plot.geometry.indenter_drawing import draw_indenter
 from viscontact.plot.layout.page import Width
 from viscontact.results.recorded_case import recorded_grid, recorded_object
-from viscontact.results.snapshots import take_snapshots
-from viscontact.units.formatting import time_labels
+from viscontact.results.snapshots import labels_of, take_snapshots
 
 _NAME = "indenter"
 
@@ -61,6 +60,6 @@ def indenter(
         x_low, x_high, y_low, y_high = snapshot.extent()
         middle = ((x_low + x_high) / 2, (y_low + y_high) / 2)
         contact = (*middle, x_high - x_low, y_high - y_low)
-        shaded = f"contact at {time_labels([snapshot.time])[0]}"
+        shaded = f"contact at {labels_of([snapshot])[0]}"
     size = recorded_grid(results).size_about_origin
     return draw_indenter(body, size, contact=contact, shaded=shaded, width=width)

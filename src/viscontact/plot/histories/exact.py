@@ -16,6 +16,7 @@ from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_object
+from viscontact.results.run_axis import require_time
 from viscontact.units.formatting import readable_unit
 
 _NAME = "exact"
@@ -69,6 +70,7 @@ def exact(
     >>> [axes.get_ylabel() for axes in exact(ds).axes][:2]
     ['Contact radius [µm]', 'Approach [µm]']
     """
+    require_time(results, _NAME)
     theory = exact_history(results, _NAME)
     names = ["force", "approach", "contact_area", "peak_pressure"]
     run = within_span(results, names, times, _NAME, "")

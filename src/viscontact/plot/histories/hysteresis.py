@@ -16,6 +16,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.run_axis import require_time
 from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import stated_error
 from viscontact.units.formatting import format_quantity, readable_unit
@@ -112,6 +113,8 @@ def compare_hysteresis(
     ('Approach [µm]', 'Force [mN]')
     """
     require_runs(runs, _NAME)
+    for run in runs.values():
+        require_time(run, _NAME)
     if any(lacks_datum(run) for run in runs.values()):
         raise ValueError(f"{_NAME}: the approach of a line contact has no datum; draw history")
     drawn = ("approach", "force")

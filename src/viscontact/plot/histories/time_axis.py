@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.results.run_axis import require_time
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
 from viscontact.units.formatting import ReadableUnit, format_quantity
@@ -35,6 +36,7 @@ def within_span(
     >>> within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()
     [0.0, 1.0]
     """
+    require_time(run, figure)
     span = run["time"].values if times is None else np.atleast_1d(np.asarray(times, dtype=float))
     if span.size == 0 or not np.all(np.isfinite(span)):
         raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")

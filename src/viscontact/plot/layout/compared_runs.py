@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.formatting import time_labels
+from viscontact.results.run_axis import run_axis
+from viscontact.results.snapshots import Snapshot, headings_of, take_snapshots
 
 
 def require_runs(runs: Mapping[str, xr.Dataset], figure: str) -> None:
@@ -22,15 +22,16 @@ def headed_snapshots(
 ) -> tuple[list[Snapshot], list[str]]:
     """Fields of runs at requested instants [s], and their headings; a single run is named "".
 
-    By default the last instant of each run, or `count` > 1 instants as chosen by `take_snapshots`.
+    By default the last instant or speed of each run, or `count` > 1 as `take_snapshots` chooses.
     """
     require_runs(runs, figure)
     snapshots: list[Snapshot] = []
     headings: list[str] = []
     for name, run in runs.items():
-        wanted = float(run["time"][-1]) if times is None and count == 1 else times
+        last = float(run_axis(run).values(run)[-1])
+        wanted = last if times is None and count == 1 else times
         taken = take_snapshots(run, wanted, figure, count=count)
         snapshots += taken
         prefix = f"{name}, " if name else ""
-        headings += [f"{prefix}t = {label}" for label in time_labels(s.time for s in taken)]
+        headings += [f"{prefix}{heading}" for heading in headings_of(taken)]
     return snapshots, headings

@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.layout import style
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import mesh_dependent
 from viscontact.results.variables import MESH_DEPENDENT
 
@@ -138,7 +139,7 @@ def peak_note(runs: Iterable[xr.Dataset], times: ArrayLike | None = None) -> str
     ('peak depends on the mesh', '')
     """
     for run in runs:
-        marked, instants = mesh_dependent(run, "peak_pressure"), run["time"].values
+        marked, instants = mesh_dependent(run, "peak_pressure"), run_axis(run).values(run)
         wanted = instants if times is None else np.atleast_1d(np.asarray(times, dtype=float))
         if any(marked[np.abs(instants - instant).argmin()] for instant in wanted):
             return f"peak {MESH_DEPENDENT}"

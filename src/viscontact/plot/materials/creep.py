@@ -15,6 +15,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_object
+from viscontact.results.run_axis import law_times
 from viscontact.units.formatting import readable_unit
 
 _NAME = "creep"
@@ -103,7 +104,7 @@ def compare_creep(
     """
     require_runs(runs, _NAME)
     laws = {name: recorded_object(run, "material", _NAME).law for name, run in runs.items()}
-    simulated = np.concatenate([run["time"].values for run in runs.values()])
+    simulated = np.concatenate([law_times(run) for run in runs.values()])
     span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
     positive = span[span > 0]
     if positive.size == 0 or not np.all(np.isfinite(span)):

@@ -17,8 +17,8 @@ from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
-from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.formatting import ReadableUnit, readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def draw_curves(
         wide = page_width(width, style.TWO_COLUMNS * 0.8)
         axes = style.new_figure(wide, min(3.0, 0.75 * wide)).add_subplot()
     units = _units(snapshots, curve)
-    labels = time_labels(s.time for s in snapshots)
+    labels = labels_of(snapshots)
     colours = style.time_colours(len(snapshots))
     for snapshot, colour in zip(snapshots, colours, strict=True):
         _plot(axes, snapshot, curve, units, color=colour, linewidth=style.LINE_WIDTH)
@@ -144,8 +144,9 @@ def _note(runs: Iterable[xr.Dataset], times: ArrayLike, curve: ContactCurve) -> 
 
 
 def _instants_label(snapshots: Mapping[str, Snapshot]) -> str:
-    instants = sorted({snapshot.time for snapshot in snapshots.values()})
-    return "t = " + ", ".join(time_labels(instants))
+    shown = {snapshot.time: snapshot for snapshot in snapshots.values()}
+    ordered = [shown[instant] for instant in sorted(shown)]
+    return ordered[0].axis.symbol + ", ".join(labels_of(ordered))
 
 
 def _units(snapshots: list[Snapshot], curve: ContactCurve) -> _Units:

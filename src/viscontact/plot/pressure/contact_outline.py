@@ -17,8 +17,7 @@ from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
-from viscontact.results.snapshots import take_snapshots
-from viscontact.units.formatting import time_labels
+from viscontact.results.snapshots import labels_of, take_snapshots
 
 _NAME = "contact-outline"
 
@@ -80,7 +79,7 @@ def contact_outline(
     window.show(axes)
     style.add_heading(axes, window.note, aside=True)
     lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
-    labels = time_labels(s.time for s in snapshots)
+    labels = labels_of(snapshots)
     whole = [bool(np.all(snapshot.pressure > 0)) for snapshot in snapshots]
     style.add_legend(
         axes,

@@ -20,8 +20,8 @@ from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.plot.pressure.exact_sphere import exact_sphere
 from viscontact.reference import LeeRadokContact
 from viscontact.results.recorded_case import recorded_object
-from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 _NAME = "pressure-radial"
 _MARKERS_AT_MOST = 26
@@ -207,7 +207,7 @@ def _add_key(
         Line2D([], [], **_markers_only(colour, marker, 1))
         for colour, marker in zip(colours, _markers(), strict=False)
     ]
-    labels = list(time_labels(snapshot.time for snapshot in snapshots))
+    labels = list(labels_of(snapshots))
     if exact_label is not None:
         handles += [
             Line2D([], [], **_markers_only(style.FAINT, "o", 1)),

@@ -19,8 +19,8 @@ from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_case import recorded_poisson_ratio
-from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot, headings_of, take_snapshots
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 _NAME = "stress-section"
 
@@ -104,14 +104,15 @@ def stress_section(
     height = 0.45 + (min(shape * (wide - 1.3), _HIGHEST) + 0.42) * len(sections)
     figure = style.new_figure(wide, height, fixed_aspect=True)
     panels = figure.subplots(len(sections), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    labels, contours = time_labels(section.time for section in sections), []
-    for axes, section, label in zip(panels, sections, labels, strict=True):
+    headings = headings_of(snapshot for snapshot in snapshots if snapshot.touching)
+    contours = []
+    for axes, section, heading in zip(panels, sections, headings, strict=True):
         drawn, lines = _draw(axes, section, levels, length, stress)
         contours.append(lines)
         largest, depth, _ = section.largest
         note = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
         # Below an infinite pressure the largest stress is infinite too.
-        style.add_heading(axes, f"t = {label}\n{peak_note([results], [section.time]) or note}")
+        style.add_heading(axes, f"{heading}\n{peak_note([results], [section.time]) or note}")
     panels[-1].set_xlabel(length.label(sections[-1].axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
     bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)

@@ -18,6 +18,7 @@ from viscontact.results.largest_values import (
     compared_scalars,
     key_label,
     largest_values,
+    over_of,
     run_dims,
     varied_keys,
 )
@@ -93,7 +94,7 @@ def _suits_map(ds: xr.Dataset, keys: list[str]) -> bool:
 def _heading(ds: xr.Dataset, scalars: list[str], *, has_bars: bool) -> str:
     """Description of the values, and the number of runs without one."""
     errors = [largest_values(ds, name)[1].values for name in scalars]
-    said = "Largest values over time"
+    said = f"Largest values over {over_of(ds)}"
     if has_bars and any((np.isfinite(each) & (each > 0)).any() for each in errors):
         said += ", with error bars"
     if has_bars and any(np.isposinf(each).any() for each in errors):

@@ -25,7 +25,7 @@ class Checkpoint:
 
     case: dict[str, Any]  # description of the run; only a run with an equal one continues from here
     lines: int  # of the progress log
-    reached: float | None  # last recorded instant [s]; None before the first
+    reached: float | None  # last recorded instant [s] or speed [m/s]; None before the first
     result: RestartData  # position of the result's writer
     march: RestartData  # empty before the first step
     transforms: str  # library of the Fourier transforms

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
+    AXES,
     COORDINATES,
     ERRORS,
     FIELDS,
@@ -24,6 +25,7 @@ from viscontact.results.variables import (
     Variable,
     error_name,
     field_axis,
+    field_axis_attributes,
     scalar_attributes,
     scalars_of,
     scalars_with_error,
@@ -42,7 +44,7 @@ _FIRST_BYTES = 4096
 class Extent(NamedTuple):
     """Number of rows along each unlimited dimension of a result."""
 
-    rows: int  # of scalars, along ``time``
+    rows: int  # of scalars, along ``time`` or ``speed``
     field_rows: int  # of fields, along their axis
 
 
@@ -55,21 +57,27 @@ class Layout:
     errors: bool = False  # True with room for the errors of scalars, NaN until they are known
     kind: str = "f8"  # NumPy's name of the type of the fields
     moving: bool = False  # True with the scalars of a moving contact
+    over: str = "time"  # dimension of the scalars: "time", or "speed" in steady motion
+
+    @property
+    def scalars(self) -> dict[str, Variable]:
+        """Scalars of each row."""
+        return scalars_of(moving=self.moving, over=self.over)
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
         """Each variable with its dimensions, in the order of the file."""
-        columns = {name: (variable, (name,)) for name, variable in COORDINATES.items()}
-        scalars = scalars_of(moving=self.moving)
-        columns |= {name: (variable, ("time",)) for name, variable in scalars.items()}
+        columns = {name: ((AXES | COORDINATES)[name], (name,)) for name in (self.over, "x", "y")}
+        columns |= {name: (variable, (self.over,)) for name, variable in self.scalars.items()}
         if self.errors:
-            names = map(error_name, scalars_with_error(moving=self.moving))
-            columns |= {name: (ERRORS[name], ("time",)) for name in names}
+            names = map(error_name, scalars_with_error(moving=self.moving, over=self.over))
+            columns |= {name: (ERRORS[name], (self.over,)) for name in names}
         found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
         if self.axis is None:
             return found
-        if self.axis != "time":
-            found[self.axis] = (Variable("s", "time of the stored fields"), (self.axis,))
+        if self.axis != self.over:
+            about = field_axis_attributes(self.over)
+            found[self.axis] = (Variable(about["units"], about["long_name"]), (self.axis,))
         axes = dict.fromkeys(FIELDS, ("x", "y")) | dict.fromkeys(LINES, ("x",))
         return found | {
             name: (replace(variable, kind=self.kind), (self.axis, *axes[name]))
@@ -78,26 +86,31 @@ class Layout:
 
     def extent_of(self, file: netCDF4.Dataset) -> Extent:
         """Return how many rows a file of this layout has."""
-        lengths = [len(file.dimensions[axis]) if axis else 0 for axis in ("time", self.axis)]
+        lengths = [len(file.dimensions[axis]) if axis else 0 for axis in (self.over, self.axis)]
         return Extent(*lengths)
 
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """Quantities, grid and instants that the result of a run is to hold."""
+    """Quantities, grid and instants or speeds that the result of a run is to hold."""
 
     grid: Grid  # of the fields when the run begins
-    times: NDArray[np.float64]  # [s]
-    fields: str | Sequence[float] = "all"  # "all", "none" or the instants of kept fields [s]
+    rows: NDArray[np.float64]  # instants [s] or speeds [m/s]
+    fields: str | Sequence[float] = "all"  # "all", "none" or the rows of kept fields
     attributes: Mapping[str, Any] = field(default_factory=dict)  # global ones
     errors: bool = False  # True if errors of the scalars will be added
     tolerance: float = 0.0  # relative error of the pressure, for the precision of the fields
     moving: bool = False  # True with the scalars of a moving contact
+    over: str = "time"  # "time", or "speed" in steady motion
 
     @property
     def kept(self) -> frozenset[float]:
-        """Instants whose fields are kept, among those known before the run [s]."""
-        return frozenset(field_instants(self.fields, self.times).tolist())
+        """Instants [s] or speeds [m/s] whose fields are kept, among those known before the run."""
+        if self.over == "time":
+            return frozenset(field_instants(self.fields, self.rows).tolist())
+        if isinstance(self.fields, str):
+            return frozenset(self.rows.tolist() if self.fields == "all" else ())
+        return frozenset(self.fields)
 
     def layout(self, grid: Grid) -> Layout:
         """Return the layout of the result's file for some grid of the fields.
@@ -106,9 +119,9 @@ class Contents:
         >>> Contents(grid, np.array([0.0, 1.0]), fields=[1.0]).layout(grid).axis
         'field_time'
         """
-        axis = field_axis(self.fields) if self.kept else None
+        axis = field_axis(self.fields, self.over) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
-        return Layout(grid, axis, self.errors, kind, self.moving)
+        return Layout(grid, axis, self.errors, kind, self.moving, self.over)
 
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
@@ -117,15 +130,15 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
         file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
     file.set_auto_maskandscale(False)
     file.setncatts(attributes)
-    file.createDimension("time", None)
+    file.createDimension(layout.over, None)
     for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
         file.createDimension(name, len(centres))
-    if layout.axis not in (None, "time"):
+    if layout.axis not in (None, layout.over):
         file.createDimension(layout.axis, None)
     for name, (variable, dimensions) in layout.columns.items():
         _create(file, name, variable, dimensions)
     file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
-    for name in scalars_of(moving=layout.moving):
+    for name in layout.scalars:
         file[name].setncatts(scalar_attributes(name, errors=layout.errors))
     file["outcome"].setncatts(OUTCOME_FLAGS)
     _keep_little(file)
@@ -172,33 +185,34 @@ def _keep_little(file: netCDF4.Dataset) -> None:
 
 
 def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState]) -> None:
-    """Write the scalars of consecutive states, and their instants, from a row on."""
+    """Write the scalars of consecutive states, and their instants or speeds, from a row on."""
     if not states:
         return
-    scalars = scalars_of(moving=states[0].moving)
-    for name, variable in {"time": COORDINATES["time"], **scalars}.items():
+    over = states[0].over
+    scalars = scalars_of(moving=states[0].moving, over=over)
+    for name, variable in {over: AXES[over], **scalars}.items():
         values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values
 
 
 def read_scalars(file: netCDF4.Dataset) -> dict[str, NDArray[np.float64]]:
-    """Read all scalars, and their instants, by name."""
-    names = [name for name in ("time", *SCALARS) if name in file.variables]
+    """Read all scalars, and their instants or speeds, by name."""
+    names = [name for name in (*AXES, *SCALARS) if name in file.variables]
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
 
 
 def described_fields(file: netCDF4.Dataset) -> dict[str, Any] | None:
     """Describe the fields of a result as plain data; None without fields.
 
-    Results with equal descriptions store fields at the same instants [s] on the same grid: cells
-    along an axis, with the first and the last centre [m].
+    Results with equal descriptions store fields at the same instants [s], or speeds [m/s], on the
+    same grid: cells along an axis, with the first and the last centre [m].
     """
     if not (names := [name for name in FIELDS | LINES if name in file.variables]):
         return None
     axis = str(file.variables[names[0]].dimensions[0])
     centres = {name: file.variables[name][:] for name in ("x", "y")}
     grid = {name: [len(at), float(at[0]), float(at[-1])] for name, at in centres.items()}
-    instants = file.variables[axis][:].tolist() if axis != "time" else None
+    instants = file.variables[axis][:].tolist() if axis not in AXES else None
     return {"names": names, "axis": axis, "instants": instants, **grid}
 
 
@@ -215,8 +229,8 @@ def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: Contact
         file.variables[name][row] = values
     for name in LINES:
         file.variables[name][row] = line_on_wider(getattr(state, name), state.grid, layout.grid)
-    if layout.axis not in (None, "time"):
-        file.variables[layout.axis][row] = state.time
+    if layout.axis not in (None, layout.over):
+        file.variables[layout.axis][row] = getattr(state, layout.over)
 
 
 def copy_rows(

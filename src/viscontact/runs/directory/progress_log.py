@@ -1,4 +1,4 @@
-"""Progress log: a line of JSON for each instant of a run."""
+"""Progress log: a line of JSON for each instant or speed of a run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.results.variables import error_name, scalars_of
+from viscontact.results.variables import AXES, error_name, scalars_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -27,8 +27,8 @@ LONGEST_LINE = 2**16
 class ProgressLog(AbstractContextManager["ProgressLog"]):
     r"""A file with a line of JSON for each state.
 
-    A line holds the instant, all scalars of the result in SI units by their names there, the
-    outcome by its name, the warnings that are new at that instant, and the finished part of the
+    A line holds the instant or the speed, all scalars of the result in SI units by their names
+    there, the outcome by its name, the warnings that are new there, and the finished part of the
     run. A value that is not finite, such as the eccentricity without contact, is null. Numbers keep
     all their bits. A line is written at once: when the process is killed, only the last line may be
     incomplete. `finish` adds the errors of the scalars, "inf" for an infinite one, and marks the
@@ -57,7 +57,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     def resume(
         cls, path: Path, lines: int, reached: float | None, check: LockCheck = never_lost
     ) -> Self:
-        """Continue a log after some of its lines, the last of them of a given instant [s].
+        """Continue a log after some of its lines, the last of a given instant [s] or speed [m/s].
 
         Lines beyond these are cut off by the next `append` or `flush_to_disk`, so that the file
         is unchanged if the run is refused for another reason. ValueError if the lines are not all
@@ -66,14 +66,14 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         try:
             with path.open("rb") as file:
                 found = [line for line in islice(file, lines) if line.endswith(b"\n")]
-            times = [float(json.loads(line)["time"]) for line in found]
+            reaches = [reached_in(json.loads(line)) for line in found]
         except OSError as error:
             raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
         except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
             raise ValueError(
                 f"{path} is damaged, or was written by something else; {REMEDY}"
             ) from error
-        if len(found) < lines or (times[-1] if times else None) != reached:
+        if len(found) < lines or (reaches[-1] if reaches else None) != reached:
             raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
         log = cls.__new__(cls)
         log.count, log._path, log._check = lines, path, check
@@ -170,12 +170,20 @@ def is_course(path: Path) -> bool:
             line = json.loads(file.readline(LONGEST_LINE))
     except (OSError, ValueError, RecursionError):
         return False
-    return isinstance(line, dict) and {"time", "outcome"} <= set(line)
+    return isinstance(line, dict) and "outcome" in line and any(over in line for over in AXES)
+
+
+def reached_in(entries: Mapping[str, Any]) -> float:
+    """Return the instant [s] or the speed [m/s] of a line; LookupError without either."""
+    for over in AXES:
+        if over in entries:
+            return float(entries[over])
+    raise LookupError("neither time nor speed")
 
 
 def _entries(state: ContactState) -> dict[str, Any]:
-    entries: dict[str, Any] = {"time": float(state.time)}
-    for name, variable in scalars_of(moving=state.moving).items():
+    entries: dict[str, Any] = {state.over: float(getattr(state, state.over))}
+    for name, variable in scalars_of(moving=state.moving, over=state.over).items():
         number = float(getattr(state, name))
         whole = variable.kind.startswith("i")
         # JSON has no NaN.

@@ -1,54 +1,35 @@
-"""Description of a recorded run, and its state at the last checkpoint."""
+"""Recorded run over time."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from viscontact.fourier import transforms_by
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.accuracy.error_bars import ErrorBars, error_bars
 from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
-from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.atomic_files import fresh_name
-from viscontact.runs.directory.checkpoint import (
-    REMEDY,
-    Checkpoint,
-    is_checkpoint,
-    load_checkpoint,
-)
-from viscontact.runs.directory.differences import Difference, differences
-from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.netcdf_layout import Contents
-from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.result_writer import ResultWriter, working_files
-from viscontact.runs.directory.stored_result import stored_run
+from viscontact.runs.directory.recorded import Marching, Recorded
+from viscontact.runs.directory.result_writer import ResultWriter
+from viscontact.runs.forecast import run_seconds
+from viscontact.runs.resources import run_memory
 from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_problem, run_attributes
 from viscontact.simulation.setup import RunSetup
-
-
-class ChangedCaseError(ValueError):
-    """A run that cannot be resumed, because its case has changed; `changes` are the differences."""
-
-    def __init__(self, changes: Sequence[Difference]) -> None:
-        super().__init__("; ".join(map(str, changes)))
-        self.changes = tuple(changes)
+from viscontact.state import ContactState
+from viscontact.time_integration.restart_data import RestartData
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
-class RecordedRun:
-    """A run, its directory, and the choice of the quantities that are recorded."""
-
-    directory: Path
-    run: RunSetup
-    fields: str | Sequence[float]  # "all", "none" or the instants of kept fields [s]
-    title: str = ""  # of the result
-    errors: bool = False  # True if errors of the scalars are estimated after the march
-    check: LockCheck = never_lost  # of the lock of the directory, before each write
+class RecordedRun(Recorded[RunSetup]):
+    """A run over time, its directory, and the choice of the quantities that are recorded."""
 
     @property
     def case(self) -> dict[str, Any]:
@@ -67,74 +48,80 @@ class RecordedRun:
             self.fields,
             attributes,
             self.errors,
-            problem.tolerance if _fits_single_precision(problem) else 0.0,
+            problem.tolerance if fits_single_precision(problem, problem.end) else 0.0,
             moving=problem.motion is not None,
         )
 
     @property
-    def result_path(self) -> Path:
-        """Path of the result."""
-        return self.directory / RESULT_NAME
+    def total(self) -> int | None:
+        """Number of instants; None where the run chooses its steps."""
+        problem = self.run.problem
+        return len(problem.instants) if problem.adaptive is None else None
 
-    def load_checkpoint(self) -> Checkpoint:
-        """Load the last checkpoint.
+    @property
+    def work(self) -> float:
+        """Cells times steps."""
+        return self.run.grid.shape[0] * self.run.grid.shape[1] * (1.0 + self.run.problem.step_count)
 
-        FileNotFoundError if there is none, ChangedCaseError if it is of another case, ValueError if
-        it cannot be read.
+    @property
+    def memory(self) -> float:
+        """Memory of the run [bytes]."""
+        return run_memory(self.run)
+
+    @property
+    def seconds(self) -> float:
+        """Predicted time of the run on this machine [s]."""
+        return run_seconds(self.run, errors=self.errors)
+
+    @property
+    def extent(self) -> str:
+        """How far the finished run goes, in words."""
+        return f"up to t = {format_quantity(self.run.problem.end, 's')}"
+
+    def march(self, saved: RestartData | None = None) -> Marching:
+        """Return the march from the beginning, or from the restart data of an earlier one."""
+        return March(self.run, saved)
+
+    def recorded_state(self, state: ContactState) -> ContactState:
+        """Return a state as it is."""
+        return state
+
+    def is_last(self, state: ContactState) -> bool:
+        """True for the last state of the run."""
+        return state.time >= self.run.problem.end
+
+    def part(self, march: Marching, state: ContactState) -> float:
+        """Finished part of the instants, or of the time where steps are adaptive."""
+        problem = self.run.problem
+        if problem.adaptive is None:
+            return min(march.done / len(problem.instants), 1.0)
+        return min(state.time / problem.end, 1.0) if problem.end > 0 else 0.0
+
+    def made(self, rows: int, reached: float | None) -> str:
+        """Describe the progress of the run, up to the instant reached [s]."""
+        problem = self.run.problem
+        return progress_made(rows, reached, problem.instants.tolist(), problem.adaptive)
+
+    def continued(self, rows: int, reached: float | None) -> str:
+        """Describe where the run is resumed."""
+        made = self.made(rows, reached)
+        if reached is None or ", up to t =" in made:
+            return made
+        return f"{made}, t = {format_quantity(reached, 's')}"
+
+    def error_bars(
+        self,
+        march: Marching,
+        history: Mapping[str, NDArray[np.float64]],
+        writer: ResultWriter,
+        on_step: Callable[[], None] | None = None,
+    ) -> ErrorBars:
+        """Errors of the scalars, from coarser runs, after each of whose steps `on_step` is called.
+
+        Its exceptions end the estimate.
         """
-        saved = load_checkpoint(self.directory / STATE_NAME)
-        if changes := differences(saved.case, self.case):
-            raise ChangedCaseError(changes)
-        return saved
-
-    def with_transforms(self, library: str) -> RecordedRun:
-        """Return the run with its first library of transforms; ValueError if not installed."""
-        try:
-            transforms_by(library)
-        except ValueError as error:
-            raise ValueError(
-                f"{self.directory}: the run has used the Fourier transforms of {library}, and no "
-                f"others give the same bits: {error}; or start the run again with --overwrite"
-            ) from error
-        return replace(self, run=replace(self.run, transforms=library))
-
-    def resumed_march(self, saved: Checkpoint) -> March:
-        """Return the march at a checkpoint; refuse one that does not fit with a ValueError."""
-        try:
-            return March(self.run, saved.march or None)
-        except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
-            path = self.directory / STATE_NAME
-            raise ValueError(f"{path}: does not fit the run it says it is of; {REMEDY}") from error
-
-    def resumed_writer(self, saved: Checkpoint) -> ResultWriter:
-        """Return the writer of the result at a checkpoint.
-
-        ValueError if the result is of another run, cannot be read, or has fewer rows.
-        """
-        path = self.result_path
-        try:
-            is_other = path.is_file() and stored_run(path).case != self.case
-        except ValueError as error:
-            raise ValueError(f"{error}; {REMEDY}") from error
-        if is_other:
-            raise ValueError(f"{path} belongs to another run than {STATE_NAME}; {REMEDY}")
-        return ResultWriter.resume(path, self.contents, saved.result, self.check)
-
-    def new_writer(self) -> ResultWriter:
-        """Return the writer of a new result."""
-        return ResultWriter(self.result_path, self.contents, self.check)
-
-    def new_log(self) -> ProgressLog:
-        """Return a new progress log; a link in its place is replaced, not written through."""
-        path = self.directory / PROGRESS_NAME
-        self.check()
-        path.unlink(missing_ok=True)
-        return ProgressLog(path, self.check)
-
-    def resumed_log(self, saved: Checkpoint) -> ProgressLog:
-        """Return the progress log with the lines of a checkpoint, or raise a ValueError."""
-        path = self.directory / PROGRESS_NAME
-        return ProgressLog.resume(path, saved.lines, saved.reached, self.check)
+        run = self.run.on(writer.grid)
+        return error_bars(run, history, on_step, issued=writer.warnings)
 
 
 def plain_case(
@@ -152,17 +139,30 @@ def plain_case(
     return plain
 
 
-def remove_restart_files(directory: Path) -> None:
-    """Remove the files of a run directory that a finished run does not need."""
-    state = directory / STATE_NAME
-    if is_checkpoint(state):
-        state.unlink()
-    fresh = (fresh_name(state), fresh_name(directory / PROGRESS_NAME))
-    for file in (*fresh, *working_files(directory / RESULT_NAME)):
-        file.unlink(missing_ok=True)
+def progress_made(
+    done: int, reached: float | None, times: Sequence[float], adaptive: object
+) -> str:
+    """Describe the progress of a run, with times in seconds.
+
+    Examples
+    --------
+    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
+    '2 of 3 instants'
+    """
+    if adaptive is None:
+        return f"{done} of {len(times)} instants"
+    if reached is None:
+        return "0 instants"
+    return (
+        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
+        f"{format_quantity(times[-1], 's')}"
+    )
 
 
-def _fits_single_precision(problem: Problem) -> bool:
-    """True if pressures are far from the ends of single precision's range, 1e-38 to 3e38 Pa."""
-    compliance, level = float(problem.compliance(problem.end)), problem.load.largest_level
+def fits_single_precision(problem: Problem, late: float) -> bool:
+    """True if pressures are far from the ends of single precision's range, 1e-38 to 3e38 Pa.
+
+    `late` is a time at which the material has crept [s].
+    """
+    compliance, level = float(problem.compliance(late)), problem.load.largest_level
     return 1e-20 <= compliance <= 1e10 and 1e-25 <= level <= 1e15

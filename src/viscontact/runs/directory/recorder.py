@@ -5,15 +5,14 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
-from viscontact.accuracy.error_bars import ErrorBars, error_bars
+from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.run_files import STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.recorded_run import RecordedRun, remove_restart_files
+from viscontact.runs.directory.recorded import Marching, Recorded, remove_restart_files
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.simulation.march import March
 from viscontact.simulation.state_generator import Progress
 from viscontact.state import ContactState, Outcome
 
@@ -25,10 +24,10 @@ Undisturbed = Callable[[], AbstractContextManager[object]]
 
 
 class Reached(NamedTuple):
-    """Number of finished instants, and the time of the last of them [s]."""
+    """Number of finished rows, and the instant [s] or the speed [m/s] of the last of them."""
 
-    instants: int
-    time: float | None
+    rows: int
+    place: float | None
 
 
 class Recorder:
@@ -49,17 +48,17 @@ class Recorder:
 
     def __init__(
         self,
-        recorded: RecordedRun,
+        recorded: Recorded[Any],
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> None:
-        self._set_up(recorded, March(recorded.run), on_begin, undisturbed)
+        self._set_up(recorded, recorded.march(), on_begin, undisturbed)
         self._writer = recorded.new_writer()
 
     @classmethod
     def resume(
         cls,
-        recorded: RecordedRun,
+        recorded: Recorded[Any],
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> Self:
@@ -83,14 +82,14 @@ class Recorder:
                 recorded.check()
                 on_begin()
             opened.pop_all()
-        record._instants, record._time = int(saved.result["rows"]), saved.reached
+        record._rows, record._place = int(saved.result["rows"]), saved.reached
         record.saved = record.shown = record.resumed = record._reached
         return record
 
     def _set_up(
         self,
-        recorded: RecordedRun,
-        march: March,
+        recorded: Recorded[Any],
+        march: Marching,
         on_begin: Callable[[], None] | None,
         undisturbed: Undisturbed,
     ) -> None:
@@ -98,13 +97,13 @@ class Recorder:
         self._on_begin, self._undisturbed = on_begin, undisturbed
         self._lines: ProgressLog | None = None
         self._due = 0.0
-        self._instants = 0
-        self._time: float | None = None
+        self._rows = 0
+        self._place: float | None = None
         self.saved = self.shown = self.resumed = Reached(0, None)
 
     @property
     def _reached(self) -> Reached:
-        return Reached(self._instants, self._time)
+        return Reached(self._rows, self._place)
 
     def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
         """March, and yield each converged step after it is recorded; None for an inner step.
@@ -152,8 +151,7 @@ class Recorder:
         self.checkpoint()
         with self._undisturbed():
             history = self._writer.history()
-        run, issued = self._recorded.run.on(self._writer.grid), self._writer.warnings
-        return error_bars(run, history, on_step, issued=issued)
+        return self._recorded.error_bars(self._march, history, self._writer, on_step)
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with its errors, and remove the restart state."""
@@ -184,21 +182,14 @@ class Recorder:
         if state is not None:
             self._write(state)
             if not failed:
-                self._instants, self._time = self._instants + 1, state.time
+                self._rows, self._place = self._rows + 1, float(getattr(state, state.over))
         if not failed and clock.monotonic() >= self._due:
             self.checkpoint()
 
     def _write(self, state: ContactState) -> None:
         assert self._lines is not None  # begun
-        self._lines.append(state, self._part(state))
-        self._writer.append(state)
-
-    def _part(self, state: ContactState) -> float:
-        """Finished part of the march: of the instants, or of the time where steps are adaptive."""
-        problem = self._recorded.run.problem
-        if problem.adaptive is None:
-            return min(self._march.done / len(problem.instants), 1.0)
-        return min(state.time / problem.end, 1.0) if problem.end > 0 else 0.0
+        self._lines.append(state, self._recorded.part(self._march, state))
+        self._writer.append(self._recorded.recorded_state(state))
 
     def _begin(self) -> None:
         """Take the directory over for this run, as late as possible: an earlier result stays."""
@@ -213,7 +204,7 @@ class Recorder:
         recorded = self._recorded
         lines = 0 if self._lines is None else self._lines.count
         march = self._march.restart_data() if begun else {}
-        state = (lines, self._time, self._writer.position, march, recorded.run.transforms)
+        state = (lines, self._place, self._writer.position, march, recorded.run.transforms)
         checkpoint = Checkpoint(recorded.case, *state)
         save_checkpoint(recorded.directory / STATE_NAME, checkpoint, recorded.check)
         self.saved = self._reached

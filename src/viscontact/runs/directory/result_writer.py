@@ -145,7 +145,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         """Add the next state of the run; it is safe after the next `publish`."""
         rows, field_rows = self._done
         self._make_room(state.grid)
-        if self._layout.axis == "time" or state.time in self._kept:
+        if self._layout.axis == state.over or getattr(state, state.over) in self._kept:
             with self._guard.writing():
                 write_fields(self._file(), self._layout, field_rows, state)
             field_rows += 1

@@ -12,6 +12,7 @@ import numpy as np
 
 from viscontact.grid import Grid
 from viscontact.results.descriptions import parse_case
+from viscontact.results.variables import AXES
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
 
@@ -20,7 +21,7 @@ from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
 class StoredRun:
     """Description of a stored result."""
 
-    rows: int  # number of instants
+    rows: int  # number of instants or speeds
     complete: bool  # True if the run was finished
     case: dict[str, Any] | None  # as `RecordedRun.case`; None in a file of another origin
 
@@ -29,10 +30,11 @@ def stored_run(path: Path) -> StoredRun:
     """Read the description of a stored result; ValueError if it cannot be read as one."""
     try:
         with opened(path, "r") as file:
-            if "time" not in file.dimensions:
+            over = next((name for name in AXES if name in file.dimensions), None)
+            if over is None:
                 raise ValueError("it has no times")
             complete = "complete" in file.ncattrs() and int(file.getncattr("complete")) == 1
-            return StoredRun(len(file.dimensions["time"]), complete, _case(file))
+            return StoredRun(len(file.dimensions[over]), complete, _case(file))
     except (OSError, RuntimeError, ValueError, TypeError, OverflowError) as error:
         raise ValueError(f"{path} cannot be read as a result of viscontact: {error}") from error
 
@@ -75,15 +77,16 @@ def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
         found: Any = file.variables[name]
         if found.dimensions != dimensions or found.dtype != np.dtype(variable.kind):
             return f"its {name} is another kind of variable"
-    if layout.axis is None and "field_time" in file.dimensions:
+    if layout.axis is None and f"field_{layout.over}" in file.dimensions:
         return "it has fields"
     for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
         if not np.array_equal(file.variables[name][:], centres):
             return f"its {name} is another grid's"
     there = layout.extent_of(file)
+    rows = "instants" if layout.over == "time" else "speeds"
     if there.rows < extent.rows or there.field_rows < extent.field_rows:
         return (
-            f"it has {there.rows} instants and {there.field_rows} with fields, "
+            f"it has {there.rows} {rows} and {there.field_rows} with fields, "
             f"and {extent.rows} and {extent.field_rows} are wanted"
         )
     return ""
@@ -93,5 +96,7 @@ def _fault_of_scalars(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> 
     for name, (_, dimensions) in layout.columns.items():
         if len(dimensions) == 1:
             file.variables[name][:]  # raises where it is damaged
+    if layout.over != "time":
+        return ""
     times = file.variables["time"][: extent.rows]
     return "" if (np.diff(times) > 0).all() else "its times do not increase"

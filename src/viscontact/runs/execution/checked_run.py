@@ -6,10 +6,13 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from viscontact.case import CaseError, read_case
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock_check import LockCheck
+from viscontact.runs.directory.recorded import Recorded
+from viscontact.runs.directory.recorded_curve import RecordedCurve
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.ending import refuse
 from viscontact.runs.execution.resuming import standing
@@ -17,8 +20,7 @@ from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.resources import run_memory
-from viscontact.units.formatting import format_quantity
+from viscontact.steady.preparation import SteadySetup
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class CheckedRun:
 
     request: RunRequest
     prepared: PreparedRun
-    recorded: RecordedRun
+    recorded: Recorded[Any]
 
     def with_lock(self, check: LockCheck) -> CheckedRun:
         """Return the run with the check of its directory's lock."""
@@ -39,23 +41,10 @@ class CheckedRun:
 
     def job(self, standing: Standing) -> Job:
         """Return the run as one of several."""
-        directory, run = self.recorded.directory, self.recorded.run
-        cells = run.grid.shape[0] * run.grid.shape[1]
-        return Job(
-            self.request,
-            directory,
-            directory.name,
-            standing,
-            len(run.problem.instants) if run.problem.adaptive is None else None,
-            run.problem.end,
-            cells * (1.0 + run.problem.step_count),
-            run_memory(run),
-        )
-
-    def made(self, instants: int, reached: float | None) -> str:
-        """Describe the progress of the run, up to the instant reached [s]."""
-        run = self.recorded.run
-        return progress_made(instants, reached, run.problem.instants.tolist(), run.problem.adaptive)
+        recorded = self.recorded
+        directory, end = recorded.directory, float(recorded.contents.rows[-1])
+        about = (recorded.total, end, recorded.work, recorded.memory)
+        return Job(self.request, directory, directory.name, standing, *about)
 
 
 def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
@@ -66,7 +55,12 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
     directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case
-    recorded = RecordedRun(directory, found.run, case.fields, case.title, case.errors)
+    about = (case.fields, case.title, case.errors)
+    recorded = (
+        RecordedCurve(directory, found.run, *about)
+        if isinstance(found.run, SteadySetup)
+        else RecordedRun(directory, found.run, *about)
+    )
     return CheckedRun(request, found, recorded)
 
 
@@ -81,26 +75,6 @@ def prepare(
         return prepared(read_case(path, settings), threads, memory)
     except CaseError as error:
         refuse(*error.problems)
-
-
-def progress_made(
-    done: int, reached: float | None, times: Sequence[float], adaptive: object
-) -> str:
-    """Describe the progress of a run, with times in seconds.
-
-    Examples
-    --------
-    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
-    '2 of 3 instants'
-    """
-    if adaptive is None:
-        return f"{done} of {len(times)} instants"
-    if reached is None:
-        return "0 instants"
-    return (
-        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
-        f"{format_quantity(times[-1], 's')}"
-    )
 
 
 def directory_of(request: RunRequest) -> Path:

@@ -13,7 +13,7 @@ from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock import DirectoryInUse, awaited_lease, locked
 from viscontact.runs.directory.lock_check import LockLost
-from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_restart_files
+from viscontact.runs.directory.recorded import ChangedCaseError, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder, Undisturbed
 from viscontact.runs.ending import refuse, stop
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
@@ -23,7 +23,6 @@ from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import INTERRUPTED, RunRequest
 from viscontact.simulation.state_generator import Progress
-from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
@@ -32,7 +31,7 @@ class Monitor:
 
     stops: StopRequests
     say: Callable[[str], None]
-    #: Called with the number of instants, None if the run chooses its steps, and the finished ones.
+    #: Called with the number of rows, None if the run chooses its steps, and the finished ones.
     progress: Callable[[int | None, int], AbstractContextManager[Progress]]
 
 
@@ -101,12 +100,7 @@ def _resumed_record(checked: CheckedRun, monitor: Monitor) -> Recorder:
             f"{recorded.directory}: the run cannot be continued: {error}",
             f"what it keeps is unchanged; after correcting that: {checked.request.resuming}",
         )
-    made = checked.made(*record.resumed)
-    time = record.resumed.time
-    at = "" if time is None else f", t = {format_quantity(time, 's')}"
-    monitor.say(
-        f"{recorded.directory}: continuing after {made}{'' if ', up to t =' in made else at}"
-    )
+    monitor.say(f"{recorded.directory}: continuing after {recorded.continued(*record.resumed)}")
     return record
 
 
@@ -125,10 +119,10 @@ def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
     try:
         with monitor.stops.marching():
             is_complete = _complete_march(checked, record, monitor)
-    except (ConvergenceError, DomainError) as error:
+    except (ConvergenceError, DomainError, ValueError) as error:
         _publish(record)
         # A resumed run would stop at the same step.
-        option = " with --overwrite" if record.shown.instants else ""
+        option = " with --overwrite" if record.shown.rows else ""
         remedy = f"with that changed, run it again{option}"
         stop(*checked.prepared.case.error(str(error)).problems, _kept(checked, record), remedy)
     except LockLost as error:
@@ -148,15 +142,13 @@ def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
 def _complete_march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> bool:
     """March to the end and save everything; False after a request to stop."""
     recorded = checked.recorded
-    run = recorded.run
-    total = None if run.problem.adaptive else len(run.problem.instants)
-    with monitor.progress(total, record.resumed.instants) as progress:
+    with monitor.progress(recorded.total, record.resumed.rows) as progress:
         for state in record.steps(progress):
-            is_last = state is not None and state.time >= run.problem.end
+            is_last = state is not None and recorded.is_last(state)
             if monitor.stops.requested and not is_last:
                 record.checkpoint()
                 return False
-    if recorded.errors:
+    if recorded.errors and recorded.row == "instant":  # speeds come with theirs
         monitor.say("estimating errors, from coarser runs of the same case")
     record.finish(record.estimate_errors(partial(_stop_if_requested, monitor)))
     monitor.stops.over = True
@@ -179,36 +171,33 @@ def _kept(checked: CheckedRun, record: Recorder) -> str:
     directory = checked.recorded.directory
     if _is_gone(checked, record):
         return f"{directory} no longer exists, and neither does what it kept"
-    if not record.shown.instants:
-        return f"{directory} keeps nothing yet: no instant was finished"
-    return f"{directory} keeps {checked.made(*record.shown)}"
+    if not record.shown.rows:
+        return f"{directory} keeps nothing yet: no {checked.recorded.row} was finished"
+    return f"{directory} keeps {checked.recorded.made(*record.shown)}"
 
 
 def _resumable(checked: CheckedRun, record: Recorder) -> str:
-    saved = record.saved.instants
-    lost = saved < record.shown.instants and not _is_gone(checked, record)
+    saved = record.saved.rows
+    lost = saved < record.shown.rows and not _is_gone(checked, record)
     return _kept(checked, record) + (f"; a resumed run continues after {saved}" if lost else "")
 
 
 def _remedy(checked: CheckedRun, record: Recorder) -> str:
     """Command to type next: it resumes the run, or repeats it where no step is saved."""
-    keeps = record.shown.instants and not _is_gone(checked, record)
+    keeps = record.shown.rows and not _is_gone(checked, record)
     return checked.request.resuming if keeps else checked.request.repeating
 
 
 def _is_gone(checked: CheckedRun, record: Recorder) -> bool:
     """True if the directory has been removed or moved during the run."""
     files = (checked.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
-    return record.shown.instants > 0 and not any(file.exists() for file in files)
+    return record.shown.rows > 0 and not any(file.exists() for file in files)
 
 
 def _say_finished(checked: CheckedRun, monitor: Monitor) -> None:
-    directory, run = checked.recorded.directory, checked.recorded.run
+    directory, extent = checked.recorded.directory, checked.recorded.extent
     remove_leftovers(directory)
-    monitor.say(
-        f"{directory}: is finished already, up to t = "
-        f"{format_quantity(run.problem.end, 's')}; --overwrite computes it again"
-    )
+    monitor.say(f"{directory}: is finished already, {extent}; --overwrite computes it again")
 
 
 def remove_leftovers(directory: Path) -> None:

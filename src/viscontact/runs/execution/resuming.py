@@ -12,7 +12,7 @@ from viscontact.case.document import read_document
 from viscontact.case.yaml_source import parse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.differences import Difference, differences
-from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.stored_result import StoredRun, stored_run
 from viscontact.runs.ending import refuse
 from viscontact.runs.execution.run_directory import (
@@ -31,7 +31,7 @@ _MAX_CHANGES = 12
 _IRRELEVANT = ("title",)
 
 
-def standing(request: RunRequest, recorded: RecordedRun, case: Case) -> Standing:
+def standing(request: RunRequest, recorded: Recorded[Any], case: Case) -> Standing:
     """Return whether the run of a directory is new, stopped or finished; refuse it otherwise."""
     directory = recorded.directory
     refuse_no_directory(directory)

@@ -17,11 +17,8 @@ from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.differences import NOTHING, differences
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock_check import LockCheck
-from viscontact.runs.directory.recorded_run import (
-    RecordedRun,
-    plain_case,
-    remove_restart_files,
-)
+from viscontact.runs.directory.recorded import remove_restart_files
+from viscontact.runs.directory.recorded_run import RecordedRun, plain_case
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.runs.ending import CommandError, refuse

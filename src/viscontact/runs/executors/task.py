@@ -19,7 +19,6 @@ from viscontact.runs.execution.case_digests import Digests, changed_parts
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.execution import Monitor, execute_checked
 from viscontact.runs.execution.stop_requests import StopRequests
-from viscontact.runs.forecast import run_seconds
 from viscontact.runs.processes.child import Child
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED, RunRequest
@@ -155,7 +154,7 @@ def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Outc
     try:
         with ONE_AT_A_TIME:
             checked = checked_run(replace(request, output=directory, quiet=True))
-            if run_seconds(checked.recorded.run, errors=checked.recorded.errors) <= LONGEST_WARM:
+            if checked.recorded.seconds <= LONGEST_WARM:
                 execute_checked(checked, Monitor(stops, _ignore, _no_progress))
                 return Outcome("done", DONE)
         return _in_process(checked, stops)

@@ -9,6 +9,7 @@ from os import stat_result
 from typing import Any
 
 from viscontact.run_files import PROGRESS_NAME
+from viscontact.runs.directory.progress_log import reached_in
 from viscontact.runs.processes.job import Job, Standing
 
 
@@ -16,7 +17,8 @@ class Course:
     """Progress of a run, made before its process is started."""
 
     def __init__(self, job: Job) -> None:
-        self.instants, self.time = 0, 0.0  # number of finished instants, and the last of them [s]
+        # Number of finished instants or speeds, and the last of them [s] or [m/s].
+        self.instants, self.time = 0, 0.0
         # Lines of the progress log of the first and last instant; empty without any.
         self.first: Mapping[str, Any] = {}
         self.last: Mapping[str, Any] = {}
@@ -49,7 +51,7 @@ class Course:
             if newline:
                 first = self.first if self._read else _line(whole.partition(b"\n")[0])
                 last = _line(whole.rpartition(b"\n")[2])
-                self.first, self.last, self.time = first, last, float(last["time"])
+                self.first, self.last, self.time = first, last, reached_in(last)
                 self._read += len(whole) + 1
                 self.instants += whole.count(b"\n") + 1
 
@@ -64,5 +66,5 @@ class Course:
 def _line(text: bytes) -> dict[str, Any]:
     """Parse a line; the caller suppresses the errors of one that is damaged."""
     found: dict[str, Any] = json.loads(text)
-    float(found["time"])
+    reached_in(found)
     return found

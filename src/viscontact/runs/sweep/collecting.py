@@ -46,8 +46,8 @@ def write_joint_result(
 
 
 def _write_scalars(file: netCDF4.Dataset, layout: JointLayout, progress: Progress) -> None:
-    if layout.time_dim not in file.dimensions:
-        file.createDimension(layout.time_dim, layout.steps)
+    if layout.row_dim not in file.dimensions:
+        file.createDimension(layout.row_dim, layout.steps)
     for name in layout.names:
         _create(file, name, layout.scalar_dims, layout.attributes(name), layout.beside)
     for runs, values in layout.blocks() if layout.steps else ():

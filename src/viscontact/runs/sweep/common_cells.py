@@ -23,6 +23,7 @@ from viscontact.runs.sweep.designs import Design
 from viscontact.runs.sweep.extremes import extreme_rows
 from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.simulation.setup import RunSetup
+from viscontact.steady.preparation import SteadySetup
 from viscontact.units.formatting import format_quantity
 
 #: Key of the case, in its section `grid`.
@@ -92,9 +93,14 @@ def common_cells(
     return CommonCells((dx, dy), all(_is_affordable(run, (dx, dy), available) for run in runs))
 
 
-def _is_affordable(run: RunSetup, cell: tuple[float, float], available: float) -> bool:
+def _is_affordable(
+    run: RunSetup | SteadySetup, cell: tuple[float, float], available: float
+) -> bool:
     """Test whether a run on smaller cells fits into the limit and into some memory [bytes]."""
     before = math.prod(run.grid.shape)
     now = math.prod(size / length for size, length in zip(run.grid.size, cell, strict=True))
-    arrays = (resources.run_memory(run) - resources.PROGRAM) * now / before
+    memory = (
+        resources.curve_memory(run) if isinstance(run, SteadySetup) else resources.run_memory(run)
+    )
+    arrays = (memory - resources.PROGRAM) * now / before
     return now <= max(before, MOST_CELLS) and resources.PROGRAM + arrays < available

@@ -1,4 +1,4 @@
-"""Layout of the joint result of a sweep: dimensions, coordinates, instants and states."""
+"""Layout of the joint result of a sweep: dimensions, coordinates, rows and states."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from viscontact import __version__
 from viscontact.results.variables import (
-    COORDINATES,
+    AXES,
     ERRORS,
     OUTCOME_FLAGS,
     scalar_attributes,
@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 #: Called with the numbers of finished and of all runs.
 Progress = Callable[[int, int], None]
 
-#: Dimension of the instants of runs with different times.
+#: Dimension of the rows of runs with different times or speeds.
 STEP = "step"
 #: Memory for scalars that are read at once [bytes].
 _BLOCK = 2**24
@@ -43,16 +43,17 @@ class JointLayout:
     runs: list[SweepRun]
     axes: SweepAxes
     states: list[RunState]
-    times: Floats | None  # common instants of all finished runs [s]; None if they differ
-    steps: int  # largest number of instants of a run
+    over: str  # "time", or "speed" for runs in steady motion
+    rows: Floats | None  # common instants [s] or speeds [m/s]; None if they differ
+    steps: int  # largest number of rows of a run
     columns: tuple[str, ...]  # names of the scalars and their errors that any run states
     fields: Mapping[str, Any] | None  # description of the fields that all finished runs share
     has_fields: bool  # True if any run has fields
 
     @property
-    def time_dim(self) -> str:
-        """Dimension of the instants."""
-        return STEP if self.times is None else "time"
+    def row_dim(self) -> str:
+        """Dimension of the instants or speeds."""
+        return STEP if self.rows is None else self.over
 
     @property
     def done(self) -> list[int]:
@@ -67,7 +68,7 @@ class JointLayout:
     @property
     def scalar_dims(self) -> tuple[str, ...]:
         """Dimensions of a scalar."""
-        return (*self.axes.dims, self.time_dim)
+        return (*self.axes.dims, self.row_dim)
 
     @property
     def scalar_shape(self) -> tuple[int, ...]:
@@ -76,23 +77,23 @@ class JointLayout:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Variables over the instants: the times where these differ, and `columns`."""
-        return self.columns if self.times is not None else ("time", *self.columns)
+        """Variables over the rows: times or speeds where these differ, and `columns`."""
+        return self.columns if self.rows is not None else (self.over, *self.columns)
 
     @property
     def beside(self) -> list[str]:
         """Coordinates of a scalar that are no dimensions."""
         found = [name for name in self.axes.coords if name not in self.axes.dims]
-        return [*found, "time"] if self.times is None else found
+        return [*found, self.over] if self.rows is None else found
 
     def place(self, run: int) -> Path:
         """Directory of a run."""
         return self.directory / self.runs[run].directory
 
     def attributes(self, name: str) -> dict[str, Any]:
-        """Attributes of a scalar, of its error, or of the time."""
-        if name == "time":
-            return COORDINATES["time"].attributes
+        """Attributes of a scalar, of its error, or of time or speed."""
+        if name in AXES:
+            return AXES[name].attributes
         if name in ERRORS:
             return ERRORS[name].attributes
         found = scalar_attributes(name, errors=any(each in ERRORS for each in self.columns))
@@ -116,8 +117,9 @@ class JointLayout:
             for name, (values, title) in about.items()
         }
         frame = xr.Dataset(texts, self.axes.coords, self._about)
-        if self.times is not None:
-            frame = frame.assign_coords(time=("time", self.times, self.attributes("time")))
+        if self.rows is not None:
+            values = (self.over, self.rows, self.attributes(self.over))
+            frame = frame.assign_coords({self.over: values})
         return frame
 
     @property
@@ -158,22 +160,23 @@ def joint_layout(directory: str | Path, progress: Progress | None = None) -> Joi
     shared, states = _Shared(), []
     for run in runs:
         state, outline = _outlined(folder / run.directory)
+        if outline is not None and not shared.add(outline):
+            state = RunState(State.FAILED, f"it is over {outline.over}, and other runs are not")
         states.append(state)
-        if outline is not None:
-            shared.add(outline)
         if progress is not None:
             progress(run.run + 1, len(runs))
-    columns = tuple(name for name in COLUMNS[1:] if name in shared.columns)
-    times = shared.times if shared.times is not None or shared.steps else np.empty(0)
+    columns = tuple(name for name in COLUMNS if name in shared.columns and name not in AXES)
+    rows = shared.rows if shared.rows is not None or shared.steps else np.empty(0)
     fields = shared.fields
-    if fields is not None and times is None and fields["axis"] == "time":
+    if fields is not None and rows is None and fields["axis"] == shared.over:
         fields = {**fields, "axis": STEP}
     return JointLayout(
         folder,
         runs,
         sweep_axes(runs),
         states,
-        times,
+        shared.over,
+        rows,
         shared.steps,
         columns,
         fields,
@@ -192,25 +195,29 @@ def _outlined(directory: Path) -> tuple[RunState, RunOutline | None]:
 
 
 class _Shared:
-    """Instants, scalars and fields that runs share, found one run after the other."""
+    """Rows, scalars and fields that runs share, found one run after the other."""
 
     def __init__(self) -> None:
         self.steps = 0
         self.columns: set[str] = set()
-        self.times: Floats | None = None
+        self.over = "time"
+        self.rows: Floats | None = None
         self.fields: Mapping[str, Any] | None = None
         self.has_fields = False
         self._is_first = True
 
-    def add(self, outline: RunOutline) -> None:
-        """Take a run into account."""
+    def add(self, outline: RunOutline) -> bool:
+        """Take a run into account; False if it is over another quantity than the others."""
         if self._is_first:
-            self.times, self.fields = outline.times, outline.fields
-        elif self.times is not None and not np.array_equal(self.times, outline.times):
-            self.times = None
+            self.over, self.rows, self.fields = outline.over, outline.rows, outline.fields
+        elif outline.over != self.over:
+            return False
+        elif self.rows is not None and not np.array_equal(self.rows, outline.rows):
+            self.rows = None
         if self.fields != outline.fields:
             self.fields = None
         self.has_fields |= outline.fields is not None
-        self.steps = max(self.steps, outline.times.size)
+        self.steps = max(self.steps, outline.rows.size)
         self.columns |= outline.columns
         self._is_first = False
+        return True

@@ -67,9 +67,9 @@ def lazy_fields(layout: JointLayout) -> xr.Dataset:
     with opened(layout.place(layout.done[0]) / RESULT_NAME, "r") as file:
         coords = {
             name: (name, np.asarray(file.variables[name][:]), _attributes(file, name))
-            for name in ("x", "y", *(() if axis in ("time", "step") else (axis,)))
+            for name in ("x", "y", *(() if axis in (layout.over, "step") else (axis,)))
         }
-    rows = layout.steps if axis in ("time", "step") else len(described["instants"])
+    rows = layout.steps if axis in (layout.over, "step") else len(described["instants"])
     arrays = {}
     for name in described["names"]:
         dims = (axis, "x", "y") if name in FIELDS else (axis, "x")

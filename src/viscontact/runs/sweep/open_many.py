@@ -35,10 +35,11 @@ def open_many(directory: str | Path, *, tree: bool = False) -> xr.Dataset | xr.D
         runs are all combinations of their values; otherwise the dimension is ``run``, along which
         the keys are coordinates. Coordinates are numbers in SI with the attribute ``units``, or
         text. Runs with common instants share the dimension ``time``. Others have the dimension
-        ``step`` and the coordinate ``time`` over both, filled up with NaN; nothing is
-        interpolated. The variables ``state`` (waiting, running, stopped, failed or done) and
-        ``message`` belong to each run; scalars and fields are NaN unless it is done. Fields are
-        included if all finished runs store them at the same instants on the same grid. If any run
+        ``step`` and the coordinate ``time`` over both, filled up with NaN; nothing is interpolated.
+        In steady motion ``speed`` takes the place of ``time``. The variables ``state`` (waiting,
+        running, stopped, failed or done) and ``message`` belong to each run; scalars and fields are
+        NaN unless it is done. Fields are included if all finished runs store them at the same
+        instants on the same grid. If any run
         was computed with settings of its own, ``changed`` has them as text, empty for the others.
 
     Raises
@@ -87,4 +88,4 @@ def _with_scalars(layout: JointLayout) -> xr.Dataset:
         for name, array in whole.items()
     }
     ds = layout.frame().assign(scalars)
-    return ds.set_coords("time") if "time" in ds else ds
+    return ds.set_coords(layout.over) if layout.over in ds else ds

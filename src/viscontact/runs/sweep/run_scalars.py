@@ -12,22 +12,25 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.results.variables import ERRORS, SCALARS
+from viscontact.results.variables import AXES, ERRORS, SCALARS
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import described_fields, opened
+from viscontact.runs.directory.progress_log import reached_in
 from viscontact.runs.sweep.states import last_line
 from viscontact.state import Outcome
 
 #: Columns of a table of scalars.
-COLUMNS = ("time", *SCALARS, *ERRORS)
+COLUMNS = (*AXES, *SCALARS, *ERRORS)
+_FIRST = {f'{{"{name}"'.encode() for name in AXES}
 _OUTCOMES = {outcome.name.lower(): outcome.value for outcome in Outcome}
 
 
 @dataclass(frozen=True)
 class RunOutline:
-    """Instants of a finished run, and what its result holds."""
+    """Instants or speeds of a finished run, and what its result holds."""
 
-    times: NDArray[np.float64]  # [s]
+    over: str  # "time" or "speed"
+    rows: NDArray[np.float64]  # instants [s] or speeds [m/s]
     columns: frozenset[str]  # those of `COLUMNS` that the result states
     fields: dict[str, Any] | None  # as `described_fields` returns it
 
@@ -38,15 +41,17 @@ def run_outline(directory: Path) -> RunOutline:
     with suppress(OSError, ValueError, LookupError, TypeError):  # then the result is the source
         if end.get("complete"):
             with (directory / PROGRESS_NAME).open("rb") as lines:
-                times = np.array([_time(line) for line in lines])
-            return RunOutline(times, frozenset(set(COLUMNS) & set(end)), end.get("fields"))
+                rows = np.array([_row_value(line) for line in lines])
+            over = next(name for name in AXES if name in end)
+            return RunOutline(over, rows, frozenset(set(COLUMNS) & set(end)), end.get("fields"))
     with opened(directory / RESULT_NAME, "r") as file:
-        times = np.asarray(file.variables["time"][:], dtype=np.float64)
-        return RunOutline(times, frozenset(_stored(file)), described_fields(file))
+        over = _axis_of(file)
+        rows = np.asarray(file.variables[over][:], dtype=np.float64)
+        return RunOutline(over, rows, frozenset(_stored(file)), described_fields(file))
 
 
 def run_scalars(directory: Path) -> NDArray[np.float64]:
-    """Read the scalars of a finished run: a row an instant, with `COLUMNS`, in SI units.
+    """Read the scalars of a finished run: a row an instant or speed, `COLUMNS` in SI units.
 
     NaN where the result does not state a scalar. OSError or ValueError if it cannot be read.
     """
@@ -57,13 +62,17 @@ def run_scalars(directory: Path) -> NDArray[np.float64]:
     return _of_result(directory / RESULT_NAME)
 
 
-def _time(line: bytes) -> float:
+def _row_value(line: bytes) -> float:
     if not line.endswith(b"}\n"):
         raise ValueError("the line is not complete")
-    # The time comes first; to parse the whole line takes thirty times as long.
+    # It comes first; to parse the whole line takes thirty times as long.
     name, _, rest = line[:64].partition(b": ")
     number = rest.partition(b",")[0]
-    return float(number if name == b'{"time"' else json.loads(line)["time"])
+    return float(number) if name in _FIRST else reached_in(json.loads(line))
+
+
+def _axis_of(file: netCDF4.Dataset) -> str:
+    return next((name for name in AXES if name in file.dimensions), "time")
 
 
 def _row(entries: dict[str, Any]) -> list[Any]:
@@ -78,7 +87,7 @@ def _stored(file: netCDF4.Dataset) -> list[str]:
 
 def _of_result(path: Path) -> NDArray[np.float64]:
     with opened(path, "r") as file:
-        table = np.full((len(file.dimensions["time"]), len(COLUMNS)), np.nan)
+        table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
         for name in _stored(file):
             table[:, COLUMNS.index(name)] = file.variables[name][:]
     return table

@@ -16,10 +16,17 @@ from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.preparation import PreparedRun, predicted, prepared
 from viscontact.runs.resources import run_memory
+from viscontact.simulation.setup import RunSetup
 from viscontact.web.cases.coarse import coarse_settings, without_cells
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.naming import label_of, suggested_title
 from viscontact.web.workspace.problems import RequestError, case_problems, without_folder
+
+#: Why the page refuses a case of steady motion.
+_OVER_TIME_ONLY = (
+    "motion.kind: the page computes runs over time; type `viscontact run CASE.yaml` for a steady "
+    "motion"
+)
 
 
 @dataclass(frozen=True)
@@ -39,7 +46,10 @@ class CaseReader:
             whole, expected = self._last[text]
             return whole, replace(expected, available=available_memory())
         try:
-            whole = prepared(read_case_text(text, self.folder.case))
+            case = read_case_text(text, self.folder.case)
+            if case.steady is not None:
+                raise case.error(_OVER_TIME_ONLY)
+            whole = prepared(case)
             found = whole, predicted(whole)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
@@ -115,7 +125,7 @@ class CaseReader:
     ) -> tuple[str, RunEntry]:
         """Check a case, and keep it with its files as a new run; return its name and entry."""
         found, settings = self.prepared(text, quality)
-        run, case = found.run, found.case
+        run, case = _over_time(found), found.case
         title = case.title or suggested_title(case.document.data) or "Untitled case"
         entry = RunEntry(
             title=title,
@@ -163,8 +173,15 @@ def filled(value: Any) -> Any:
     return [filled(part) for part in value] if isinstance(value, list) else value
 
 
+def _over_time(found: PreparedRun) -> RunSetup:
+    """Setup of a run over time; others are refused before."""
+    assert isinstance(found.run, RunSetup)
+    return found.run
+
+
 def _steps(found: PreparedRun) -> int | None:
-    return None if found.run.problem.adaptive is not None else len(found.run.problem.instants) - 1
+    problem = _over_time(found).problem
+    return None if problem.adaptive is not None else len(problem.instants) - 1
 
 
 def _data(case: Case) -> set[Path]:

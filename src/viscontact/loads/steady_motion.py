@@ -1,0 +1,51 @@
+"""Steady motion: constant speeds along an axis, under a constant load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.loads.history import LoadHistory, LoadPoint
+from viscontact.units.formatting import format_quantity
+
+
+@dataclass(frozen=True)
+class SteadyMotion:
+    """Speeds [m/s] of a body towards + along an axis; `rolling` as of `Travel`."""
+
+    speeds: tuple[float, ...]
+    along: str
+    rolling: bool | None
+
+    def __post_init__(self) -> None:
+        twice = [speed for speed in self.speeds if self.speeds.count(speed) > 1]
+        if twice:
+            raise ValueError(
+                f"speed: each speed is needed once, got {format_quantity(twice[0], 'm/s')} twice"
+            )
+
+
+def constant_load(load: LoadHistory) -> LoadPoint:
+    """Return the load of a history that does not change after time 0.
+
+    ValueError for a load that changes, or a force that is not positive.
+    """
+    held = load.at(0.0)
+    later = [
+        load.at(float(time), side=side)
+        for time in load.kinks
+        for side in ("left", "right")
+        if time > 0 or side == "right"  # before time 0 there is no load
+    ]
+    if np.isfinite(load.longest_step) or any(point != held for point in later):
+        raise ValueError(
+            "load: a steady motion has a constant load, and this one changes in time; use a step "
+            "of force or approach"
+        )
+    if held.force is not None and held.force <= 0:
+        raise ValueError(
+            "load: the force must be positive in steady motion, got "
+            f"{format_quantity(held.force, 'N')}"
+        )
+    return held

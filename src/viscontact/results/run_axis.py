@@ -1,0 +1,91 @@
+"""Axis of a result: time, or speed in steady motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.units.formatting import format_quantity
+
+
+@dataclass(frozen=True)
+class RunAxis:
+    """Quantity in which the states of a run differ.
+
+    Examples
+    --------
+    >>> TIME.place(2.0), SPEED.place(0.5)
+    ('t = 2 s', '500 mm/s')
+    """
+
+    name: Literal["time", "speed"]  # dimension of the scalars
+    unit: str  # SI
+    row: str  # name of a state in sentences
+    symbol: str  # before a value
+
+    def values(self, results: xr.Dataset) -> NDArray[np.float64]:
+        """Instants [s] or speeds [m/s] of a result."""
+        return np.asarray(results[self.name].values, dtype=np.float64)
+
+    def quantity(self, value: float, digits: int = 4) -> str:
+        """Format an instant or a speed with its unit."""
+        return format_quantity(float(value), self.unit, digits)
+
+    def place(self, value: float, digits: int = 4) -> str:
+        """Format an instant or a speed as it stands in sentences."""
+        return f"{self.symbol}{self.quantity(value, digits)}"
+
+
+TIME = RunAxis("time", "s", "instant", "t = ")
+SPEED = RunAxis("speed", "m/s", "speed", "")
+
+
+def run_axis(results: xr.Dataset) -> RunAxis:
+    """Return the axis of a result.
+
+    Examples
+    --------
+    >>> run_axis(xr.Dataset({"force": ("speed", [1.0])})).row
+    'speed'
+    """
+    return SPEED if "speed" in results.dims else TIME
+
+
+def require_time(results: xr.Dataset, figure: str) -> None:
+    """Raise ValueError for a result of steady motion, which has nothing over time.
+
+    Examples
+    --------
+    >>> require_time(xr.Dataset({"force": ("speed", [1.0])}), "history")
+    Traceback (most recent call last):
+    ...
+    ValueError: history: shows a run over time, and this result is of steady motion, over speed; \
+draw friction, motion-profile, pressure-map or pressure-profile
+    """
+    if run_axis(results) is SPEED:
+        raise ValueError(
+            f"{figure}: shows a run over time, and this result is of steady motion, over speed; "
+            "draw friction, motion-profile, pressure-map or pressure-profile"
+        )
+
+
+def law_times(results: xr.Dataset) -> NDArray[np.float64]:
+    """Times at which the law of a run's material matters [s].
+
+    Those of its states; in steady motion those in which the contact is passed.
+
+    Examples
+    --------
+    >>> passed = {"contact_width": ("speed", [0.02, 0.01])}
+    >>> law_times(xr.Dataset(passed, {"speed": [1.0, 2.0]}, {"along": "y"})).tolist()
+    [0.005, 0.02]
+    """
+    axis = run_axis(results)
+    if axis is TIME:
+        return axis.values(results)
+    extent = "contact_length" if results.attrs.get("along") == "x" else "contact_width"
+    return np.sort(results[extent].values / axis.values(results))

@@ -1,0 +1,65 @@
+"""Forecast of a run over speed: memory, run time, and the estimated contact."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
+from viscontact.runs.forecast import Forecast, convolution_time
+from viscontact.runs.machine.memory import available_memory
+from viscontact.runs.resources import curve_memory
+from viscontact.steady.curve import run_warnings
+from viscontact.steady.preparation import SteadySetup, estimate_at
+from viscontact.units.formatting import format_quantity
+
+#: Time at a speed in times of a plain convolution on its grid, with that of the coarser contact,
+#: and the overhead of a speed [s]; measured on balls and rollers at a tolerance of 1e-6.
+AT_A_SPEED, SPEED_OVERHEAD = 150.0, 0.05
+
+
+def steady_forecast(run: SteadySetup, *, errors: bool) -> Forecast:
+    """Return the forecast of a checked run; its contact is that of the slowest speed.
+
+    ValueError if the coarse solve finds no contact that can carry the load.
+    """
+    speed = float(run.problem.speeds.min())
+    found, grid = _estimate(run, speed), run.grids[int(run.problem.speeds.argmin())]
+    extents, reach = (found.length, found.width), found.reach_from(grid.centre)
+    along, across = (extent / cell for extent, cell in zip(extents, grid.cell_size, strict=True))
+    chosen = run.problem.contact.automatic_grid is not None
+    return Forecast(
+        memory=curve_memory(run),
+        available=available_memory(),
+        seconds=curve_seconds(run, errors=errors),
+        estimate=found,
+        compliance=f"creep while half the contact passes at {format_quantity(speed, 'm/s')}",
+        cells_along=along,
+        cells_across=across,
+        fits=chosen
+        or all(
+            repeats or far < size / 2
+            for far, size, repeats in zip(reach, grid.size, grid.periodic, strict=True)
+        ),
+        warnings=run_warnings(run),
+    )
+
+
+def curve_seconds(run: SteadySetup, *, errors: bool) -> float:
+    """Run time on this machine, within a factor of two or three [s]; `errors` as in the run."""
+    factor = AT_A_SPEED if errors else AT_A_SPEED / 1.25  # a contact on a quarter of the cells
+    counts = Counter(grid.shape for grid in run.grids)
+    grids = {grid.shape: grid for grid in run.grids}
+    return sum(
+        count * (factor * convolution_time(grids[shape]) + SPEED_OVERHEAD)
+        for shape, count in counts.items()
+    )
+
+
+def _estimate(run: SteadySetup, speed: float) -> ContactEstimate:
+    """Elastic contact with the compliance of the time in which half of it is passed."""
+    problem, grid = run.problem, run.grids[0]
+    if not any(grid.periodic):
+        return estimate_at(problem, speed)
+    time = grid.size[problem.axis] / (2 * speed)
+    compliance = float(problem.contact.compliance(time))
+    return estimate_period(problem.contact.indenter, compliance, problem.point, grid)

@@ -1,0 +1,93 @@
+"""What a result over speed records: the problem, states on a common grid, and error bars."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact import __version__
+from viscontact.grid import Grid
+from viscontact.results.descriptions import describe
+from viscontact.results.variables import scalars_with_error
+from viscontact.state import ContactState
+from viscontact.steady.preparation import SteadySetup
+from viscontact.steady.problem import SteadyProblem
+
+
+def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, NDArray[np.float64]]:
+    """Error bars of each scalar over the speeds, in its unit."""
+    names = scalars_with_error(over="speed")
+    return {name: np.array([each[name] for each in bars]) for name in names}
+
+
+def on_grid(state: ContactState, grid: Grid) -> ContactState:
+    """A state on the grid of all speeds: beyond its own, gap and displacement are NaN."""
+    if state.grid == grid or not state.pressure.size:
+        return replace(state, grid=grid)
+    return replace(
+        state,
+        grid=grid,
+        pressure=_embedded(state.pressure, state.grid, grid, 0.0),
+        gap=_embedded(state.gap, state.grid, grid, np.nan),
+        displacement=_embedded(state.displacement, state.grid, grid, np.nan),
+        line_load=_embedded(state.line_load, state.grid, grid, 0.0),
+    )
+
+
+def _embedded(
+    field: NDArray[np.float64], grid: Grid, wider: Grid, beyond: float
+) -> NDArray[np.float64]:
+    """A field on the grid of all speeds, with a value beyond its own."""
+    whole = np.full(wider.shape[: field.ndim], beyond)
+    first = [
+        round((own[0] - all_[0]) / cell)
+        for own, all_, cell in zip(
+            (grid.x, grid.y), (wider.x, wider.y), grid.cell_size, strict=True
+        )
+    ]
+    block = tuple(
+        slice(start, start + count) for start, count in zip(first, field.shape, strict=False)
+    )
+    whole[block] = field
+    return whole
+
+
+def steady_attributes(run: SteadySetup, grid: Grid) -> dict[str, Any]:
+    """Attributes that every result of a run carries, on a grid."""
+    problem = run.problem
+    return {
+        "Conventions": "CF-1.11",
+        "source": f"viscontact {__version__}",
+        "version": __version__,
+        "case": json.dumps(describe_steady_problem(problem, grid)),
+        "tolerance": problem.contact.tolerance,
+        "along": problem.along,
+        "transforms": run.transforms,
+        "memory_error": run.solver.law.error,
+        "inversion_error": problem.contact.compliance.inversion_error,
+    }
+
+
+def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[str, Any]:
+    """Describe a problem of steady motion, solved on a grid, as plain data."""
+    contact = problem.contact
+    return {
+        "indenter": describe(contact.indenter),
+        "material": describe(contact.material),
+        "indenter_material": describe(contact.indenter_material),
+        "load": describe(contact.load),
+        "motion": {
+            "kind": "steady",
+            "speed": describe(problem.speeds),
+            "along": problem.along,
+            "rolling": problem.rolling,
+        },
+        "grid": describe(grid),
+        "automatic": describe(contact.automatic_grid),
+        "tolerance": contact.tolerance,
+    }
