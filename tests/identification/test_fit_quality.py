@@ -10,8 +10,8 @@ import yaml
 
 from viscontact.errors import AccuracyWarning
 from viscontact.identification import Fit, fit_dynamic, fit_relaxation, material_section
-from viscontact.identification.quality import Reason
 from viscontact.laws import RelaxationSeries
+from viscontact.series_fits.quality import Reason
 
 OMEGA = np.geomspace(1e-4, 1e4, 49)
 T = np.geomspace(1e-3, 1e5, 49)

@@ -23,7 +23,7 @@ PACKAGE = Path(viscontact.__file__).parent
 FLOORS = (
     ("errors", "display", "fourier", "run_files", "units", "examples"),
     ("reference", "grid", "indenters", "laws", "loads", "tables"),
-    ("materials", "halfspace", "surfaces", "state"),
+    ("materials", "halfspace", "surfaces", "state", "series_fits"),
     ("contact", "time_integration", "identification"),
     ("problem",),
     ("checks", "meshing", "results", "case"),

@@ -1,6 +1,5 @@
 """Identification of laws from creep, relaxation, oscillation and indentation measurements."""
 
-from viscontact.identification.fit import Fit
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.isotherm import Isotherm
@@ -9,11 +8,12 @@ from viscontact.identification.master_curve import (
     build_master_curve,
     fit_master_curve,
 )
-from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
-from viscontact.identification.quality import Misfit, Reason
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.section import material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+from viscontact.series_fits.fit import Fit
+from viscontact.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.series_fits.quality import Misfit, Reason
 
 __all__ = [
     "Fit",

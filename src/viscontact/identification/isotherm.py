@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.display import Displayable
-from viscontact.identification.columns import positive_column, require_rows
 from viscontact.identification.overlap import Curve
+from viscontact.series_fits.columns import positive_column, require_rows
 
 Array = NDArray[np.float64]
 

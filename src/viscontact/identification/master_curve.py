@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.display import Displayable
-from viscontact.identification.columns import positive_column, require_trend
-from viscontact.identification.fit import Fit
 from viscontact.identification.isotherm import KINDS_OF_TEST, Isotherm
 from viscontact.identification.overlap import log_shift
-from viscontact.identification.prony import FitOptions
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
-from viscontact.identification.table_fit import fit_measured
 from viscontact.laws import Shift, TabulatedShift
+from viscontact.series_fits.columns import positive_column, require_trend
+from viscontact.series_fits.fit import Fit
+from viscontact.series_fits.prony import FitOptions
+from viscontact.series_fits.table_fit import fit_measured
 
 Array = NDArray[np.float64]
 

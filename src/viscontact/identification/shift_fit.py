@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
-from viscontact.identification.columns import positive_column, require_rows
 from viscontact.laws import WLF, Arrhenius
 from viscontact.laws.time_temperature import GAS_CONSTANT
+from viscontact.series_fits.columns import positive_column, require_rows
 
 # Starting values: the universal constants.
 _UNIVERSAL = (17.44, 51.6)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from viscontact.identification.prony import FitOptions
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.series_fits.prony import FitOptions
 from viscontact.tables import Table
 from viscontact.units.parsing import parse_quantity
 

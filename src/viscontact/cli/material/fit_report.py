@@ -25,9 +25,9 @@ from viscontact.identification import (
     fit_master_curve,
     material_section,
 )
-from viscontact.identification.table_fit import fit_measured, measured_columns
 from viscontact.laws import WLF
 from viscontact.materials.material import Material
+from viscontact.series_fits.table_fit import fit_measured, measured_columns
 from viscontact.tables import Table, read_table
 from viscontact.units.temperatures import in_celsius
 

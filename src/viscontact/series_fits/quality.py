@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.identification.spectrum import Observed, Spectrum, dense_spectrum
+from viscontact.series_fits.spectrum import Observed, Spectrum, dense_spectrum
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ class Misfit:
     Examples
     --------
     >>> import warnings
-    >>> from viscontact.identification.prony import fit_creep
+    >>> from viscontact.series_fits.prony import fit_creep
     >>> t = np.geomspace(1.0, 1e6, 25)
     >>> with warnings.catch_warnings():
     ...     warnings.simplefilter("ignore")

@@ -8,8 +8,8 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.identification.fit import Fit
-from viscontact.identification.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
+from viscontact.series_fits.fit import Fit
+from viscontact.series_fits.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
 from viscontact.tables import Table
 
 Array = NDArray[np.float64]

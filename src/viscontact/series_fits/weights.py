@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from viscontact.identification.quality import residuals_alone
-from viscontact.identification.spectrum import Observed
+from viscontact.series_fits.quality import residuals_alone
+from viscontact.series_fits.spectrum import Observed
 from viscontact.units.numbers import as_real
 
 _LARGEST_RATIO = 30.0

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
-from viscontact.identification.quality import Misfit
 from viscontact.laws import CreepSeries, RelaxationSeries
+from viscontact.series_fits.quality import Misfit
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ class Fit(Displayable):
 
     Examples
     --------
-    >>> from viscontact.identification.prony import fit_creep
+    >>> from viscontact.series_fits.prony import fit_creep
     >>> times = np.geomspace(0.1, 100.0, 13)
     >>> fit = fit_creep(times, 1.0 - 0.5 * np.exp(-times / 5.0), data="deviatoric")
     >>> fit.terms, round(float(fit.law(1e9)), 3)

@@ -10,24 +10,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.errors import AccuracyWarning
-from viscontact.identification.columns import positive_column, require_rows, require_trend
-from viscontact.identification.conventions import CREEP, MODULI, bulk_arguments, shear_law
-from viscontact.identification.fit import Fit
-from viscontact.identification.quality import Misfit, misfit_of
-from viscontact.identification.responses import (
+from viscontact.laws import CreepSeries, RelaxationSeries
+from viscontact.series_fits.columns import positive_column, require_rows, require_trend
+from viscontact.series_fits.conventions import CREEP, MODULI, bulk_arguments, shear_law
+from viscontact.series_fits.fit import Fit
+from viscontact.series_fits.quality import Misfit, misfit_of
+from viscontact.series_fits.responses import (
     CreepResponse,
     DynamicResponse,
     RelaxationResponse,
 )
-from viscontact.identification.spectrum import (
+from viscontact.series_fits.spectrum import (
     Observed,
     Spectrum,
     parsimonious_spectrum,
     spectrum_of,
     unweighted,
 )
-from viscontact.identification.weights import given_weights, scatter_weights, weighted
-from viscontact.laws import CreepSeries, RelaxationSeries
+from viscontact.series_fits.weights import given_weights, scatter_weights, weighted
 from viscontact.units.numbers import whole
 
 _LEAST_ROWS = 3
@@ -104,7 +104,7 @@ def fit_creep(
     -----
     Phi(t) = J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t with J_0, J_i, φ >= 0 minimises the sum of
     squares of the *relative* residuals. The choice of the terms is described in
-    `viscontact.identification.spectrum`.
+    `viscontact.series_fits.spectrum`.
 
     Examples
     --------

@@ -20,10 +20,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares, nnls
 
-from viscontact.identification.responses import Response
+from viscontact.series_fits.responses import Response
 
 Array = NDArray[np.float64]
 
@@ -128,7 +128,7 @@ def _descended(observed: Observed, start: Array, gain: float) -> Spectrum:
     if start.size == 0:
         return _strengths(observed, np.exp(start))[0]
     lowest, highest = np.log(observed.response.reach)
-    ended = least_squares(
+    ended = scipy.optimize.least_squares(
         lambda log_times: _strengths(observed, np.exp(log_times))[1],
         start,
         jac=lambda log_times: _jacobian(observed, log_times),
@@ -146,7 +146,9 @@ def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
     columns = observed.columns(times)
     lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
     # NNLS refuses a matrix without columns, that of a fluid without terms.
-    solved = nnls(columns / lengths, observed.weights)[0] if lengths.size else lengths
+    solved = (
+        scipy.optimize.nnls(columns / lengths, observed.weights)[0] if lengths.size else lengths
+    )
     strengths = solved / lengths
     residuals = columns @ strengths - observed.weights
     fixed, free = np.split(strengths, [columns.shape[1] - times.size])

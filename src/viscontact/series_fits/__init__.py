@@ -1,0 +1,1 @@
+"""Fits of exponential series to creep, relaxation and oscillation tests."""
