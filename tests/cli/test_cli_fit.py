@@ -90,12 +90,22 @@ def test_a_fit_that_misses_its_data_warns_and_says_so_in_the_written_law(
     assert warning.startswith("warning: the fit misses storage by ")
     assert "Kramers-Kronig" in warning
     assert "weights of the relative residuals: storage " in printed.out
-    comment = out.read_text(encoding="utf-8")
-    assert comment.startswith("material:\n  # warning: the fit misses storage by ")
-    assert isinstance(read_material(out).law, RelaxationSeries)
+    comment = "material:\n  # misfit: no series has such storage and loss together\n"
+    assert out.read_text(encoding="utf-8").startswith(comment)
+    assert f"warning: {read_material(out).warning}" == warning
     assert main(["fit", str(relaxation), *command]) == 0
     assert capsys.readouterr().err == ""
     assert "warning" not in out.read_text(encoding="utf-8")
+
+
+def test_a_row_that_is_wrong_is_named_by_its_line_also_in_the_written_law(tmp_path, capsys):
+    modulus = E.relaxation(T) / 1e6
+    modulus[10] *= 1.5
+    file = written(tmp_path / "r.csv", ("time [s]", "E [MPa]"), T, modulus)
+    out = tmp_path / "m.yaml"
+    assert main(["fit", str(file), "--poisson-ratio", "0.3", "--yaml", str(out)]) == 0
+    assert "such as modulus, line 12 of r.csv, or smooth" in capsys.readouterr().err
+    assert "such as modulus, line 12 of r.csv, or smooth" in read_material(out).warning
 
 
 def test_weights_are_those_given_for_a_table_and_for_a_master_curve(

@@ -63,6 +63,14 @@ def read_document(path: Path) -> Document:
     return document_of(_read_text(path), path)
 
 
+def with_section(document: Document) -> Document:
+    """Put keys of a material at the top level under `material`."""
+    if "law" not in document.data or "material" in document.data:
+        return document
+    lines = {("material", *key): line for key, line in document.lines.items()}
+    return Document(document.path, document.source, {"material": document.data}, lines)
+
+
 def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
     """Read the text of a case file, YAML or by the path's suffix TOML."""
     try:

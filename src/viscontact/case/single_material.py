@@ -7,24 +7,15 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from pydantic import ConfigDict, ValidationError
+from pydantic import ValidationError
 
-from viscontact.case.document import Document, read_document
+from viscontact.case.document import Document, read_document, with_section
 from viscontact.case.error_messages import problem
 from viscontact.case.errors import CaseError
 from viscontact.case.materials.base import Medium
-from viscontact.case.materials.material import AnyMaterial
-from viscontact.case.quantities import Section
+from viscontact.case.materials.material import MaterialAlone
 from viscontact.materials import library
 from viscontact.materials.material import Material
-
-
-class _Alone(Section):
-    """Case file of which only the material is read."""
-
-    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
-
-    material: AnyMaterial
 
 
 def shipped_material(name: str) -> Material:
@@ -52,7 +43,7 @@ def shipped_material(name: str) -> Material:
     """
     if name not in library.names():
         raise ValueError(library.unknown_name(str(name)))
-    return _Alone.model_validate({"material": name}).material.built
+    return MaterialAlone.model_validate({"material": name}).material.built
 
 
 def read_material(path: str | PathLike[str]) -> Material:
@@ -74,7 +65,7 @@ def read_material(path: str | PathLike[str]) -> Material:
     CaseError
         If there is none, or it is not valid; with all problems, each with its line and key.
     """
-    document = _as_section(read_document(Path(path)))
+    document = with_section(read_document(Path(path)))
     if "material" not in document.data:
         raise CaseError(
             f"{path}: holds no material; a case file has a section material: with its law"
@@ -115,15 +106,7 @@ def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medi
 def _alone(document: Document, folder: Path) -> Medium:
     try:
         context = {"folder": str(folder)}
-        return _Alone.model_validate(document.data, context=context).material
+        return MaterialAlone.model_validate(document.data, context=context).material
     except ValidationError as error:
         found = dict.fromkeys(problem(document, each) for each in error.errors())
         raise CaseError(*found) from error
-
-
-def _as_section(document: Document) -> Document:
-    """Put keys of a material at the top level under `material`."""
-    if "law" not in document.data or "material" in document.data:
-        return document
-    lines = {("material", *key): line for key, line in document.lines.items()}
-    return Document(document.path, document.text, {"material": document.data}, lines)

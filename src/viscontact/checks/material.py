@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from viscontact.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
 from viscontact.units.formatting import format_quantity
 
 #: Tolerated negative loss modulus of a table, as a part of the modulus; frequencies examined.
@@ -87,6 +90,19 @@ def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
             f"{inversion_error:.0%} (estimated); smooth the modulus or add rows, or give creep"
         )
     return warnings
+
+
+def origin_warnings(bodies: Sequence[Material]) -> dict[str, str]:
+    """Warn of laws that come with a warning, such as a fit that misses its data.
+
+    Examples
+    --------
+    >>> from viscontact.laws import Elastic
+    >>> origin_warnings([Material(Elastic(1e9), 0.4, warning="the fit misses storage by 20 %")])
+    {'origin': 'the fit misses storage by 20 %'}
+    """
+    said = dict.fromkeys(body.warning for body in bodies if body.warning)
+    return {"origin": "; ".join(said)} if said else {}
 
 
 def passivity_warnings(law: Law, end: float) -> dict[str, str]:

@@ -35,7 +35,8 @@ def material_section(fit: Fit | IndentationFit) -> str:
     -------
     str
         YAML, in the terms of the data and with six digits. Without data on the
-        volume, a comment asks for it; a misfit is a comment above the law.
+        volume, a comment asks for it. A misfit is a comment and a warning, which runs with the law
+        issue.
 
     Examples
     --------
@@ -64,10 +65,11 @@ def material_section(fit: Fit | IndentationFit) -> str:
 
 
 def _misfit(fit: Fit | IndentationFit) -> list[str]:
-    """Comment lines with the misfit of a series."""
+    """Lines with the misfit of a series, which each run with the law repeats as a warning."""
     if isinstance(fit, IndentationFit) or fit.misfit is None:
         return []
-    return wrap(f"warning: {fit.misfit.message}", 94, initial_indent="# ", subsequent_indent="# ")
+    text = wrap(fit.misfit.message, 92, break_on_hyphens=False)
+    return [f"# misfit: {fit.misfit.reason.value}", "warning: >-", *(f"  {line}" for line in text)]
 
 
 def _law(law: Law) -> list[str]:

@@ -37,6 +37,10 @@ class Material(Displayable):
     thickness : float, optional
         Thickness of the body [m]. Used for a warning only, if the half width of the contact
         exceeds a fifth of it: the body is still modelled as a half-space.
+    notes : sequence of str, optional
+        Notes on the origin of the law, such as the quality of its fit; results keep them.
+    warning : str, optional
+        Warning about the law, such as a fit that misses its data; each run issues it.
 
     Raises
     ------
@@ -57,6 +61,8 @@ class Material(Displayable):
     bulk_modulus: float | None = field(default=None, metadata={"unit": "Pa"})
     measured_until: float | None = field(default=None, metadata={"unit": "s"})
     thickness: float | None = field(default=None, metadata={"unit": "m"})
+    notes: tuple[str, ...] = field(default=(), metadata={"recorded": "if given"})
+    warning: str | None = field(default=None, metadata={"recorded": "if given"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
@@ -66,6 +72,7 @@ class Material(Displayable):
         ratio, bulk = compressibility("Material", self.poisson_ratio, self.bulk_modulus)
         store(self, poisson_ratio=ratio, bulk_modulus=bulk)
         check_fields(self, "measured_until", "thickness")
+        object.__setattr__(self, "notes", tuple(self.notes))
 
     @property
     def known_until(self) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.half_space_theory import Geometry
-from viscontact.checks.material import law_warnings, passivity_warnings
+from viscontact.checks.material import law_warnings, origin_warnings, passivity_warnings
 from viscontact.checks.motion import axle_warnings, heat_warnings, row_warnings, turn_warnings
 from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.steps import (
@@ -28,6 +28,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     """Return the warnings, by kind, that hold for a whole run: law, conversion, chosen mesh."""
     problem = run.problem
     warnings = law_warnings(run.hereditary.error, problem.compliance.inversion_error)
+    warnings |= origin_warnings(problem.bodies)
     lost = ("dissipation", "heat") if problem.motion is not None else ()
     warnings |= datum_warnings(run.grid, ("approach", "work", *lost, "loss per cycle"))
     if run.mesh is not None:

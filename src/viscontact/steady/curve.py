@@ -15,7 +15,7 @@ from viscontact.checks.half_space_theory import (
     corner_warnings,
     geometry_warnings,
 )
-from viscontact.checks.material import data_warnings, law_warnings
+from viscontact.checks.material import data_warnings, law_warnings, origin_warnings
 from viscontact.checks.mesh import cells_across_spots, mesh_warnings
 from viscontact.checks.motion import edge_warnings, free_tilt_warnings
 from viscontact.checks.periodicity import datum_warnings
@@ -256,5 +256,6 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
         | data_warnings(passed, body.measured_until)
+        | origin_warnings(body.bodies)
         | edge_warnings(along=False, across=math.isnan(force_across(problem, contact)))
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,11 @@ class Medium(Section):
         default=None,
         description="last time for which the law is known; a longer run issues a warning",
     )
+    warning: str | None = Field(
+        default=None,
+        description="warning about the law, such as that of a fit which misses its data; every run "
+        "issues it",
+    )
     thickness: Length | None = Field(
         default=None,
         description="of the body; it is computed as a half-space, and a run whose contact has a "
@@ -61,7 +67,14 @@ class Medium(Section):
             raise ValueError(
                 "give poisson_ratio (e.g. 0.38) or bulk_modulus (e.g. '4 GPa'), and only one"
             )
-        material = Material(self.build_law(), self.poisson_ratio, bulk_modulus=self.bulk_modulus)
+        material = Material(
+            self.build_law(),
+            self.poisson_ratio,
+            bulk_modulus=self.bulk_modulus,
+            measured_until=self.fitted_until,
+            notes=self.notes,
+            warning=self.warning or self.misfit,
+        )
         return self._at_temperature(material, self.shift.build() if self.shift else None)
 
     @property
@@ -75,6 +88,16 @@ class Medium(Section):
         """Notes on contents of the files that are not used."""
         return ()
 
+    @property
+    def misfit(self) -> str | None:
+        """Warning of a fit to the file of the law that misses it."""
+        return None
+
+    @property
+    def fitted_until(self) -> float | None:
+        """Last time of the data that the law was fitted to [s]; None where it was not."""
+        return None
+
     def _at_temperature(self, material: Material, shift: Shift | None) -> Material:
         """Return the material at the temperature of the run, with its known range."""
         factor = 1.0
@@ -87,14 +110,13 @@ class Medium(Section):
             factor = shift.factor(self.temperature)
         elif self.shift is not None:
             raise ValueError("shift: needs a temperature to shift to, e.g. 'temperature: 60 degC'")
-        until = self.measured_until
-        return Material(
-            material.law if factor == 1.0 else material.law.slowed(factor),
-            material.poisson_ratio,
-            bulk_modulus=material.bulk_modulus,
+        until = material.measured_until if self.measured_until is None else self.measured_until
+        return replace(
+            material,
+            law=material.law if factor == 1.0 else material.law.slowed(factor),
             # The known range of the given law is shifted with it.
             measured_until=None if until is None else factor * until,
-            thickness=self.thickness,
+            thickness=material.thickness if self.thickness is None else self.thickness,
         )
 
     @property

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
+from pydantic import (
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    ValidationError,
+)
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError
 
-from viscontact.case.materials.measured_laws import CardLaw, TableLaw
+from viscontact.case.data_file import DataFile
+from viscontact.case.document import read_document, with_section
+from viscontact.case.materials.base import Medium
+from viscontact.case.materials.measured_laws import CardLaw, FromFile, TableLaw
 from viscontact.case.materials.series_laws import CreepSeries, PowerLaw, RelaxationSeries
 from viscontact.case.materials.spring_laws import (
     Burgers,
@@ -18,10 +29,76 @@ from viscontact.case.materials.spring_laws import (
     Maxwell,
     Zener,
 )
+from viscontact.case.quantities import Section
+from viscontact.laws import Law
 from viscontact.materials import library
+from viscontact.materials.material import Material
+
+
+class LawFile(FromFile):
+    """A material section in a file, as a fit writes it; keys given here replace those in it."""
+
+    law: Literal["file"]
+    file: DataFile = Field(
+        description="YAML or TOML with a section material, or only its keys",
+        examples=["law.yaml"],
+    )
+
+    @cached_property
+    def section(self) -> Medium:
+        """The section of the file, with the keys given here."""
+        path = Path(self.file)
+        document = with_section(read_document(path))
+        section = document.data.get("material")
+        if not isinstance(section, dict):
+            raise ValueError(f"file: {path.name} has no section material: with a law")
+        shift = section.get("shift")
+        if "file" in section or (isinstance(shift, dict) and "file" in shift):
+            raise ValueError(f"file: {path.name} names another file; write its keys into the case")
+        try:
+            return MaterialAlone.model_validate({"material": section | self._given}).material
+        except ValidationError as error:
+            found = "; ".join(map(_problem, error.errors()))
+            raise ValueError(f"file: {path.name}: {found}") from error
+
+    def build_law(self) -> Law:
+        """Return the law of the file."""
+        return self.section.built.law
+
+    def build(self) -> Material:
+        """Return the material of the file, at the run's temperature."""
+        if self.shift is None:
+            return self.section.built
+        if self.section.shift is not None:
+            raise ValueError(f"shift: is given in {Path(self.file).name}; leave it out")
+        return self._at_temperature(self.section.built, self.shift.build())
+
+    @property
+    def _given(self) -> dict[str, Any]:
+        """Keys that replace those of the file, as in a case file."""
+        units = {"bulk_modulus": "Pa", "measured_until": "s", "thickness": "m"}
+        if self.shift is None:
+            units["temperature"] = "K"
+        given = {
+            key: f"{value!r} {unit}"
+            for key, unit in units.items()
+            if (value := getattr(self, key)) is not None
+        }
+        plain = {"poisson_ratio": self.poisson_ratio, "warning": self.warning}
+        return given | {key: value for key, value in plain.items() if value is not None}
+
+
+def _problem(error: ErrorDetails) -> str:
+    """Return an error in a file of the material as its key and reason."""
+    # The path begins with `material` and the name of the law, which are not keys of the problem.
+    key = ".".join(map(str, error["loc"][2:]))
+    why = str(error["ctx"]["error"]) if error["type"] == "value_error" else error["msg"]
+    return f"{key}: {why}" if key else why
 
 
 def _from_library(given: Any) -> Any:
+    if isinstance(given, dict) and "file" in given and "law" not in given:
+        return {**given, "law": "file"}
     if not isinstance(given, str):
         return given
     if given not in library.names():
@@ -52,9 +129,18 @@ AnyMaterial = Annotated[
         | FractionalMaxwell
         | FractionalZener
         | TableLaw
-        | CardLaw,
+        | CardLaw
+        | LawFile,
         Field(discriminator="law"),
     ],
     BeforeValidator(_from_library),
     _OrName(),
 ]
+
+
+class MaterialAlone(Section):
+    """Case file of which only the material is read."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
+
+    material: AnyMaterial

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -13,14 +14,19 @@ from pydantic import Field
 from viscontact import laws
 from viscontact.case.data_file import DataFile
 from viscontact.case.materials.base import Medium
+from viscontact.case.materials.oscillation import fit_note, fit_oscillation, fit_warning
 from viscontact.case.quantities import Modulus
 from viscontact.laws import Law
 from viscontact.materials.cards import Card, read_card
 from viscontact.materials.material import Material
+from viscontact.series_fits.fit import Fit
+from viscontact.series_fits.table_fit import is_oscillation
 from viscontact.tables import Table, read_table
 from viscontact.units.parsing import parse_scale
 from viscontact.units.temperatures import in_celsius
 
+# Quantities whose headings state the kind of test.
+_STATING = ("creep_compliance", "relaxation_modulus", "storage_modulus", "loss_modulus")
 # Tolerance between the temperature of a table and the one that its shift refers to [K].
 _SAME_TEMPERATURE = 1.0
 _AT_ROW = re.compile(r"\w+(?:\.from_\w+)?\.(?P<column>\w+), row (?P<row>\d+): (?P<why>.*)", re.S)
@@ -38,19 +44,21 @@ class FromFile(Medium):
 
 
 class TableLaw(FromFile):
-    """A creep compliance or relaxation modulus as measured, used at the table's own times."""
+    """A measured table: compliance or modulus at its own times, or a fit to an oscillation."""
 
     law: Literal["table"]
     file: DataFile = Field(
-        description="CSV with a header such as: time [s], creep_compliance [1/MPa]",
+        description="CSV with a header such as: time [s], creep_compliance [1/MPa]; a series is "
+        "fitted to: f [Hz], E' [MPa], E'' [MPa]",
         examples=["pmma.csv"],
     )
-    quantity: Literal["creep_compliance", "relaxation_modulus"] = Field(
-        description="quantity of the values"
+    quantity: Literal["creep_compliance", "relaxation_modulus"] | None = Field(
+        default=None, description="quantity of the values; needed where there are both"
     )
-    data: Literal["deviatoric", "shear", "uniaxial"] = Field(
-        description="compliances are deviatoric (Phi = 1/(2G)), shear (1/G) or uniaxial (1/E); "
-        "moduli shear (G) or uniaxial (E)"
+    data: Literal["deviatoric", "shear", "uniaxial"] | None = Field(
+        default=None,
+        description="kind of test, where the headings do not state it: compliances are deviatoric "
+        "(Phi = 1/(2G)), shear (1/G) or uniaxial (1/E); moduli shear (G) or uniaxial (E)",
     )
     before: Literal["first", "slope"] = Field(
         default="first", description="before the first row: its value, or its slope in log time"
@@ -74,21 +82,90 @@ class TableLaw(FromFile):
 
     def build_law(self) -> Law:
         """Return the law, from a deviatoric, shear or uniaxial table."""
-        if self.quantity == "relaxation_modulus" and self.data == "deviatoric":
+        if self.fit is not None:
+            return self.fit.law
+        table, quantity = self.table, self._quantity
+        if quantity == "relaxation_modulus" and self._data == "deviatoric":
             raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
         try:
-            table = self._chosen(read_table(self.file, self.columns, stress=self.stress)).ascending(
-                "time"
-            )
-            times, values = table["time"].tolist(), table[self.quantity].tolist()
+            times, values = table["time"].tolist(), table[quantity].tolist()
         except ValueError as error:
-            at = "" if str(error).startswith("columns: ") else "file: "
-            raise ValueError(f"{at}{error}") from error
-        self._require_test(table)
+            raise ValueError(f"file: {error}") from error
         try:
             return self._made(times, values)
         except ValueError as error:
             raise ValueError(f"file: {self._located(table, error)}") from error
+
+    @cached_property
+    def table(self) -> Table:
+        """The table, or its chosen set, checked against the other keys."""
+        try:
+            table = self._chosen(read_table(self.file, self.columns, stress=self.stress))
+            table = table.ascending("time") if "time" in table else table
+        except ValueError as error:
+            at = "" if str(error).startswith("columns: ") else "file: "
+            raise ValueError(f"{at}{error}") from error
+        self._require_test(table)
+        return table
+
+    @property
+    def _quantity(self) -> str:
+        """The given quantity, or the only one over time in the table."""
+        if self.quantity is not None:
+            return self.quantity
+        table = self.table
+        found = [name for name in ("creep_compliance", "relaxation_modulus") if name in table]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            raise ValueError(f"quantity: {table.source.name} has {' and '.join(found)}; name one")
+        raise ValueError(
+            f"file: {table.source.name}: needs a creep compliance or a relaxation modulus over "
+            f"time, or storage and loss modulus over frequency; {table.contents}"
+        )
+
+    @property
+    def _data(self) -> str:
+        """The kind of test, as given or as the headings state it."""
+        data = self.data or self.table.data
+        if data is None:
+            raise ValueError(
+                f"data: the headings of {self.table.source.name} do not state the kind of test; "
+                "give shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi)"
+            )
+        return data
+
+    @cached_property
+    def fit(self) -> Fit | None:
+        """Series fitted to an oscillation; None for a table over time."""
+        if not is_oscillation(self.table):
+            return None
+        if self.quantity is not None and self.quantity in self.table:
+            return None
+        for key in ("quantity", "before", "beyond"):
+            if getattr(self, key) != type(self).model_fields[key].default:
+                raise ValueError(
+                    f"{key}: {self.table.source.name} is an oscillation, to which a series is "
+                    "fitted; leave it out"
+                )
+        if self._data == "deviatoric":
+            raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
+        return fit_oscillation(self.table, self._data, self.poisson_ratio, self.bulk_modulus)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Note on the fit to an oscillation."""
+        return () if self.fit is None else (fit_note(self.table, self.fit),)
+
+    @property
+    def misfit(self) -> str | None:
+        """Warning of a fit that misses the table."""
+        return None if self.fit is None else fit_warning(self.table, self.fit)
+
+    @property
+    def fitted_until(self) -> float | None:
+        """Time of the lowest frequency of an oscillation [s]."""
+        return None if self.fit is None else float(1.0 / self.fit.points.min())
 
     def _made(self, times: list[float], values: list[float]) -> Law:
         options: dict[str, Any] = {"before": self.before, "beyond": self.beyond}
@@ -96,10 +173,10 @@ class TableLaw(FromFile):
             "creep_compliance": laws.TabulatedCreep,
             "relaxation_modulus": laws.TabulatedRelaxation,
         }
-        table = tables[self.quantity]
-        if self.data == "uniaxial":
+        table = tables[self._quantity]
+        if self._data == "uniaxial":
             law = table.from_uniaxial(times, values, **options, **self._in_volume)
-        elif self.data == "shear":
+        elif self._data == "shear":
             law = table.from_shear(times, values, **options)
         else:
             law = table(times, values, **options)
@@ -120,8 +197,8 @@ class TableLaw(FromFile):
         return table
 
     def _require_test(self, table: Table) -> None:
-        if table.data is not None and table.data != self.data:
-            heading = table.headings.get(self.quantity, "")
+        if table.data is not None and self.data not in (None, table.data):
+            heading = next((table.headings[name] for name in _STATING if name in table), "")
             raise ValueError(
                 f"data: {self.data} contradicts {table.source.name}, where the column {heading!r} "
                 f"is {table.data}"
@@ -142,7 +219,7 @@ class TableLaw(FromFile):
         match = _AT_ROW.match(str(error))
         if match is None or int(match["row"]) >= len(table):
             return table.located(error)
-        heading = table.headings["time" if match["column"] == "times" else self.quantity]
+        heading = table.headings["time" if match["column"] == "times" else self._quantity]
         why = table.located(ValueError(match["why"]))
         why = why.replace(
             "smooth out the noise", "smooth out the noise, or fit a series to the table"
@@ -211,7 +288,8 @@ class CardLaw(FromFile):
         if card.shift is not None and self.shift is not None:
             raise ValueError("shift: is given in the card; leave it out")
         return self._at_temperature(
-            card.material, card.shift or (self.shift.build() if self.shift else None)
+            replace(card.material, notes=card.notes, warning=self.warning),
+            card.shift or (self.shift.build() if self.shift else None),
         )
 
     def _require_units(self) -> None:

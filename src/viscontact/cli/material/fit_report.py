@@ -91,7 +91,7 @@ def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
     with _warnings_said(table.located):
         fit = fit_measured(points, measured, weights=arguments.weights, **options)
     print(table.located(repr(fit)))
-    fit = _with_volume(fit, arguments)
+    fit = _with_volume(_with_lines(fit, table), arguments)
     return material_section(fit), _Drawing("fitted_series", fit)
 
 
@@ -155,6 +155,14 @@ def _read(file: Path, stress: str | None) -> Table:
         return read_table(file, stress=read_stress(stress))
     except (ValueError, OSError) as error:
         refuse(str(error))
+
+
+def _with_lines(fit: Fit, table: Table) -> Fit:
+    """Return the fit with lines of the table in the message of its misfit."""
+    if fit.misfit is None:
+        return fit
+    misfit = dataclasses.replace(fit.misfit, message=table.located(fit.misfit.message))
+    return dataclasses.replace(fit, misfit=misfit)
 
 
 def _with_volume(fit: Fit, arguments: FitArguments) -> Fit:
