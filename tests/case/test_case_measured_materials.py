@@ -99,6 +99,16 @@ def test_a_contact_in_steady_motion_issues_the_warning_of_its_material_too() -> 
     assert "the fit misses the loss" in ds.attrs["warnings"]
 
 
+def test_the_check_of_a_steady_motion_warns_of_the_material_too(
+    tmp_path: Path, capsys: Any
+) -> None:
+    path = written(tmp_path, {"file": "law.yaml", "warning": "the fit misses E'"}, law__yaml=LAW)
+    text = path.read_text(encoding="utf-8").replace("time:\n  end: 1 s\n  steps: 1\n", "")
+    path.write_text(f"{text}motion: {{kind: steady, speed: 0.1 m/s, along: y}}\n", encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    assert "warning: the fit misses E'" in capsys.readouterr().out
+
+
 def test_a_shift_moves_the_fitted_law_and_its_range(tmp_path: Path) -> None:
     shift = {"kind": "wlf", "reference_temperature": "20 degC", "c1": 8.86, "c2": "101.6 K"}
     warm = read(tmp_path, DMA | {"temperature": "40 degC", "shift": shift}, dma__csv=dma())

@@ -203,6 +203,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     problem = run.problem
     compliance, law = problem.contact.compliance, run.solver.law
     found = law_warnings(law.error, compliance.inversion_error)
+    found |= origin_warnings(problem.contact.bodies)
     found |= datum_warnings(run.grids[0], ("approach",))
     if run.tolerance_reached is not None:
         requested = problem.contact.automatic_grid
@@ -256,6 +257,5 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
         | data_warnings(passed, body.measured_until)
-        | origin_warnings(body.bodies)
         | edge_warnings(along=False, across=math.isnan(force_across(problem, contact)))
     )
