@@ -48,7 +48,7 @@ def test_sections_follow_the_resultant_of_a_moving_contact(moved: xr.Dataset) ->
     resultant = moved.position_y + moved.eccentricity_y  # which is measured from the body's axis
     # To a hundredth of a cell.
     np.testing.assert_allclose([y for _, y in fields.through], resultant, atol=0.006 * CELL)
-    assert section_place(fields, "x") == "through the resultant of each instant"
+    assert section_place(fields, "x") == "through each resultant"
     assert section_place(fields, "y") == "at x = 0 mm"
     assert f"y = {fields.through[1][1]!r} m" in section_csv(fields, "x").splitlines()[0]
 

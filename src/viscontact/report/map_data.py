@@ -111,7 +111,7 @@ def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
     """Position of a section, such as ``"at y = 0 mm"``."""
     unit, crossings = fields.window.unit, _crossings(fields, along)
     if len(set(crossings)) > 1:
-        return "through the resultant of each instant"
+        return "through each resultant"
     other = "y" if along == "x" else "x"
     return f"at {other} = {format_compact(float(unit(crossings[0])), 4)} {unit.symbol}"
 
