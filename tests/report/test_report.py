@@ -361,7 +361,7 @@ def test_run_data_is_the_result_in_si_units_and_fits_into_json() -> None:
     ds["approach_error"][0] = np.nan
     data = json.loads(json.dumps(run_data(ds), allow_nan=False))
     scalars, shown = data["scalars"], data["map"]
-    assert data["time"] == list(TIMES)
+    assert (data["axis"]["name"], data["axis"]["values"]) == ("time", list(TIMES))
     # The radius of a Hertz contact is sqrt(R d): the area is pi R d, here with R = 10 mm. The
     # area is counted in cells, 30 to 50 across.
     area, approach = (scalars[name]["value"] for name in ("contact_area", "approach"))
@@ -380,4 +380,4 @@ def test_run_data_is_the_result_in_si_units_and_fits_into_json() -> None:
     parts = np.frombuffer(base64.b64decode(shown["parts"][0]), "<u2")
     pressure = parts.sum() / shown["steps"] * shown["peak"] * shown["pressureFactor"]
     assert pressure * x * y == pytest.approx(scalars["force"]["value"][0], rel=0.01)
-    assert shown["times"] == list(TIMES)
+    assert shown["places"] == list(TIMES)

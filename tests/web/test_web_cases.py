@@ -318,13 +318,3 @@ def test_drawings_for_a_phone_stand_below_one_another(client: TestClient) -> Non
 def test_every_part_of_a_case_is_drawn(client: TestClient) -> None:
     drawn = [drawing(client, what) for what in ("indenter", "material", "load")]
     assert len(set(drawn)) == 3
-
-
-def test_steady_motion_is_refused_by_name(client: TestClient) -> None:
-    examples = client.get("/api/examples").json()
-    (rolling,) = (each["yaml"] for each in examples if each["name"] == "roller-rolling")
-    for path in ("/api/check", "/api/runs"):
-        answer = client.post(path, json={"yaml": rolling})
-        assert answer.status_code == 422
-        (problem,) = answer.json()["problems"]
-        assert "the page computes runs over time" in problem["message"]

@@ -63,9 +63,9 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
     assert parts == sorted(parts)
     assert parts[-1] == 1
     last = events[-1]
-    assert (last["step"], last["steps"], last["time"]) == (4, 4, "5 s")
+    assert (last["step"], last["steps"], last["reached"]) == (4, 4, "t = 5 s")
     assert last["stage"] == "over"
-    assert last["field_times_text"] == ["0 s", "5 s"]
+    assert last["fields_text"] == ["0 s", "5 s"]
 
     there = client.get(f"/api/runs/{run}/result.nc")
     assert re.search(r'filename="?zener-sphere\.nc', there.headers["content-disposition"])

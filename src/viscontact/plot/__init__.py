@@ -62,6 +62,12 @@ FIGURES: dict[str, Callable[..., Figure]] = {
 }
 """Figures of one run by name: ``FIGURES[name](results, times=None)``."""
 
+STEADY_FIGURES: dict[str, Callable[..., Figure]] = {
+    "friction": friction,
+    "motion-profile": motion_profile,
+}
+"""Figures of a steady motion by name: ``STEADY_FIGURES[name](results)``."""
+
 COMPARISONS: dict[str, Callable[..., Figure]] = {
     "history": compare_histories,
     "hysteresis": compare_hysteresis,
@@ -80,6 +86,7 @@ __all__ = [
     "FIGURES",
     "FIGURE_SUFFIXES",
     "FILM_SUFFIXES",
+    "STEADY_FIGURES",
     "Film",
     "ResultPlots",
     "animation",

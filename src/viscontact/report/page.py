@@ -20,7 +20,7 @@ from viscontact.report.histories import load_panels, response_panels, time_axis
 from viscontact.report.map_data import curves_data, map_data
 from viscontact.report.resistance_loops import loops_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
-from viscontact.results.run_axis import SPEED, TIME, run_axis
+from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 
 _CHAPTERS = {
     "pressure": "Pressure",
@@ -96,7 +96,7 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         raise ValueError(
             f"a report needs one {axis.row} at least, got a result without any; run it"
         )
-    ds = _in_order(ds)
+    ds = in_order(ds)
     fields = _fields(ds)
     data = _data(ds, fields)
     folder, name = files("viscontact.report"), result_chapters.heading_of(ds, label)
@@ -110,15 +110,6 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         plotly=get_plotlyjs(),
         script=(folder / "page.js").read_text(encoding="utf-8"),
     )
-
-
-def _in_order(ds: xr.Dataset) -> xr.Dataset:
-    """A result over speed from the slowest to the fastest; others as they are."""
-    if run_axis(ds) is TIME:
-        return ds
-    ordered = ds.sortby([name for name in ("speed", "field_speed") if name in ds.dims])
-    ordered.encoding = ds.encoding  # the place of its file
-    return ordered
 
 
 def _fields(ds: xr.Dataset) -> ShownFields | None:

@@ -55,6 +55,22 @@ def run_axis(results: xr.Dataset) -> RunAxis:
     return SPEED if "speed" in results.dims else TIME
 
 
+def in_order(results: xr.Dataset) -> xr.Dataset:
+    """Return a result over speed from the slowest to the fastest; others as they are.
+
+    Examples
+    --------
+    >>> fast_first = xr.Dataset({"force": ("speed", [1.0, 2.0])}, {"speed": [3.0, 0.5]})
+    >>> in_order(fast_first)["force"].values.tolist()
+    [2.0, 1.0]
+    """
+    if run_axis(results) is TIME:
+        return results
+    ordered = results.sortby([name for name in ("speed", "field_speed") if name in results.dims])
+    ordered.encoding = results.encoding  # the place of its file
+    return ordered
+
+
 def require_time(results: xr.Dataset, figure: str) -> None:
     """Raise ValueError for a result of steady motion, which has nothing over time.
 

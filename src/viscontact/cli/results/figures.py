@@ -44,9 +44,8 @@ def draw(
 ) -> Path:
     """Draw a figure of one run."""
     plot = plot_package()
-    steady = {"friction": plot.friction, "motion-profile": plot.motion_profile}
     others = {ANIMATION: plot.animation, RESPONSE: plot.response}
-    draw_it = _named(figure, {**plot.FIGURES, **steady, **others})
+    draw_it = _named(figure, {**plot.FIGURES, **plot.STEADY_FIGURES, **others})
     wanted, chosen = _wanted(times, speeds), _chosen(options or {}, figure, draw_it)
     folder = directory if directory.is_dir() else directory.parent
     moves = figure == ANIMATION

@@ -87,8 +87,8 @@ def friction(
     )
     positive = values[values > 0]
     lowest, highest = float(positive.min()) / _ROOM, float(positive.max()) * _ROOM
-    span = np.geomspace(speeds[0], speeds[-1], _SAMPLES)
-    for name, dashes, limit in _limits(results, span):
+    span = limit_speeds(ordered)
+    for name, dashes, limit in friction_limits(results, span):
         if ((limit > lowest) & (limit < highest)).any():
             axes.plot(unit(span), limit, dashes, color=style.FAINT, linewidth=1.0, label=name)
     axes.set(xscale="log", yscale="log", ylim=(lowest, highest))
@@ -100,7 +100,17 @@ def friction(
     return style.figure_of(axes)
 
 
-def _limits(results: xr.Dataset, speeds: Floats) -> list[tuple[str, str, Floats]]:
+def limit_speeds(results: xr.Dataset) -> Floats:
+    """Return the speeds at which the curves of the limits are drawn [m/s].
+
+    >>> limit_speeds(xr.Dataset(coords={"speed": [10.0, 0.1]}))[[0, -1]].tolist()
+    [0.1, 10.0]
+    """
+    speeds = results["speed"].values
+    return np.geomspace(speeds.min(), speeds.max(), _SAMPLES)
+
+
+def friction_limits(results: xr.Dataset, speeds: Floats) -> list[tuple[str, str, Floats]]:
     """Limits that hold for the body and its material: name, dashes, and values at some speeds."""
     body, series = _round_body(results), _series(results)
     if body is None or series is None:

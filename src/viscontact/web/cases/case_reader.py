@@ -15,18 +15,12 @@ from viscontact.runs.check_report import expectations, needs, verdict, warnings_
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.preparation import PreparedRun, predicted, prepared
-from viscontact.runs.resources import run_memory
-from viscontact.simulation.setup import RunSetup
+from viscontact.runs.resources import curve_memory, run_memory
+from viscontact.steady.preparation import SteadySetup
 from viscontact.web.cases.coarse import coarse_settings, without_cells
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.naming import label_of, suggested_title
 from viscontact.web.workspace.problems import RequestError, case_problems, without_folder
-
-#: Why the page refuses a case of steady motion.
-_OVER_TIME_ONLY = (
-    "motion.kind: the page computes runs over time; type `viscontact run CASE.yaml` for a steady "
-    "motion"
-)
 
 
 @dataclass(frozen=True)
@@ -46,10 +40,7 @@ class CaseReader:
             whole, expected = self._last[text]
             return whole, replace(expected, available=available_memory())
         try:
-            case = read_case_text(text, self.folder.case)
-            if case.steady is not None:
-                raise case.error(_OVER_TIME_ONLY)
-            whole = prepared(case)
+            whole = prepared(read_case_text(text, self.folder.case))
             found = whole, predicted(whole)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
@@ -117,7 +108,7 @@ class CaseReader:
             **{"lines": lines, "warnings": warned, "notes": list(run.case.notes)},
             **{"needs": rows, "expectations_title": title, "expectations": found},
             **{"seconds": expected.seconds, "memory": expected.memory},
-            **{"cells": list(run.run.grid.shape), "steps": _steps(run)},
+            **{"cells": list(run.run.grid.shape), **_course(run)},
         }
 
     def new_run(
@@ -125,7 +116,7 @@ class CaseReader:
     ) -> tuple[str, RunEntry]:
         """Check a case, and keep it with its files as a new run; return its name and entry."""
         found, settings = self.prepared(text, quality)
-        run, case = _over_time(found), found.case
+        case = found.case
         title = case.title or suggested_title(case.document.data) or "Untitled case"
         entry = RunEntry(
             title=title,
@@ -133,11 +124,7 @@ class CaseReader:
             quality=quality,
             created=clock.strftime("%Y-%m-%dT%H:%M:%SZ", clock.gmtime()),
             settings=settings,
-            instants=len(run.problem.instants) if run.problem.adaptive is None else None,
-            end=run.problem.end,
-            work=run.grid.shape[0] * run.grid.shape[1] * (1.0 + run.problem.step_count),
-            memory=run_memory(run),
-            errors=case.errors,
+            **_extent(found),
         )
         try:
             name = self.folder.new_run(text, entry, {path: path.name for path in _data(case)})
@@ -173,15 +160,32 @@ def filled(value: Any) -> Any:
     return [filled(part) for part in value] if isinstance(value, list) else value
 
 
-def _over_time(found: PreparedRun) -> RunSetup:
-    """Setup of a run over time; others are refused before."""
-    assert isinstance(found.run, RunSetup)
-    return found.run
+def _course(found: PreparedRun) -> dict[str, int | None]:
+    """Number of the steps, None where they are adaptive; or of the speeds."""
+    if isinstance(found.run, SteadySetup):
+        return {"speeds": len(found.run.problem.speeds)}
+    problem = found.run.problem
+    return {"steps": None if problem.adaptive is not None else len(problem.instants) - 1}
 
 
-def _steps(found: PreparedRun) -> int | None:
-    problem = _over_time(found).problem
-    return None if problem.adaptive is not None else len(problem.instants) - 1
+def _extent(found: PreparedRun) -> dict[str, Any]:
+    """Entries of a run about its states and its size."""
+    run = found.run
+    if isinstance(run, SteadySetup):
+        speeds = run.problem.speeds
+        return {
+            **{"over": "speed", "begin": float(speeds.min()), "end": float(speeds.max())},
+            **{"instants": len(speeds), "memory": curve_memory(run)},
+            "work": float(sum(grid.shape[0] * grid.shape[1] for grid in run.grids)),
+            "errors": False,  # they are found with each speed
+        }
+    problem, (nx, ny) = run.problem, run.grid.shape
+    return {
+        **{"instants": len(problem.instants) if problem.adaptive is None else None},
+        "end": problem.end,
+        **{"work": nx * ny * (1.0 + problem.step_count), "memory": run_memory(run)},
+        "errors": found.case.errors,
+    }
 
 
 def _data(case: Case) -> set[Path]:

@@ -11,7 +11,8 @@ from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
-#: Largest numbers of steps and cells, and least number of cells over each extent of the contact.
+#: Largest numbers of steps or speeds and of cells, and least number of cells over each extent of
+#: the contact.
 STEPS, CELLS, LEAST_ACROSS = 24, 6000, 16
 
 #: Tolerances of adaptive steps, the automatic grid and the solver.
@@ -35,6 +36,12 @@ def without_cells(settings: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _steps(case: Case) -> Iterator[str]:
+    if case.steady is not None:
+        speed, given = case.document.data["motion"]["speed"], case.document.data.get("output") or {}
+        # Fields that are asked for at some of the speeds need these.
+        if isinstance(speed, dict) and speed["count"] > STEPS and "fields" not in given:
+            yield f"motion.speed.count={STEPS}"
+        return
     if isinstance(case.times, AdaptiveTimes):
         if case.times.tolerance < STEP_ERROR:
             yield f"time.tolerance={STEP_ERROR:g}"

@@ -15,7 +15,7 @@ from viscontact import __version__
 from viscontact.case import case_schema
 from viscontact.case.yaml_source import parse, rewritten
 from viscontact.materials import library
-from viscontact.plot import COMPARISONS, FIGURES
+from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.plot.layout.page import Width
 from viscontact.web.calculator import Calculator
 from viscontact.web.cases.case_reader import filled
@@ -73,7 +73,7 @@ async def version(calculator: AppCalculator) -> dict[str, Any]:
         "version": __version__,
         "data": str(calculator.folder.path),
         "at_once": calculator.queue.at_once,
-        "figures": list(FIGURES),
+        "figures": [*FIGURES, *STEADY_FIGURES],
         "comparisons": list(COMPARISONS),
     }
 

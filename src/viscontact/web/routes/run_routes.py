@@ -12,7 +12,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse, StreamingResponse
 
-from viscontact.plot import COMPARISONS, FIGURES
+from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.report import write_report
 from viscontact.report.run_data import run_data
 from viscontact.results.history_csv import write_history
@@ -36,6 +36,7 @@ router = APIRouter(prefix="/api")
 
 Place = Annotated[int, Query(ge=0, le=2**53)]
 Times = Annotated[list[str] | None, Query(alias="time", max_length=12)]
+Speeds = Annotated[list[str] | None, Query(alias="speed", max_length=12)]
 
 _NO_CASE = "the case of this run is no longer in the folder; delete the run here"
 #: Largest number of runs in one figure.
@@ -127,19 +128,20 @@ async def data(calculator: AppCalculator, name: str, request: Request) -> dict[s
 @router.get("/runs/{name}/figure/{figure}.{kind}")
 async def draw(
     calculator: AppCalculator, name: str, figure: str, kind: Kind, request: Request,
-    time: Times = None, dark: bool = False,
+    time: Times = None, speed: Speeds = None, dark: bool = False,
 ) -> Response:  # fmt: skip
     """Draw a figure of a run."""
     run = calculator.queue.run(name)
-    choice = FigureChoice(figure, kind, tuple(time or ()), dark)
-    drawn = await calculator.do(lambda: figure_of(run.directory, FIGURES, choice), request)
+    choice = FigureChoice(figure, kind, tuple(time or ()), dark, tuple(speed or ()))
+    figures = FIGURES | STEADY_FIGURES
+    drawn = await calculator.do(lambda: figure_of(run.directory, figures, choice), request)
     return Response(drawn, media_type=MEDIA_TYPES[kind])
 
 
 @router.get("/compare.{kind}")
 async def compare(
     calculator: AppCalculator, kind: Kind, runs: str, request: Request,
-    figure: str = "history", time: Times = None, dark: bool = False,
+    figure: str = "history", time: Times = None, speed: Speeds = None, dark: bool = False,
 ) -> Response:  # fmt: skip
     """Draw a figure of several runs."""
     compared = [calculator.queue.run(name) for name in dict.fromkeys(runs.split(","))]
@@ -148,7 +150,7 @@ async def compare(
             422, f"two to {_MOST_COMPARED} runs can be compared, got {len(compared)}"
         )
     places = dict(zip(_labels(compared), (run.directory for run in compared), strict=True))
-    choice = FigureChoice(figure, kind, tuple(time or ()), dark)
+    choice = FigureChoice(figure, kind, tuple(time or ()), dark, tuple(speed or ()))
     drawn = await calculator.do(lambda: comparison_of(places, COMPARISONS, choice), request)
     return Response(drawn, media_type=MEDIA_TYPES[kind])
 
@@ -178,7 +180,7 @@ def result(calculator: AppCalculator, name: str) -> FileResponse:
 
 @router.get("/runs/{name}/history.csv")
 async def history(calculator: AppCalculator, name: str, request: Request) -> Response:
-    """Download all scalars over time."""
+    """Download all scalars over time or speed."""
     run = calculator.queue.run(name)
 
     def write() -> str:

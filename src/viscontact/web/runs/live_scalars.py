@@ -10,34 +10,35 @@ from typing import Any
 
 from viscontact.results.variables import Place, labels_in
 from viscontact.run_files import PROGRESS_NAME
+from viscontact.runs.directory.progress_log import reached_in
 
 #: Largest part that is read at once [bytes].
 _MOST = 1_000_000
 
 
 def grown(directory: Path, after: int) -> dict[str, Any]:
-    """Return times [s] and scalars [SI] after a position in the progress lines [bytes].
+    """Return times [s] or speeds [m/s] and scalars [SI] after a position in the lines [bytes].
 
     Values that are not finite are None. `begun` is the position of the first line returned: 0 means
     that earlier values are replaced; `after` is the position for the next call.
     """
     begun, lines = _lines(directory / PROGRESS_NAME, after)
     labels = labels_in(Place.LIVE)
-    times: list[float | None] = []
+    places: list[float] = []
     scalars: dict[str, list[float | None]] = {name: [] for name in labels}
     written: set[str] = set()
     for line in lines.splitlines():
         with suppress(ValueError, LookupError, TypeError):
             found = json.loads(line)
-            times.append(_finite(found["time"]))
+            places.append(reached_in(found))
             written.update(found)
             for name, values in scalars.items():
                 values.append(_finite(found.get(name)))
-    for name in scalars.keys() - written if times else ():  # such as friction without motion
+    for name in scalars.keys() - written if places else ():  # such as friction without motion
         del labels[name], scalars[name]
     return {
         **{"begun": begun, "after": begun + len(lines), "labels": labels},
-        **{"time": times, "scalars": scalars},
+        **{"speed" if "speed" in written else "time": places, "scalars": scalars},
     }
 
 

@@ -6,6 +6,7 @@ import time as clock
 from contextlib import suppress
 from dataclasses import replace
 
+from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Child, Ended
@@ -39,6 +40,11 @@ class ManagedRun:
     def label(self) -> str:
         """Label among other runs; runs of an earlier version have a title only."""
         return self.entry.label or self.entry.title
+
+    @property
+    def axis(self) -> RunAxis:
+        """Quantity in which the states of the run differ."""
+        return SPEED if self.entry.over == "speed" else TIME
 
     @property
     def is_over(self) -> bool:

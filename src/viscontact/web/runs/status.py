@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from viscontact.plot import FIGURES
+from viscontact.plot import FIGURES, STEADY_FIGURES
 from viscontact.results.netcdf import open_results
+from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 from viscontact.results.summary import summary_rows
 from viscontact.results.variables import SCALARS
 from viscontact.run_files import RESULT_NAME
@@ -24,6 +25,8 @@ from viscontact.web.workspace.pictures import DAMAGED
 from viscontact.web.workspace.problems import Problem, lines_of, problem_of
 
 _STAGES = {"waiting": "waiting", "running": "steps"}
+#: Name of a step of a run.
+_STEPS = {TIME: "step", SPEED: "speed"}
 #: End of the message about a stopped run.
 _ITS = "its results are kept"
 #: First words of messages that name commands, for which the page has buttons.
@@ -39,26 +42,23 @@ def status_of(run: ManagedRun, found: Mapping[str, Any]) -> dict[str, Any]:
     is_readable = not run.is_over or "table" in found or entry.state == "failed"
     is_damaged = course.instants > 0 and not is_readable
     table = found.get("table") or _table(course.first, course.last)
-    steps = None if entry.instants is None else max(entry.instants - 1, 1)
     return {
         **{"id": run.name, "title": entry.title, "label": run.label},
         "quality": entry.quality,
         **{"created": entry.created, "state": entry.state, "over": run.is_over},
         **{"resumable": run.is_resumable and not is_damaged, "stage": _stage(run)},
         "part": round(run.part, 4),
-        "step": max(course.instants - 1, 0),
-        "steps": steps,
-        "end": entry.end,
-        "time": format_quantity(course.time, "s") if course.instants else None,
+        **{"axis": run.axis.name, "begin": entry.begin, "end": entry.end},
+        **{"step": _steps_of(run, course.instants), "steps": _total(run)},
+        "reached": run.axis.place(course.time, 6) if course.instants else None,
         "seconds_left": None if left is None else round(left, 1),
         "message": DAMAGED if is_damaged else _message(run, [*lines_of(problems)]),
         "problems": [asdict(each) for each in problems],
         "warnings": found.get("warnings", list(course.last.get("warnings", []))),
         "scalars": _scalars(course.last, {row["name"] for row in table}),
         "table": table,
-        "figures": list(FIGURES) if course.instants and not is_damaged else [],
-        "field_times": found.get("field_times", []),
-        "field_times_text": found.get("field_times_text", []),
+        "figures": _figures(run) if course.instants and not is_damaged else [],
+        **{name: found.get(name, []) for name in ("fields", "fields_text")},
     }
 
 
@@ -66,10 +66,11 @@ def result_summary(directory: Path) -> dict[str, Any]:
     """Return a summary of the result of a run, with formatted numbers."""
     if not (directory / RESULT_NAME).is_file():
         return {}
-    with open_results(directory) as ds:
-        if not ds.sizes.get("time"):
+    with open_results(directory) as stored:
+        ds, axis = in_order(stored), run_axis(stored)
+        if not ds.sizes.get(axis.name):
             return {}
-        times = _field_times(ds)
+        places = _field_places(ds)
         rows = [
             {**{"name": row.name, "title": row.title, "unit": row.unit, "start": row.first},
              **{"end": row.last, "largest": row.largest, "error": _error(ds, row.largest_error)}}
@@ -78,15 +79,15 @@ def result_summary(directory: Path) -> dict[str, Any]:
         return {
             "table": rows,
             "warnings": str(ds.attrs.get("warnings", "")).splitlines(),
-            "field_times": times,
-            "field_times_text": [format_quantity(time, "s") for time in times],
+            "fields": places,
+            "fields_text": [axis.quantity(place, 6) for place in places],
         }
 
 
-def _field_times(ds: xr.Dataset) -> list[float]:
+def _field_places(ds: xr.Dataset) -> list[float]:
     if "pressure" not in ds:
         return []
-    return [float(time) for time in ds[ds["pressure"].dims[0]].values if math.isfinite(time)]
+    return [float(each) for each in ds[ds["pressure"].dims[0]].values if math.isfinite(each)]
 
 
 def _error(ds: xr.Dataset, text: str) -> str:
@@ -114,8 +115,8 @@ def _problems(run: ManagedRun) -> list[Problem]:
 def _message(run: ManagedRun, problems: Sequence[str]) -> str:
     entry, course = run.entry, run.course
     of = "" if entry.instants is None else f" of {entry.instants}"
-    made = f"{course.instants}{of} instants"
-    reached = f"{made}, t = {format_quantity(course.time, 's')}" if course.instants else ""
+    made = f"{course.instants}{of} {run.axis.row}s"
+    reached = f"{made}, {run.axis.place(course.time, 6)}" if course.instants else ""
     messages = {
         "waiting": "waiting for its turn",
         "running": reached or "starting",
@@ -131,15 +132,27 @@ def _message(run: ManagedRun, problems: Sequence[str]) -> str:
 
 def _kept(run: ManagedRun) -> str:
     """Part of a message: when the run was stopped, and what is kept."""
-    entry, course = run.entry, run.course
+    entry, course, step = run.entry, run.course, _STEPS[run.axis]
     if not course.instants:
-        return "before its first step; there is nothing to show yet"
-    if course.part >= 1:
-        return f"after its last step, before its error bars; {_ITS}"
-    of = "" if entry.instants is None else f" of {entry.instants - 1}"
-    return (
-        f"after step {course.instants - 1}{of}, at t = {format_quantity(course.time, 's')}; {_ITS}"
-    )
+        return f"before its first {step}; there is nothing to show yet"
+    if entry.errors and course.part >= 1:
+        return f"after its last {step}, before its error bars; {_ITS}"
+    of = "" if entry.instants is None else f" of {_steps_of(run, entry.instants)}"
+    place = run.axis.place(course.time, 6)
+    return f"after {step} {_steps_of(run, course.instants)}{of}, at {place}; {_ITS}"
+
+
+def _figures(run: ManagedRun) -> list[str]:
+    return list(FIGURES if run.axis is TIME else FIGURES | STEADY_FIGURES)
+
+
+def _steps_of(run: ManagedRun, states: int) -> int:
+    """Steps to reach a number of instants; each speed counts."""
+    return max(states - 1, 0) if run.axis is TIME else states
+
+
+def _total(run: ManagedRun) -> int | None:
+    return None if run.entry.instants is None else max(_steps_of(run, run.entry.instants), 1)
 
 
 def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:
@@ -153,11 +166,12 @@ def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:
 
 
 def _table(first: Mapping[str, Any], last: Mapping[str, Any]) -> list[dict[str, str]]:
-    """Table of an active run: its first and its latest instant."""
+    """Table of an active run: its first and its latest instant or speed."""
     if not last:
         return []
+    over = "speed" if "speed" in last else "time"
     numbers = {
-        name: ("time", np.array([_number(line.get(name)) for line in (first, last)]))
+        name: (over, np.array([_number(line.get(name)) for line in (first, last)]))
         for name in SCALARS
         if name != "outcome"
     }

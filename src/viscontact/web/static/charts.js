@@ -1,4 +1,4 @@
-// Common parts of figures: loading of Plotly, axes, colours and the time axis.
+// Common parts of figures: loading of Plotly, axes, colours and the axis of time or speed.
 
 import { make } from "./dom.js";
 import { colour } from "./theme.js";
@@ -41,23 +41,33 @@ export const layout = (more) => ({
 });
 
 const number = (value) => String(Number(value.toPrecision(3)));
-export const instant = (seconds, unit) => `${Number((seconds / unit.factor).toPrecision(4))} ${unit.symbol}`;
+export const amount = (value, unit, digits = 4) => `${Number((value / unit.factor).toPrecision(digits))} ${unit.symbol}`;
 
-// Positions on the time axis, linear or logarithmic; on the latter, 0 is half a decade before the
-// first step.
-export function timeScale(instants, onLog) {
-  const unit = unitFor("s", instants), times = instants.map((time) => time / unit.factor);
-  const positive = times.filter((time) => time > 0), first = Math.min(...positive), last = Math.max(...positive);
+// An instant or a speed of a run's axis in words: "t = 2 s", "500 mm/s". Instants share a unit, so
+// that zero has one.
+export const placeText = ({ name, unit, symbol, values }, value) =>
+  symbol + amount(value, unitFor(unit, name === "time" ? values : value));
+
+export const capital = (word) => word.charAt(0).toUpperCase() + word.slice(1);
+
+// Positions on the axis of time or speed, linear or logarithmic; on the latter, 0 is half a decade
+// before the first step.
+export function placeScale({ name, unit: si }, values, onLog) {
+  const unit = unitFor(si, values), places = values.map((value) => value / unit.factor), label = capital(name);
+  const positive = places.filter((place) => place > 0), first = Math.min(...positive), last = Math.max(...positive);
   if (!onLog || positive.length < 2) return {
-    unit, at: (time) => time / unit.factor, axis: () => axis(`Time [${unit.symbol}]`, { rangemode: "tozero" }),
+    at: (value) => value / unit.factor, axis: () => axis(`${label} [${unit.symbol}]`, { rangemode: "tozero" }),
   };
   const zero = Math.log10(first) - 0.5;
   const lowest = Math.ceil(Math.log10(first)), highest = Math.floor(Math.log10(last) + 1e-9);
   const decades = Array.from({ length: Math.max(0, highest - lowest + 1) }, (_, index) => lowest + index);
   const labels = decades.map((power) => number(10 ** power));
-  const ticks = { tickmode: "array", tickvals: [zero, ...decades], ticktext: ["0", ...labels] };
+  const begins = positive.length < places.length;
+  const ticks = {
+    tickmode: "array", tickvals: begins ? [zero, ...decades] : decades, ticktext: begins ? ["0", ...labels] : labels,
+  };
   return {
-    unit, at: (time) => (time > 0 ? Math.log10(time / unit.factor) : zero),
-    axis: () => axis(`Time [${unit.symbol}], logarithmic`, ticks),
+    at: (value) => (value > 0 ? Math.log10(value / unit.factor) : zero),
+    axis: () => axis(`${label} [${unit.symbol}], logarithmic`, ticks),
   };
 }

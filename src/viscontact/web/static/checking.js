@@ -71,8 +71,9 @@ function drawCheck() {
   write(place("warned"), full.warnings?.length === 1 ? "1 warning" : `${full.warnings?.length} warnings`);
 }
 
-function estimate({ cells, steps, memory }) {
-  const parts = [`${cells.join(" × ")} cells`, steps ? `${steps} steps` : "steps as needed"];
+function estimate({ cells, steps, speeds, memory }) {
+  const course = speeds ? `${speeds} ${speeds > 1 ? "speeds" : "speed"}` : steps ? `${steps} steps` : "steps as needed";
+  const parts = [`${cells.join(" × ")} cells`, course];
   if (memory) parts.push(memory < 1e9 ? `${Math.round(memory / 1e6)} MB` : `${(memory / 1e9).toFixed(1)} GB`);
   return parts.join(" · ");
 }

@@ -1,6 +1,6 @@
 // Histories of an active run, drawn from its progress lines.
 
-import { instant } from "./charts.js";
+import { amount } from "./charts.js";
 import { make, place } from "./dom.js";
 import { get } from "./server.js";
 import { unitFor } from "./units.js";
@@ -11,7 +11,7 @@ const PAUSE = 400;
 let curves = null;
 let requested = 0;
 
-const none = (id) => ({ id, after: 0, step: -1, busy: false, time: [], scalars: {}, labels: {} });
+const none = (id) => ({ id, after: 0, step: -1, busy: false, places: [], scalars: {}, labels: {} });
 
 export function drawGrowing(status) {
   if (curves?.id !== status.id) curves = none(status.id);
@@ -28,7 +28,7 @@ async function request(run, status) {
   try {
     const added = await get(`/api/runs/${run.id}/grown?after=${run.after}`);
     append(run, added);
-    run.step = run.time.length - 1;
+    run.step = run.places.length - (status.axis === "time" ? 1 : 0);
     if (curves === run) show(run, status);
   } catch (error) {
     if (!error.problems) throw error; // the next event repeats the request
@@ -40,21 +40,27 @@ async function request(run, status) {
 // A resumed run may have written some lines again.
 function append(run, added) {
   if (added.begun === 0) Object.assign(run, none(run.id), { busy: true });
-  const kept = added.time.length ? run.time.filter((time) => time < added.time[0]).length : run.time.length;
-  run.time.splice(kept, Infinity, ...added.time);
+  const places = added.speed ?? added.time, again = run.places.indexOf(places[0]);
+  const kept = again < 0 ? run.places.length : again;
+  run.places.splice(kept, Infinity, ...places);
   for (const [name, values] of Object.entries(added.scalars)) (run.scalars[name] ??= []).splice(kept, Infinity, ...values);
-  if (added.time.length) run.labels = added.labels;
+  if (places.length) run.labels = added.labels;
   run.after = added.after;
 }
 
 function show(run, status) {
-  const end = status.end, at = scale(run.time, end), isFirst = !place("growing").firstChild;
+  const { axis: over, begin, end } = status, isFirst = !place("growing").firstChild;
+  const at = over === "speed" ? speedScale(begin, end) : scale(run.places, end);
+  // Speeds may be computed in any order.
+  const order = run.places.map((_, index) => index).sort((one, other) => run.places[one] - run.places[other]);
+  const places = order.map((index) => run.places[index]), unit = over === "speed" ? "m/s" : "s";
+  const start = begin ? amount(begin, unitFor(unit, begin)) : "0";
   place("growing").replaceChildren(...Object.entries(run.labels).map(([name, label]) => {
     const text = status.scalars[name]?.text ?? "";
     return make("figure", {},
-      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(run.time, run.scalars[name], at, label),
+      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(places, order.map((index) => run.scalars[name][index]), at, `${label} over ${over}`),
       make("div", { class: "ends", "aria-hidden": "true" },
-        make("span", { textContent: "0" }), make("span", { textContent: instant(end, unitFor("s", [end])) })));
+        make("span", { textContent: start }), make("span", { textContent: amount(end, unitFor(unit, end)) })));
   }));
   if (isFirst) place("progress").scrollIntoView({ block: "nearest" });
 }
@@ -67,13 +73,18 @@ function scale(times, end) {
   return (time) => (time > 0 ? (Math.log10(time) - zero) / length : 0);
 }
 
-function drawn(times, values, at, label) {
+function speedScale(slowest, fastest) {
+  const length = Math.log(fastest / slowest);
+  return (speed) => (length > 0 ? Math.log(speed / slowest) / length : 0.5);
+}
+
+function drawn(places, values, at, label) {
   const extreme = (choose) => values.reduce((found, value) => choose(found, value ?? 0), 0);
   const least = extreme(Math.min), range = extreme(Math.max) - least || 1;
   const each = Math.max(1, Math.ceil(values.length / MOST_POINTS));
   const height = (value) => (HEIGHT * (1 - (value - least) / range)).toFixed(2);
   const points = values.map((value, i) => (value === null || (i % each && i < values.length - 1) ? null
-    : `${(WIDTH * at(times[i])).toFixed(2)},${height(value)}`));
+    : `${(WIDTH * at(places[i])).toFixed(2)},${height(value)}`));
   const svg = (tag, attributes) => {
     const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
     for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -81,7 +92,7 @@ function drawn(times, values, at, label) {
   };
   const picture = svg("svg", {
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img",
-    "aria-label": `${label} over time so far`,
+    "aria-label": `${label} so far`,
   });
   picture.append(svg("line", { class: "base", x1: 0, x2: WIDTH, y1: height(0), y2: height(0) }),
     svg("polyline", { class: "curve", points: points.filter(Boolean).join(" ") }));

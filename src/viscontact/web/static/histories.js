@@ -1,6 +1,6 @@
-// Scalars over time with their error bands, beside those of the reference.
+// Scalars over time or speed with their error bands, beside those of the reference.
 
-import { axis, instant, layout, plotly, quiet, timeScale } from "./charts.js";
+import { axis, layout, placeScale, placeText, plotly, quiet } from "./charts.js";
 import { make, place } from "./dom.js";
 import { colour, faded } from "./theme.js";
 import { quantityText, unitFor } from "./units.js";
@@ -13,13 +13,15 @@ export const titled = (label, { symbol }) => (symbol ? `${label} [${symbol}]` : 
 
 export async function drawHistories(shown, reference) {
   const Plotly = await plotly(), data = shown.data;
-  onLog ??= data.logTime;
+  const { name: over, values, startsLog } = data.axis;
+  onLog ??= startsLog;
   const panels = { ...data.given, ...data.answers };
-  const instants = [...data.time, ...(reference?.data.time ?? [])];
-  const scale = timeScale(instants, onLog);
+  if (data.friction) delete panels.friction_coefficient; // it has a figure of its own
+  const scale = placeScale(data.axis, [...values, ...(reference?.data.axis.values ?? [])], onLog);
   const button = place("time-scale");
-  button.textContent = onLog ? "Show linear time" : "Show logarithmic time";
-  button.hidden = data.time.length < 3;
+  place("histories-title").textContent = `Over ${over}`;
+  button.textContent = onLog ? `Show linear ${over}` : `Show logarithmic ${over}`;
+  button.hidden = values.length < 3;
   button.onclick = () => { onLog = !onLog; drawHistories(shown, reference); };
   for (const [name, label] of Object.entries(panels)) drawPanel(Plotly, name, label, shown, reference, scale);
   for (const box of place("histories").querySelectorAll("[data-panel]"))
@@ -59,11 +61,11 @@ function line(data, scalar, unit, scale, ink, dash) {
   const y = scaled(scalar.drawn, unit);
   const hoverText = (value, index) => {
     const number = quantityText(value, scalar.error[index], scalar.unit, scalar.mesh[index]);
-    return `t = ${instant(data.time[index], scale.unit)}: ${number}`;
+    return `${placeText(data.axis, data.axis.values[index])}: ${number}`;
   };
   return {
-    x: data.time.map(scale.at), y, mode: y.length < 2 ? "markers" : "lines",
-    line: { color: ink, width: 2, dash }, marker: { color: ink }, text: scalar.value.map(hoverText),
+    x: data.axis.values.map(scale.at), y, mode: y.length < 2 ? "markers" : data.axis.name === "time" ? "lines" : "lines+markers",
+    line: { color: ink, width: 2, dash }, marker: { color: ink, size: 5 }, text: scalar.value.map(hoverText),
     hovertemplate: "%{text}<extra></extra>",
   };
 }
@@ -74,7 +76,7 @@ function band(data, scalar, unit, scale) {
   let part = [];
   const close = () => {
     if (part.length > 1) {
-      const at = part.map((i) => scale.at(data.time[i]));
+      const at = part.map((i) => scale.at(data.axis.values[i]));
       const edge = (sign) => part.map((i) => (scalar.value[i] + sign * scalar.error[i]) / unit.factor);
       x.push(...at, ...at.slice().reverse(), at[0], null);
       y.push(...edge(1), ...edge(-1).reverse(), edge(1)[0], null);

@@ -1,6 +1,6 @@
-// Pressure map with a time slider, sections along x and y, and the line load of long contacts.
+// Pressure map with a slider over time or speed, sections along x and y, and the line load of long contacts.
 
-import { axis, config, instant, layout, plotly, quiet } from "./charts.js";
+import { axis, capital, config, layout, placeText, plotly, quiet } from "./charts.js";
 import { make, place, settled } from "./dom.js";
 import { colour } from "./theme.js";
 import { digits, unitFor } from "./units.js";
@@ -30,12 +30,13 @@ export async function drawMap(shown, reference) {
   const extent = [...map.x, ...map.y].map((value) => value * map.lengthFactor);
   picture = {
     id: shown.id, map, reference: reference?.data.map ?? null, Plotly, index, kept: same ? picture.kept : new Map(),
-    length: unitFor("m", extent), pressure: unitFor("Pa", map.peak * map.pressureFactor), time: unitFor("s", map.times),
+    length: unitFor("m", extent), pressure: unitFor("Pa", map.peak * map.pressureFactor), over: { ...shown.data.axis, values: map.places },
   };
   const slider = place("instant-slider");
-  slider.max = String(map.times.length - 1);
+  slider.max = String(map.places.length - 1);
+  slider.setAttribute("aria-label", capital(shown.data.axis.row));
   slider.value = String(index);
-  place("map-controls").hidden = map.times.length < 2;
+  place("map-controls").hidden = map.places.length < 2;
   showInstant(index);
 }
 
@@ -53,8 +54,8 @@ function unpacked(index) {
 function showInstant(index) {
   if (!picture) return;
   picture.index = index;
-  const { map, pressure, time } = picture, peak = Math.max(...unpacked(index).flat());
-  const label = `t = ${instant(map.times[index], time)}`;
+  const { map, pressure, over } = picture, peak = Math.max(...unpacked(index).flat());
+  const label = placeText(over, map.places[index]);
   place("instant").value = label;
   place("instant-slider").setAttribute("aria-valuetext", label);
   const body = map.body[index];
@@ -73,9 +74,9 @@ const rim = (source, index, unit) => {
   return { x: times(source.rims[index].x), y: times(source.rims[index].y), mode: "lines", hoverinfo: "skip" };
 };
 
-// Index of the nearest instant of the reference.
-function nearest(times, time) {
-  return times.reduce((best, each, index) => (Math.abs(each - time) < Math.abs(times[best] - time) ? index : best), 0);
+// Index of the nearest instant or speed of the reference.
+function nearest(places, place) {
+  return places.reduce((best, each, index) => (Math.abs(each - place) < Math.abs(places[best] - place) ? index : best), 0);
 }
 
 // Title of an axis as an annotation: a horizontal colour bar would shift a real one into the labels.
@@ -115,7 +116,7 @@ function drawPlane() {
   };
   const traces = [heat, { ...rim(map, index, length), line: { color: colour("ink"), width: 1 } }];
   if (reference) {
-    const then = nearest(reference.times, map.times[index]);
+    const then = nearest(reference.places, map.places[index]);
     traces.push({ ...rim(reference, then, length), line: { color: colour("warm"), width: 1.6, dash: "dash" } });
   }
   const body = map.body[index] && { ...map.body[index], axis: scaled(map.body[index].axis) };
@@ -137,18 +138,18 @@ function drawPlane() {
 }
 
 function drawCurve(curve) {
-  const { map, reference, index, length, time, Plotly } = picture;
+  const { map, reference, index, length, over, Plotly } = picture;
   const unit = unitFor(curve.si, curve.values.flat().map((value) => value * curve.valueFactor));
   const line = (source, part, at, look) => ({
     x: part.position.map((value) => value * source.lengthFactor / length.factor), mode: "lines", line: look,
     y: part.values[at].map((value) => value * part.valueFactor / unit.factor),
     hovertemplate: `${curve.along} %{x:.4g} ${length.symbol}: %{y:.4g} ${unit.symbol}`
-      + `<extra>t = ${instant(source.times[at], time)}</extra>`,
+      + `<extra>${placeText(over, source.places[at])}</extra>`,
   });
-  const traces = map.times.map((_, each) => line(map, curve, each, { color: colour("line"), width: 1 }));
+  const traces = map.places.map((_, each) => line(map, curve, each, { color: colour("line"), width: 1 }));
   const part = reference?.sections.find((each) => each.name === curve.name);
   if (part) {
-    const then = nearest(reference.times, map.times[index]);
+    const then = nearest(reference.places, map.places[index]);
     traces.push(line(reference, part, then, { color: colour("warm"), width: 2, dash: "dash" }));
   }
   traces.push(line(map, curve, index, { color: colour("blue"), width: 2.4 }));

@@ -42,15 +42,16 @@ const onward = (status) => (status.figures.length ? "Resume" : "Start");
 function progressText(status) {
   if (status.over || status.stage === "waiting") return status.message;
   const parts = [stage(status)], left = status.seconds_left;
-  if (status.time) parts.push(`t = ${status.time}`);
+  if (status.reached) parts.push(status.reached);
   if (left !== null) parts.push(left < 1 ? "less than a second left" : `about ${lasting(left)} left`);
   return parts.join(" · ");
 }
 
-function stage({ stage: now, step, steps }) {
+function stage({ stage: now, step, steps, axis }) {
   if (now === "errors") return "error bars";
   if (!step) return "starting";
-  return steps ? `step ${step} of ${steps}` : `step ${step}`;
+  const name = axis === "speed" ? "speed" : "step";
+  return steps ? `${name} ${step} of ${steps}` : `${name} ${step}`;
 }
 
 // Screen readers get changes of state at once, and progress at intervals.

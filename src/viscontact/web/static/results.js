@@ -1,13 +1,14 @@
 // Results of a run: numbers with errors, pressure, histories, downloads.
 
-import { instant } from "./charts.js";
+import { placeText } from "./charts.js";
 import { definitions, items, make, place, write } from "./dom.js";
+import { drawFriction } from "./friction.js";
 import { drawHistories, forgetScale } from "./histories.js";
 import { drawLoops } from "./loops.js";
 import { drawMap } from "./map.js";
-import { numbersTable } from "./numbers.js";
+import { largestAt, numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
-import { quantityText, unitFor } from "./units.js";
+import { quantityText } from "./units.js";
 
 // Downloads: path, title, and whether the file is saved or opened.
 const DOWNLOADS = [
@@ -27,17 +28,18 @@ export async function drawResults() {
   const shown = state.shown;
   place("results").hidden = !shown;
   if (!shown) return;
-  const { data, status } = shown, reference = state.reference?.id === shown.id ? null : state.reference;
+  const { data, status } = shown, kept = state.reference?.id === shown.id ? null : state.reference;
+  const reference = kept?.data.axis.name === data.axis.name ? kept : null;
   write(place("result-title"), status.label);
   write(place("quality"), qualityOf(shown));
   place("quality").className = `chip ${status.quality}`;
   place("result-notes").replaceChildren(...notes(status, data));
   drawFacts(data);
   place("numbers").replaceChildren(numbersTable(data, reference));
-  place("reference-text").replaceChildren(...referenceText(reference));
+  place("reference-text").replaceChildren(...referenceText(kept, data));
   place("downloads").replaceChildren(...downloads(shown));
   place("accuracy").replaceChildren(...definitions(data.accuracy));
-  await Promise.all([drawMap(shown, reference), drawHistories(shown, reference), drawLoops(shown, reference)]);
+  await Promise.all([drawMap(shown, reference), drawFriction(shown, reference), drawHistories(shown, reference), drawLoops(shown, reference)]);
   document.documentElement.dataset.drawn = shown.id;
 }
 
@@ -66,21 +68,31 @@ function factsIndex(data) {
   return areas.at(-1) > 0 ? areas.length - 1 : areas.indexOf(Math.max(...areas));
 }
 
+function factsPlace(data) {
+  const { name, values } = data.axis, many = values.length > 1;
+  if (name === "speed" && many) return "Largest values over the speeds, each with its speed";
+  const index = name === "speed" ? 0 : factsIndex(data), at = `At ${placeText(data.axis, values[index])}`;
+  return index === values.length - 1 ? at : `${at}, when the contact is largest`;
+}
+
 function drawFacts(data) {
-  const index = factsIndex(data), atEnd = index === data.time.length - 1;
-  const when = `At t = ${instant(data.time[index], unitFor("s", data.time))}`;
-  write(place("facts-when"), atEnd ? when : `${when}, when the contact is largest`);
+  const isWorst = data.axis.name === "speed", where = isWorst && data.axis.values.length > 1;
+  write(place("facts-when"), factsPlace(data));
   place("facts").replaceChildren(...Object.entries(data.facts).map(([name, label]) => {
-    const { value, error, unit, mesh } = data.scalars[name];
+    const { value, error, unit, mesh } = data.scalars[name], index = isWorst ? largestAt(value) : factsIndex(data);
     const [number, half] = quantityText(value[index], error[index], unit, mesh[index]).split(" ± ");
     return make("div", {}, make("dt", { textContent: label }),
       make("dd", {}, [number, half?.split(" ")[1]].filter(Boolean).join(" "),
-        half && make("small", { textContent: `± ${half}` })));
+        half && make("small", { textContent: `± ${half}` }),
+        where && make("small", { textContent: `at ${placeText(data.axis, data.axis.values[index])}` })));
   }));
 }
 
-function referenceText(reference) {
+function referenceText(reference, data) {
   if (!reference) return [];
+  const { axis } = reference.data;
+  if (axis.name !== data.axis.name)
+    return [`Not compared: ${reference.status.label} is over ${axis.name}, this result over ${data.axis.name}.`];
   return [make("span", { class: "key" }), `Dashed: ${reference.status.label}, ${qualityOf(reference)}`];
 }
 

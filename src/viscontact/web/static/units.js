@@ -9,17 +9,19 @@ const prefixed = (unit, least = 0) =>
 const LADDERS = {
   m: [["m", 1], ["mm", 1e-3], ["µm", 1e-6], ["nm", 1e-9]],
   m2: [["m²", 1], ["mm²", 1e-6], ["µm²", 1e-12], ["nm²", 1e-18]],
-  Pa: prefixed("Pa", 1e-9), N: prefixed("N"), "N/m": prefixed("N/m", 1e-9), J: prefixed("J"), W: prefixed("W"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6], ["nrad", 1e-9]], s: TIMES,
+  Pa: prefixed("Pa", 1e-9), N: prefixed("N"), "N/m": prefixed("N/m", 1e-9), J: prefixed("J"), W: prefixed("W"), "m/s": prefixed("m/s", 1e-9).filter(([, factor]) => factor <= 1),
+  rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6], ["nrad", 1e-9]], s: TIMES,
 };
 // Units of each system; mrad and s are used in all but SI.
 const system = (name, units) => ({ name, units: { rad: ["mrad", 1e-3], s: ["s", 1], ...units } });
-const METRIC = { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6], "N/m": ["N/mm", 1e3] };
+const METRIC = { m: ["mm", 1e-3], "m/s": ["mm/s", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6], "N/m": ["N/mm", 1e3] };
 const TINY = {
-  m: ["µm", 1e-6], m2: ["µm²", 1e-12], Pa: ["kPa", 1e3], N: ["mN", 1e-3], "N/m": ["N/m", 1], J: ["µJ", 1e-6],
+  m: ["µm", 1e-6], "m/s": ["µm/s", 1e-6], m2: ["µm²", 1e-12], Pa: ["kPa", 1e3], N: ["mN", 1e-3], "N/m": ["N/m", 1],
+  J: ["µJ", 1e-6],
 };
 const IMPERIAL = {
   m: ["in", 0.0254], m2: ["in²", 0.00064516], Pa: ["psi", 6894.757293168], N: ["lbf", 4.4482216152605],
-  "N/m": ["lbf/in", 175.12683524647636],
+  "N/m": ["lbf/in", 175.12683524647636], "m/s": ["in/s", 0.0254],
 };
 export const SYSTEMS = {
   auto: { name: "readable units", units: {} },
@@ -29,6 +31,7 @@ export const SYSTEMS = {
   us: system("in, lbf, psi", IMPERIAL),
   si: system("SI: m, N, Pa", {
     m: ["m", 1], m2: ["m²", 1], Pa: ["Pa", 1], N: ["N", 1], "N/m": ["N/m", 1], J: ["J", 1], rad: ["rad", 1],
+    "m/s": ["m/s", 1],
   }),
 };
 let chosen = "auto";

@@ -13,7 +13,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import TypeAdapter
 
@@ -34,8 +34,10 @@ _SHIPPED = (".npz", ".csv")
 class RunEntry:
     """Entry of a run, stored in its directory: its request, its size and its state.
 
-    `end` is its last instant [s], `work` its cells times steps [-], `memory` its need [bytes],
-    `instants` their number (None for adaptive steps), and `said` the messages of its process.
+    `over` is the quantity in which its states differ, `begin` and `end` their first and last
+    instant [s], or the least and the largest speed [m/s], `instants` their number (None for
+    adaptive steps), `work` its cells times steps [-], `memory` its need [bytes], `errors` tells if
+    errors are estimated after the last step, and `said` are the messages of its process.
     """
 
     title: str
@@ -50,6 +52,8 @@ class RunEntry:
     state: str = "waiting"
     said: tuple[str, ...] = ()
     label: str = ""
+    over: Literal["time", "speed"] = "time"
+    begin: float = 0.0
 
 
 _ENTRY = TypeAdapter(RunEntry)

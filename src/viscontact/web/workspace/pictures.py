@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from colorsys import hls_to_rgb, rgb_to_hls
 from contextlib import ExitStack
 from dataclasses import dataclass
+from inspect import signature
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,8 +16,8 @@ from matplotlib.figure import Figure
 
 from viscontact.plot.layout.saving import written
 from viscontact.results.netcdf import open_results
+from viscontact.results.run_axis import SPEED, TIME, RunAxis, run_axis
 from viscontact.run_files import RESULT_NAME
-from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 from viscontact.web.workspace.problems import RequestError
 
@@ -37,41 +38,54 @@ _WHITE = 0.12
 
 @dataclass(frozen=True)
 class FigureChoice:
-    """Choice of a figure: name, format, instants and colours."""
+    """Choice of a figure: name, format, instants or speeds, and colours."""
 
     name: str
     kind: Kind = "svg"
     times: tuple[str, ...] = ()
     is_dark: bool = False
+    speeds: tuple[str, ...] = ()
 
-    def instants(self) -> list[float] | None:
-        """Return the instants [s]; None for the default of the figure."""
+    @property
+    def axis(self) -> RunAxis:
+        """Quantity of the places."""
+        return SPEED if self.speeds else TIME
+
+    def places(self) -> list[float] | None:
+        """Return the instants [s] or speeds [m/s]; None for the default of the figure."""
+        name = self.axis.name
+        if self.times and self.speeds:
+            raise RequestError(
+                422, "time and speed: a run is over one of them; leave out the other"
+            )
         try:
-            return [parse_quantity(text, "time") for text in self.times] or None
+            return [parse_quantity(text, name) for text in self.speeds or self.times] or None
         except ValueError as error:
-            raise RequestError(422, f"time: {error}") from error
+            raise RequestError(422, f"{name}: {error}") from error
 
 
 def figure_of(
     directory: Path, figures: Mapping[str, Callable[..., Figure]], choice: FigureChoice
 ) -> bytes:
     """Draw a figure of a run."""
-    draw, instants = _named(figures, choice.name), choice.instants()
+    draw, places = _named(figures, choice.name), choice.places()
     with opened(directory) as ds:
-        _refuse_outside(instants, ds)
-        return _drawn(draw, ds, instants, choice)
+        _refuse_outside(choice.axis, places, ds)
+        return _drawn(draw, ds, places, choice)
 
 
 def comparison_of(
     runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], choice: FigureChoice
 ) -> bytes:
     """Draw a figure of several runs."""
-    draw, instants = _named(figures, choice.name), choice.instants()
+    draw, places = _named(figures, choice.name), choice.places()
     with ExitStack() as stack:
         results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
+        if len({run_axis(ds).name for ds in results.values()}) > 1:
+            raise RequestError(422, "runs over time and runs over speed cannot be compared")
         for ds in results.values():
-            _refuse_outside(instants, ds)
-        return _drawn(draw, results, instants, choice)
+            _refuse_outside(choice.axis, places, ds)
+        return _drawn(draw, results, places, choice)
 
 
 def picture(figure: Figure, choice: FigureChoice) -> bytes:
@@ -111,7 +125,7 @@ def opened(directory: Path) -> xr.Dataset:
         ds = open_results(directory)
     except (OSError, ValueError) as error:
         raise RequestError(409, _why_none(directory)) from error
-    if not ds.sizes.get("time"):
+    if not ds.sizes.get(run_axis(ds).name):
         ds.close()
         raise RequestError(409, _NO_RESULT)
     return ds
@@ -137,22 +151,30 @@ def _named(figures: Mapping[str, Callable[..., Figure]], name: str) -> Callable[
 def _drawn(
     draw: Callable[..., Figure],
     results: Any,
-    instants: Sequence[float] | None,
+    places: Sequence[float] | None,
     choice: FigureChoice,
 ) -> bytes:
+    taken = [name for name in ("times", "speeds") if name in signature(draw).parameters]
+    if places is not None and not taken:
+        raise RequestError(422, f"{choice.axis.name}: does not apply to the figure {choice.name}")
     try:
-        return picture(draw(results, times=instants), choice)
+        return picture(draw(results, **dict.fromkeys(taken, places)), choice)
     except ValueError as error:
         raise RequestError(422, str(error)) from error
 
 
-def _refuse_outside(instants: Sequence[float] | None, ds: xr.Dataset) -> None:
-    start, end = (float(ds["time"][index]) for index in (0, -1))
+def _refuse_outside(given: RunAxis, places: Sequence[float] | None, ds: xr.Dataset) -> None:
+    if places is None:
+        return
+    axis = run_axis(ds)
+    if given is not axis:
+        raise RequestError(422, f"{given.name}: the run is over {axis.name}; give {axis.name}")
+    start, end = float(axis.values(ds).min()), float(axis.values(ds).max())
     slack = 1e-9 * end
-    for instant in instants or ():
-        if not start - slack <= instant <= end + slack:
+    for place in places:
+        if not start - slack <= place <= end + slack:
             raise RequestError(
                 422,
-                f"time: {format_quantity(instant, 's')} lies outside the run, which goes from "
-                f"{format_quantity(start, 's')} to {format_quantity(end, 's')}",
+                f"{axis.name}: {axis.quantity(place, 6)} lies outside the run, which goes from "
+                f"{axis.quantity(start, 6)} to {axis.quantity(end, 6)}",
             )
