@@ -515,8 +515,8 @@ def _leaves(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def _same(shown: object, value: object) -> bool:
-    if isinstance(value, bool):
-        return shown == value
+    if isinstance(value, bool):  # a box, or a choice where neither is the default
+        return shown in (value, "yes" if value else "no")
     if isinstance(value, int | float):
         return float(json.loads(str(shown))) == float(value)
     return shown == value
