@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import web.served_page as seen
-from web.test_web_steady import BALL, LONG
+from web.test_web_steady import BALL, LONG, ON_A_RANGE
 
 pytest.importorskip("playwright")
 pytestmark = [
@@ -88,6 +88,15 @@ def test_references_over_speed_are_drawn_and_others_refused_in_a_line(page: Any)
     assert _read(page, "#reference-text") == said
     assert page.locator("#friction").is_hidden()
     assert _read(page, "#histories-title") == "Over time"
+
+
+def test_nothing_is_drawn_over_a_single_speed(page: Any) -> None:
+    seen.visit(page, page.server, BALL.replace(ON_A_RANGE, "0.5 m/s"))
+    seen.run(page, "#coarse")
+    assert _read(page, "#facts-when") == "At 500 mm/s"
+    assert page.locator("#histories-chapter").is_hidden()
+    assert page.locator("#map-controls").is_hidden()
+    assert page.locator("#numbers tbody tr").count() > 5
 
 
 def test_run_grows_speed_by_speed_and_is_cancelled(page: Any) -> None:

@@ -19,6 +19,8 @@ export async function drawHistories(shown, reference) {
   if (data.friction) delete panels.friction_coefficient; // it has a figure of its own
   const scale = placeScale(data.axis, [...values, ...(reference?.data.axis.values ?? [])], onLog);
   const button = place("time-scale");
+  // Nothing is drawn over a single speed; the table has its numbers.
+  place("histories-chapter").hidden = over === "speed" && values.length < 2;
   place("histories-title").textContent = `Over ${over}`;
   button.textContent = onLog ? `Show linear ${over}` : `Show logarithmic ${over}`;
   button.hidden = values.length < 3;
