@@ -17,6 +17,7 @@ from viscontact.reference.indentation import (
     press_axisymmetric,
     resolution_error,
 )
+from viscontact.reference.layer import LayerContact, layer_punch, layer_sphere
 from viscontact.reference.lee_radok import lee_radok_ramp, lee_radok_step
 from viscontact.reference.lee_radok_contact import LeeRadokContact
 from viscontact.reference.line import LineContact, hertz_line
@@ -48,6 +49,7 @@ __all__ = [
     "ConeProfile",
     "EllipticalContact",
     "FlatPunchContact",
+    "LayerContact",
     "LeeRadokContact",
     "LineContact",
     "MovingCylinder",
@@ -69,6 +71,8 @@ __all__ = [
     "hertz_elliptical",
     "hertz_line",
     "hertz_sphere",
+    "layer_punch",
+    "layer_sphere",
     "lee_radok_ramp",
     "lee_radok_step",
     "moving_cylinder",
