@@ -14,10 +14,13 @@ from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
-from viscontact.halfspace.influence import influence_table
-from viscontact.halfspace.periodic_influence import periodic_influence_table
+from viscontact.halfspace.layered_influence import (
+    layered_influence_table,
+    periodic_layered_table,
+)
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Maps pressure to unit displacement on cells.
 Operator = Convolution | PeriodicConvolution
@@ -82,6 +85,7 @@ class ContactDomain:
         self,
         grid: Grid,
         *,
+        response: SurfaceResponse = HALF_SPACE,
         mirrored: tuple[bool, bool] = (False, False),
         transforms: Transforms | None = None,
     ) -> None:
@@ -92,7 +96,7 @@ class ContactDomain:
             raise ValueError(f"a mirrored grid is centred on the origin, not on {grid.centre}")
         if np.any(np.logical_and(mirrored, grid.periodic)):
             raise ValueError("along a period a grid is worked with as a whole, not mirrored")
-        self.grid = grid
+        self.grid, self.response = grid, response
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
@@ -111,7 +115,9 @@ class ContactDomain:
             return None
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
-        domain = ContactDomain(halved, mirrored=self.mirrored, transforms=self._transforms)
+        domain = ContactDomain(
+            halved, response=self.response, mirrored=self.mirrored, transforms=self._transforms
+        )
         domain.move_axis(self._axis)
         return domain
 
@@ -212,12 +218,14 @@ class ContactDomain:
 
     def _influence_table(self) -> NDArray[np.float64]:
         """Influence coefficients between all cells of the grid; none for a periodic one."""
-        return np.empty((0, 0)) if all(self.grid.periodic) else _coefficients(self.grid)
+        if all(self.grid.periodic):
+            return np.empty((0, 0))
+        return _coefficients(self.grid, self.response)
 
     def _preconditioner(self, shape: tuple[int, int]) -> Preconditioner:
         """Approximate inverse of the convolution over a block of cells."""
         options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
-        return Preconditioner(shape, self.grid.cell_size, **options)
+        return Preconditioner(shape, self.grid.cell_size, response=self.response, **options)
 
     def _plane(self, rows: slice, columns: slice) -> RigidPlane:
         """Rigid motions over rows and columns of the domain, about the body's axis."""
@@ -229,7 +237,9 @@ class ContactDomain:
         transforms = self._transforms
         if all(self.grid.periodic):
             cell_size = self.grid.cell_size
-            return PeriodicConvolution(shape, cell_size, single=single, transforms=transforms)
+            return PeriodicConvolution(
+                shape, cell_size, self.response, single=single, transforms=transforms
+            )
         nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
         return Convolution(
             self._coefficients[:nx, :ny],
@@ -240,14 +250,14 @@ class ContactDomain:
         )
 
 
-def _coefficients(grid: Grid) -> NDArray[np.float64]:
+def _coefficients(grid: Grid, response: SurfaceResponse) -> NDArray[np.float64]:
     """Influence coefficients of a grid that is not periodic along both axes [m]."""
     if not any(grid.periodic):
-        return influence_table(grid.shape, grid.cell_size)
+        return layered_influence_table(grid.shape, grid.cell_size, response)
     if grid.periodic[0]:
-        return periodic_influence_table(grid.shape, grid.cell_size, grid.size[1])
-    turned = periodic_influence_table(grid.shape[::-1], grid.cell_size[::-1], grid.size[0])
-    return turned.T
+        return periodic_layered_table(grid.shape, grid.cell_size, response, grid.size[1])
+    turned = grid.shape[::-1], grid.cell_size[::-1]
+    return periodic_layered_table(*turned, response, grid.size[0]).T
 
 
 def _arm(shape: tuple[int, int], grid: Grid) -> float:

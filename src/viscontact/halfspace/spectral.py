@@ -1,6 +1,7 @@
-"""Spectral operators of the half-space: exact on a periodic grid, approximate elsewhere.
+"""Spectral operators of the surface: exact on a periodic grid, approximate elsewhere.
 
-A pressure wave of wave number q displaces the surface by 2 p/|q| per unit contact compliance.
+A pressure wave of wave number q displaces the surface of a half-space by 2 p/|q| per unit contact
+compliance, that of layers by L(q) times as much.
 
 References
 ----------
@@ -23,14 +24,17 @@ from viscontact.fourier import (
     fill_of_order_one,
     transforms_by,
 )
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 
 class PeriodicConvolution:
-    """Surface displacement of a half-space whose load is periodic in x and y.
+    """Surface displacement of a half-space, or of layers, whose load is periodic in x and y.
 
-    A circular convolution with the exact symbol 2/|q| at the wave numbers of the cells. A mean
+    A circular convolution with the exact symbol 2 L/|q| at the wave numbers of the cells. A mean
     pressure would displace an infinite half-space without limit, so displacement is measured from
-    the mean plane of the surface: its mean is zero, and so is the symbol at q = 0.
+    the mean plane of the surface: its mean is zero, and so is the symbol at q = 0. Layers on a
+    rigid base are compressed by a mean pressure, and displacement is measured from their free
+    surface.
 
     A pressure of cos(2π x/λ) over λ = 1 m displaces the surface by 2 cos/q = cos/π:
 
@@ -45,6 +49,7 @@ class PeriodicConvolution:
         self,
         shape: tuple[int, int],
         cell_size: tuple[float, float],
+        response: SurfaceResponse = HALF_SPACE,
         *,
         single: bool = False,
         transforms: Transforms | None = None,
@@ -53,8 +58,16 @@ class PeriodicConvolution:
         number = np.float32 if single else np.float64
         self._spectra = Spectra(shape, cell_size, (False, False), number, transforms)
         half = self._spectra.half_wave_numbers
-        half[0, 0] = np.inf  # q = 0: the mean pressure leaves the mean plane where it is
-        self._symbol: NDArray[Any] = (1 / half).astype(number)
+        half[0, 0] = np.inf  # q = 0 comes below
+        symbol = 1 / half
+        if response is not HALF_SPACE:
+            waves, places = np.unique(half, return_inverse=True)
+            waves[-1] = waves[0]  # in place of infinity
+            symbol *= response.ratio(2 * waves)[places].reshape(half.shape)
+        # On a half-space the mean pressure leaves the mean plane where it is.
+        mean = response.mean_displacement
+        symbol[0, 0] = mean if np.isfinite(mean) else 0.0
+        self._symbol: NDArray[Any] = symbol.astype(number)
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None

@@ -1,0 +1,177 @@
+"""Influence coefficients of a uniformly loaded rectangle on layers.
+
+K = L(∞) times Love's coefficients of a half-space, plus the mean of the smooth correction Δ(r) over
+the cell times its area (`smooth_kernel`). Near the cell, Δ may vary within it as fast as the layers
+are thin. There the double integral is the double difference of F(X, Y) = T(X, Y) + T(Y, X) over the
+corners, where the right triangle of legs X and Y with its tip at the origin contributes
+
+    T(X, Y) = ∫_0^{asinh(Y/X)} M(X cosh t)/cosh t dt,   M(R) = ∫_0^R Δ(r) r dr:
+
+with M = R/π, that of 1/(π r), this is Love's X asinh(Y/X)/π. The integrand is analytic in a strip
+of half width π/2, whatever the thickness of the layers. Farther away, a Gauss rule over the cell.
+
+Far away a surface is a half-space of L(0) times the compliance. Along a period the coefficients are
+those of this half-space (`periodic_influence`), and the sum over the images of the rest, which
+decays exponentially on a rigid base and as c/r³ on an elastic one. The images beyond a distance R,
+on both sides, add (2 c/l) ∫_R^∞ (x² + y²)^(-3/2) dx per unit area.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.halfspace.influence import FAR, influence_table
+from viscontact.halfspace.periodic_influence import periodic_influence_table
+from viscontact.halfspace.smooth_kernel import SmoothKernel, smooth_kernel
+from viscontact.halfspace.surface_response import SurfaceResponse
+
+Array = NDArray[np.float64]
+
+#: Gauss nodes over each piece of a triangle, and along each edge of a cell far away.
+CORNER_RULE = np.polynomial.legendre.leggauss(24)
+CELL_RULE = np.polynomial.legendre.leggauss(3)
+
+#: Rest of π r k(r) below which images are left out, and its part of L(0) below which they decay as
+#: 1/r³; the farthest and the least distance of that in thicknesses, and the fewest images.
+REST_VANISHED, REST_DECAYED, FARTHEST, LEAST_REACH, LEAST_IMAGES = 1e-12, 1e-4, 1e5, 80.0, 6
+
+
+def layered_influence_table(
+    shape: tuple[int, int], cell_size: tuple[float, float], response: SurfaceResponse
+) -> Array:
+    """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
+
+    Per unit contact compliance of the half-space that the response is relative to.
+
+    A cell far smaller than the layer is thick lies on a half-space, less the layer's support:
+
+    >>> from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
+    >>> thick = ElasticStack((ElasticLayer(1000.0, 1.0, 0.3),), None)
+    >>> layered_influence_table((1, 2), (1.0, 1.0), thick).round(3).tolist()
+    [[1.122, 0.33]]
+    """
+    table = response.short_waves * influence_table(shape, cell_size)
+    if math.isinf(response.length):
+        return table
+    return table + correction_table(shape, cell_size, response)
+
+
+def periodic_layered_table(
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    response: SurfaceResponse,
+    datum: float,
+) -> Array:
+    """Influence coefficients [m] of a period along x at offsets of i and j cells, shape (nx, ny).
+
+    On a rigid base they need no datum; on a half-space displacement is zero at the distance `datum`
+    [m] of a line load, as in `periodic_influence_table`. One cell along x is a strip without end.
+
+    A wide strip on a thin layer is displaced by the uniaxial compression h (1 - 2ν)/(1 - ν)²:
+
+    >>> from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
+    >>> thin = ElasticStack((ElasticLayer(0.01, 1.0, 0.25),), None)
+    >>> round(float(periodic_layered_table((1, 2), (1.0, 1.0), thin, 1.0)[0, 0]), 9)
+    0.008888889
+    """
+    table = np.zeros(shape)
+    if response.long_waves:
+        table += response.long_waves * periodic_influence_table(shape, cell_size, datum)
+    if math.isinf(response.length):
+        return table
+    (nx, ny), (dx, dy) = shape, cell_size
+    if nx == 1:
+        dx = max(dy, response.length / 8)  # pieces of any length make the strip
+    reach, cubic = _reach_of_rest(response, nx * dx)
+    images = math.ceil(reach / (nx * dx))
+    count = nx * images + nx // 2 + 1
+    rest = layered_influence_table((count, ny), (dx, dy), response)
+    if response.long_waves:
+        rest -= response.long_waves * influence_table((count, ny), (dx, dy))
+    # Offsets i + m nx of all images, those of x < 0 by symmetry.
+    offsets = np.abs(np.arange(-images, images + 1)[:, None] * nx + np.arange(nx // 2 + 1))
+    folded = rest[offsets].sum(axis=0)
+    # The images beyond.
+    y, last = np.arange(ny) * dy, (images + 0.5) * nx * dx
+    folded += 2 * cubic * dy / nx / (last * np.hypot(last, y) + last**2 + y**2)
+    places = np.arange(nx)
+    return np.asarray(table + folded[np.minimum(places, nx - places)])
+
+
+def _reach_of_rest(response: SurfaceResponse, period: float) -> tuple[float, float]:
+    """Distance up to which images of the rest are summed [m], and c of its decay c/r³ [m²]."""
+    distances = response.length * np.geomspace(1.0, FARTHEST, 200)
+    kernel = smooth_kernel(response, max(2 * distances[-1], LEAST_IMAGES * period))
+    excess = response.long_waves - response.short_waves
+    rest = np.pi * distances * kernel.value(distances) - excess
+    least = max(REST_VANISHED, REST_DECAYED * min(response.long_waves, np.abs(rest).max()))
+    above = np.flatnonzero(np.abs(rest) > least)
+    place = min(above[-1] + 1, distances.size - 1) if above.size else 0
+    reach = max(float(distances[place]), LEAST_IMAGES * period)
+    if not response.long_waves:
+        return reach, 0.0
+    reach = max(reach, LEAST_REACH * response.length)
+    # c of c/r³ + d/r⁵ through the values at two distances.
+    two = reach / np.array([1.0, 2.0])
+    first, second = (kernel.value(two) - excess / (np.pi * two)) * two**3
+    return reach, float(4 * first - second) / 3
+
+
+def correction_table(
+    shape: tuple[int, int], cell_size: tuple[float, float], response: SurfaceResponse
+) -> Array:
+    """Integrals of the smooth correction Δ over cells at offsets of i and j cells [m]."""
+    (nx, ny), (dx, dy) = shape, cell_size
+    # Tables are kept: one for all grids of similar extent.
+    reach = response.length * 2.0 ** math.ceil(
+        math.log2(math.hypot((nx + 1) * dx, (ny + 1) * dy) / response.length)
+    )
+    kernel = smooth_kernel(response, reach)
+    nx_near, ny_near = (
+        min(n, int(FAR * max(cell_size) / d) + 1) for n, d in zip(shape, cell_size, strict=True)
+    )
+    x, y = np.arange(nx, dtype=np.float64) * dx, np.arange(ny, dtype=np.float64) * dy
+    table = np.empty(shape)
+    table[nx_near:] = _gauss(kernel, x[nx_near:], y, cell_size)
+    table[:nx_near, ny_near:] = _gauss(kernel, x[:nx_near], y[ny_near:], cell_size)
+    table[:nx_near, :ny_near] = _by_corners(kernel, (nx_near, ny_near), cell_size)
+    return table
+
+
+def _gauss(kernel: SmoothKernel, x: Array, y: Array, cell_size: tuple[float, float]) -> Array:
+    """Gauss rule over cells around x, y."""
+    (dx, dy), total = cell_size, np.zeros((x.size, y.size))
+    for node_x, weight_x in zip(*CELL_RULE, strict=True):
+        for node_y, weight_y in zip(*CELL_RULE, strict=True):
+            r = np.hypot((x + node_x * dx / 2)[:, None], (y + node_y * dy / 2)[None, :])
+            total += weight_x * weight_y * kernel.value(r)
+    return np.asarray(total * (dx * dy / 4))
+
+
+def _by_corners(
+    kernel: SmoothKernel, shape: tuple[int, int], cell_size: tuple[float, float]
+) -> Array:
+    """Double differences of F over the corners of cells around offsets of i and j cells."""
+    (nx, ny), (dx, dy) = shape, cell_size
+    x, y = np.arange(0.5, nx) * dx, np.arange(0.5, ny) * dy
+    corners = _triangles(kernel, x, y) + _triangles(kernel, y, x).T
+    # F is odd in X and in Y: that of the corner at -1/2 cells is that of the first, reversed.
+    for axis in (0, 1):
+        first = -np.take(corners, [0], axis)
+        corners = np.diff(corners, axis=axis, prepend=first)
+    return corners
+
+
+def _triangles(kernel: SmoothKernel, near: Array, along: Array) -> Array:
+    """T(X, Y) of all X (`near`, rows) and of ascending Y (`along`, columns)."""
+    ends = np.arcsinh(along[None, :] / near[:, None])
+    starts = np.concatenate([np.zeros((near.size, 1)), ends[:, :-1]], axis=1)
+    middle, half = (ends + starts) / 2, (ends - starts) / 2
+    pieces = np.zeros(ends.shape)
+    for node, weight in zip(*CORNER_RULE, strict=True):
+        grown = np.cosh(middle + node * half)
+        pieces += weight * half * kernel.moment(near[:, None] * grown) / grown
+    return np.asarray(np.cumsum(pieces, axis=1))

@@ -1,0 +1,110 @@
+"""Frequency response of an elastic surface to waves of normal pressure."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class SurfaceResponse(ABC):
+    """Displacement under a wave of pressure, relative to a half-space: the ratio L(q).
+
+    A pressure p cos(q x) on a surface without shear traction displaces it into the body by
+    (2/q) L(q) p cos(q x) per unit contact compliance; on a half-space L = 1.
+
+    Attributes
+    ----------
+    short_waves : float
+        Limit of L for short waves [-].
+    long_waves : float
+        Limit of L for long waves [-]; 0 on a rigid base.
+    length : float
+        Shortest length over which the surface differs from a half-space [m]: the thickness of the
+        thinnest layer, inf for a half-space.
+    """
+
+    short_waves: float
+    long_waves: float
+    length: float
+
+    @abstractmethod
+    def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
+        """L at wave numbers [1/m], not zero; analytic, so that they may be complex [-]."""
+
+    @property
+    @abstractmethod
+    def mean_displacement(self) -> float:
+        """Displacement under a uniform pressure of 1 Pa [m/Pa], inf without a rigid base.
+
+        It is the limit of 2 L(q)/q, per unit contact compliance: a length [m].
+        """
+
+
+@dataclass(frozen=True)
+class HalfSpaceResponse(SurfaceResponse):
+    """Response of a half-space to itself: L = 1.
+
+    >>> HalfSpaceResponse().ratio(np.array([1.0, 2.0])).tolist()
+    [1.0, 1.0]
+    """
+
+    short_waves = 1.0
+    long_waves = 1.0
+    length = math.inf
+
+    def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
+        """L at wave numbers [1/m]."""
+        return np.ones_like(wave_number)
+
+    @property
+    def mean_displacement(self) -> float:
+        """Infinite: a half-space has no support."""
+        return math.inf
+
+
+HALF_SPACE = HalfSpaceResponse()
+
+
+@dataclass(frozen=True)
+class SummedResponse(SurfaceResponse):
+    """Weighted sum of surface responses, as of two bodies pressed on each other.
+
+    >>> SummedResponse((HALF_SPACE, HALF_SPACE), (0.75, 0.25)).ratio(np.array([1.0])).tolist()
+    [1.0]
+    """
+
+    parts: tuple[SurfaceResponse, ...]
+    weights: tuple[float, ...]
+
+    @property
+    def short_waves(self) -> float:  # type: ignore[override]
+        """Limit of L for short waves [-]."""
+        return self._sum([part.short_waves for part in self.parts])
+
+    @property
+    def long_waves(self) -> float:  # type: ignore[override]
+        """Limit of L for long waves [-]."""
+        return self._sum([part.long_waves for part in self.parts])
+
+    @property
+    def length(self) -> float:  # type: ignore[override]
+        """The shortest of the parts' [m]."""
+        return min(part.length for part in self.parts)
+
+    def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
+        """L at wave numbers [1/m]."""
+        pairs = zip(self.weights, self.parts, strict=True)
+        return np.asarray(sum(weight * part.ratio(wave_number) for weight, part in pairs))
+
+    @property
+    def mean_displacement(self) -> float:
+        """The weighted sum [m]."""
+        return self._sum([part.mean_displacement for part in self.parts])
+
+    def _sum(self, values: list[float]) -> float:
+        return math.fsum(w * value for w, value in zip(self.weights, values, strict=True) if w)
