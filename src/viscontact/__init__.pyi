@@ -72,6 +72,8 @@ from .materials.cards import read_abaqus as read_abaqus
 from .materials.cards import read_ansys as read_ansys
 from .materials.cards import write_abaqus as write_abaqus
 from .materials.cards import write_ansys as write_ansys
+from .materials.layers import Layer as Layer
+from .materials.layers import Layered as Layered
 from .materials.material import Material as Material
 from .report import write_report as write_report
 from .results.netcdf import open_results as open_results

@@ -125,11 +125,12 @@ def _softness(poisson_ratio: float) -> float:
     return (1 - 2 * poisson_ratio) / (2 - 2 * poisson_ratio)
 
 
-def _wave_matrix(poisson_ratio: float) -> NDArray[np.float64]:
+def _wave_matrix(poisson_ratio: float) -> Array:
     """Matrix A of the waves in a material."""
     a, b = poisson_ratio / (1 - poisson_ratio), _softness(poisson_ratio)
     c = 2 / (1 - poisson_ratio)
-    return np.array([[0, 1, 1, 0], [-a, 0, 0, b], [c, 0, 0, a], [0, 0, -1, 0]], dtype=float)
+    rows = [[0.0, 1.0, 1.0, 0.0], [-a, 0.0, 0.0, b], [c, 0.0, 0.0, a], [0.0, 0.0, -1.0, 0.0]]
+    return np.array(rows)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,12 +147,12 @@ class _Waves:
     @classmethod
     def beneath(cls, base: ElasticBase | None, shape: tuple[int, ...]) -> _Waves:
         """Waves at the surface of the base: decaying ones, or tractions only."""
+        if base is not None:
+            vectors = _decaying(base.poisson_ratio)
+            return cls(np.broadcast_to(vectors, (*shape, 4, 2)), base.shear_modulus)
         vectors = np.zeros((*shape, 4, 2))
-        if base is None:
-            vectors[..., 2, 0] = vectors[..., 3, 1] = 1.0
-            return cls(vectors, 1.0)
-        vectors[...] = _decaying(base.poisson_ratio)
-        return cls(vectors, base.shear_modulus)
+        vectors[..., 2, 0] = vectors[..., 3, 1] = 1.0
+        return cls(vectors, 1.0)
 
     @property
     def normal_compliance(self) -> Array:
@@ -163,8 +164,8 @@ class _Waves:
 
     def above(self, layer: ElasticLayer, q: Array) -> _Waves:
         """Waves at the upper side of a layer."""
-        vectors = self.vectors.astype(np.result_type(q, float))
-        vectors[..., :2, :] *= layer.shear_modulus / self.shear_modulus
+        softer = np.array([1.0, 1.0, 0.0, 0.0]) * (layer.shear_modulus / self.shear_modulus - 1)
+        vectors = self.vectors * (1 + softer)[:, None]
         if not layer.bonded:
             vectors = _sliding(_Waves(vectors, layer.shear_modulus).normal_compliance)
         depth = q * layer.thickness
@@ -176,9 +177,10 @@ class _Waves:
         return _Waves(moved, layer.shear_modulus)
 
 
-def _decaying(poisson_ratio: float) -> NDArray[np.float64]:
+def _decaying(poisson_ratio: float) -> Array:
     """Two waves that decay with depth: those of e^-ζ, the columns of (A - 1)²."""
-    return np.linalg.matrix_power(_wave_matrix(poisson_ratio) - np.eye(4), 2)[:, 2:]
+    grown = _wave_matrix(poisson_ratio) - np.eye(4)
+    return np.asarray((grown @ grown)[:, 2:])
 
 
 def _sliding(normal_compliance: Array) -> Array:

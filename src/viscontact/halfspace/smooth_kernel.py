@@ -23,9 +23,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline, make_interp_spline
-from scipy.special import hankel1
 
 from viscontact.halfspace.surface_response import SurfaceResponse
 
@@ -52,8 +51,8 @@ class SmoothKernel:
     """
 
     length: float
-    value_spline: BSpline
-    moment_spline: BSpline
+    value_spline: scipy.interpolate.BSpline
+    moment_spline: scipy.interpolate.BSpline
 
     def value(self, r: Array) -> Array:
         """Δ at distances [1/m]."""
@@ -83,7 +82,7 @@ def smooth_kernel(response: SurfaceResponse, reach: float) -> SmoothKernel:
     # Over r/length: Δ is even, its moment's integrand odd in t.
     moments = values * r * np.cosh(t)
     value, moment = (
-        make_interp_spline(*_extended(t, each, sign), k=DEGREE)
+        scipy.interpolate.make_interp_spline(*_extended(t, each, sign), k=DEGREE)
         for each, sign in ((values, 1), (moments, -1))
     )
     integral = moment.antiderivative()
@@ -97,7 +96,9 @@ def _ray_integral(response: SurfaceResponse, length: float, r: Array) -> Array:
     count = int(np.ceil((np.log(SHORTEST_WAVE) - log_longest) / LOG_STEP))
     q = RAY * np.exp(log_longest + LOG_STEP * np.arange(count + 1))
     weights = (response.ratio(q / length) - response.short_waves) * q * (LOG_STEP / np.pi)
-    return np.array([float((weights * hankel1(0, q * each)).sum().real) for each in r])
+    return np.array(
+        [float((weights * scipy.special.hankel1(0, q * each)).sum().real) for each in r]
+    )
 
 
 def _extended(t: Array, values: Array, sign: int) -> tuple[Array, Array]:

@@ -103,8 +103,9 @@ class SummedResponse(SurfaceResponse):
 
     @property
     def mean_displacement(self) -> float:
-        """The weighted sum [m]."""
-        return self._sum([part.mean_displacement for part in self.parts])
+        """The weighted sum [m]; infinite if one of the parts is."""
+        means = [part.mean_displacement for part in self.parts]
+        return self._sum(means) if np.isfinite(means).all() else math.inf
 
     def _sum(self, values: list[float]) -> float:
         return math.fsum(w * value for w, value in zip(self.weights, values, strict=True) if w)

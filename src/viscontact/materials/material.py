@@ -133,6 +133,25 @@ class Material(Displayable):
         return creep.scaled(0.5) + beside.scaled(0.75)
 
 
+def uniaxial_compression(material: Material) -> SeriesCompliance:
+    """Creep compliance of uniaxial compression (without lateral strain) of a Prony series [1/Pa].
+
+    With G~ = s L[G] it is 3/(3K + 4G~), or (1 - 2ν)/(1 - ν) Phi~ at a constant Poisson's ratio.
+
+    >>> from viscontact.laws import Elastic
+    >>> round(uniaxial_compression(Material(Elastic(3e9), bulk_modulus=5e9))(0.0) * 1e9, 9)
+    0.111111111
+    >>> round(uniaxial_compression(Material(Elastic(3e9), poisson_ratio=0.25))(0.0) * 1e9, 9)
+    0.111111111
+    """
+    assert isinstance(material.law, SeriesLaw)
+    creep, ratio = SeriesCompliance(*material.law.creep_series().terms), material.poisson_ratio
+    if ratio is not None:
+        return creep.scaled((1 - 2 * ratio) / (1 - ratio))
+    assert material.bulk_modulus is not None  # exactly one is given
+    return _beside_spring(creep.scaled(0.5), 3.0 * material.bulk_modulus).scaled(3.0)
+
+
 def _beside_spring(creep: SeriesCompliance, stiffness: float) -> SeriesCompliance:
     """Return the creep series of a body in parallel with a spring of stiffness 1/c.
 

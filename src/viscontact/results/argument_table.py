@@ -22,6 +22,7 @@ from viscontact.units.formatting import format_quantity
 _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
 #: Classes whose part of the table says what they are.
 _PLAIN = {"Material", "Grid", "AutomaticGrid", "CombinedIndenter", "PlacedIndenter"}
+_PLAIN |= {"Layer", "Layered"}
 _PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, LoadHistory | Motion)}
 #: Arguments that are left out if this is their value.
 _DEFAULTS: dict[str, tuple[object, ...]] = {
@@ -60,7 +61,8 @@ def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[t
             yield from argument_rows(value, owner if key in ("law", "body") else name)
         elif _holds_objects(value):
             for index, each in enumerate(value, 1):
-                yield from argument_rows(each, f"{owner} part {index}".strip())
+                one = "layer" if key == "layers" else "part"
+                yield from argument_rows(each, f"{owner} {one} {index}".strip())
         elif key != "type" and not _is_default(kind, key, value):
             yield name, _value(_unit(kind, key, description.get("control", "")), key, value)
 
@@ -104,6 +106,8 @@ def _holds_objects(value: Any) -> bool:
 def _value(unit: str, key: str, value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float | list):
         return "yes" if value is True else str(value)
+    if key == "bonded" and isinstance(value, list):
+        return ", ".join("yes" if each else "no" for each in value)
     if isinstance(value, list) and all(isinstance(each, bool) for each in value):
         return "along " + " and ".join(
             axis for axis, holds in zip("xy", value, strict=True) if holds

@@ -14,6 +14,7 @@ import numpy as np
 
 from viscontact import indenters, laws, loads
 from viscontact.grid import AutomaticGrid, Grid
+from viscontact.materials.layers import Layer, Layered
 from viscontact.materials.material import Material
 from viscontact.units.axis_flags import AxisFlags
 
@@ -22,7 +23,7 @@ _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name i
 #: Classes that a description names: all exported shapes, laws, shifts and loads, and a few more.
 STORED_CLASSES: dict[str, Any] = {
     each.__name__: each
-    for each in (*_EXPORTED, Material, Grid, AutomaticGrid)
+    for each in (*_EXPORTED, Material, Layer, Layered, Grid, AutomaticGrid)
     if isinstance(each, type) and not (isabstract(each) or each is loads.LoadPoint)
 }
 

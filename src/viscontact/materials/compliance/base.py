@@ -37,5 +37,9 @@ class ContactCompliance(CreepFunction):
         return False
 
     @abstractmethod
+    def scaled(self, factor: float) -> ContactCompliance:
+        """Return the compliance times a positive factor."""
+
+    @abstractmethod
     def __add__(self, other: ContactCompliance) -> ContactCompliance:
         """Return the compliance of two bodies pressed on each other."""

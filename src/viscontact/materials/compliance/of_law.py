@@ -53,6 +53,10 @@ class LawCompliance(ContactCompliance):
         """Estimated relative error of J where it was interconverted by numbers [-]; 0 if exact."""
         return self.law.creep_error
 
+    def scaled(self, factor: float) -> LawCompliance:
+        """Return the compliance times a positive factor."""
+        return LawCompliance(self.law, factor * self.factor)
+
     def __add__(self, other: ContactCompliance) -> ContactCompliance:
         """Return the compliance of two bodies pressed on each other."""
         return SummedCompliance((self,)) + other

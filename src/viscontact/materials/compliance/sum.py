@@ -50,6 +50,10 @@ class SummedCompliance(ContactCompliance):
         """Estimated relative error of J where it was interconverted by numbers [-]; 0 if exact."""
         return max(part.inversion_error for part in self.parts)
 
+    def scaled(self, factor: float) -> SummedCompliance:
+        """Return the compliance times a positive factor."""
+        return SummedCompliance(tuple(part.scaled(factor) for part in self.parts))
+
     def __add__(self, other: ContactCompliance) -> ContactCompliance:
         """Return the compliance of two bodies pressed on each other."""
         more = other.parts if isinstance(other, SummedCompliance) else (other,)
