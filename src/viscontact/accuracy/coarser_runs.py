@@ -264,8 +264,8 @@ def _coarser_run(
     problem = replace(
         run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=float(step_ratio)
     )
-    plan = plan_history(problem, coarse.open_gap, coarse.grid)
-    setup = replace(coarse, problem=problem, hereditary=plan)
+    plan, *others = plan_history(problem, coarse.open_gap, coarse.grid)
+    setup = replace(coarse, problem=problem, hereditary=plan, other_terms=tuple(others))
     return CoarserRun(math.sqrt(ratios[0] * ratios[1]), divides_steps=False, run=setup)
 
 

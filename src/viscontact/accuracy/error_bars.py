@@ -194,7 +194,8 @@ def _bar(
     cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
     relative = _around(cells * _over(by_cells, scale)) / cells
     relative += np.nan_to_num(_over(levels.by_steps, scale))
-    relative += run.problem.solver_error + run.hereditary.error
+    relative += run.problem.solver_error + max(plan.error for plan in run.plans)
+    relative += run.problem.surface.splitting_error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     return np.where(np.isnan(own), np.nan, bar)

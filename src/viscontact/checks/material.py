@@ -105,6 +105,25 @@ def origin_warnings(bodies: Sequence[Material]) -> dict[str, str]:
     return {"origin": "; ".join(said)} if said else {}
 
 
+def splitting_warnings(error: float) -> dict[str, str]:
+    """Warn of layers whose response is not well approximated by a sum of products; error [-].
+
+    Examples
+    --------
+    >>> list(splitting_warnings(0.02)), splitting_warnings(1e-4)
+    (['splitting'], {})
+    """
+    if error <= MAX_LAW_ERROR:
+        return {}
+    return {
+        "splitting": (
+            f"the layers' creep under waves of pressure is approximated by a sum that is off by up "
+            f"to {error:.1%}; layers whose moduli differ more (a soft cover on a hard core) have a "
+            "smaller error"
+        )
+    }
+
+
 def passivity_warnings(law: Law, end: float) -> dict[str, str]:
     """Warn of a measured law whose loss modulus is negative at some frequency.
 

@@ -14,9 +14,33 @@ from viscontact.contact.rim import mean_chords
 WARNING_CELLS = 10
 
 
+#: Largest shorter edge of a cell over the thickness of the thinnest layer.
+MOST_CELL = 1.0
+
 #: A smaller mean chord causes a warning. A disc of d cells has a mean chord of pi/4 d: 4 belong to
 #: a disc of 5 cells.
 WARNING_SPOT_CELLS = 4.0
+
+
+def layer_warnings(thickness: float, cell_size: tuple[float, float]) -> dict[str, str]:
+    """Warn of cells that are long against the thinnest layer [m].
+
+    Examples
+    --------
+    >>> list(layer_warnings(1e-3, (5e-3, 1.2e-3))), layer_warnings(1e-3, (5e-3, 1e-4))
+    (['layers'], {})
+    """
+    shorter = min(cell_size) / thickness  # along rollers, and along lines, cells may be long
+    if shorter <= MOST_CELL:
+        return {}
+    return {
+        "layers": (
+            f"the shorter edges of the cells are {shorter:.2g} times the thickness of the thinnest "
+            "layer: near the rim the gap is not that of a half-space, so that the contact area may "
+            "be off by about 1 %, and the approach on a nearly incompressible layer more; use "
+            "smaller cells"
+        )
+    }
 
 
 def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:

@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
+from viscontact.materials.layers import Layered
+from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
+from viscontact.problem.surface import creeps
 from viscontact.units.formatting import format_quantity
 
 #: Way of a step over half the contact's extent along the motion up to which the error of the
@@ -36,10 +39,13 @@ def check_motion(problem: Problem) -> None:
 
 def _check_mate(problem: Problem, motion: Motion) -> None:
     mate = problem.indenter_material
-    if mate is None:
+    if mate is None or not creeps(mate):
         return
-    if mate.contact_compliance().is_elastic:
-        return
+    if isinstance(mate, Layered):
+        raise ValueError(
+            "indenter_material: layers that creep on a moving indenter are not supported yet; "
+            "give a Material, or let the layered body be the one at rest"
+        )
     if motion.rolling is None:
         raise ValueError(
             "motion.rolling: the indenter's material creeps, so that it matters whether it flows "
@@ -78,7 +84,7 @@ def _circumference(problem: Problem, motion: Motion) -> float:
 def turn_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a roller whose material returns to the contact before it has recovered."""
     motion, mate = problem.motion, problem.indenter_material
-    if motion is None or mate is None or mate.contact_compliance().is_elastic:
+    if motion is None or not isinstance(mate, Material) or not creeps(mate):
         return {}
     turn = _circumference(problem, motion)
     left = left_after(mate.contact_compliance(), turn / motion.top_speed)
@@ -176,8 +182,16 @@ def row_warnings(problem: Problem) -> dict[str, str]:
 
 def heat_warnings(problem: Problem, grid: Grid, compliance: ContactCompliance) -> dict[str, str]:
     """Warn of a law, in the form that the run uses, whose heat is not known."""
-    known = isinstance(compliance, SeriesCompliance) or not grid.has_datum
-    if problem.motion is None or known:
+    if problem.motion is None or not problem.has_datum(grid):
+        return {}
+    if len(problem.surface.terms) > 1:
+        return {
+            "heat": (
+                "the bodies have layers that creep differently: dissipation and heat are not known "
+                "(NaN)"
+            )
+        }
+    if isinstance(compliance, SeriesCompliance):
         return {}
     return {
         "heat": (

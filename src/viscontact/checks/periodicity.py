@@ -29,13 +29,19 @@ TEXTURE_TOLERANCE = 1e-3
 
 
 def check_period(
-    indenter: Indenter, open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory
+    indenter: Indenter,
+    open_gap: NDArray[np.float64],
+    grid: Grid,
+    load: LoadHistory,
+    *,
+    supported: bool = False,
 ) -> None:
     """Refuse a shape or a load that does not fit into the period of a periodic grid.
 
     Along a periodic axis a load must be centred and level, and waves, dimples and height maps must
     fit into the period. An approach must not close the gap everywhere; along one periodic axis only
-    it has no datum. `open_gap` is the gap on the grid [m].
+    it has no datum. Layers that are `supported` by a rigid base have one, and are compressed by any
+    approach. `open_gap` is the gap on the grid [m].
 
     Examples
     --------
@@ -59,6 +65,8 @@ def check_period(
     for part in _parts(indenter):
         _refuse_misfit(part, grid)
     _refuse_variation(indenter, grid)
+    if supported:
+        return
     if not grid.has_datum:
         _refuse_approach(load)
         return
@@ -87,15 +95,18 @@ def check_endless(indenter: Indenter, grid: Grid | None) -> None:
             )
 
 
-def datum_warnings(grid: Grid, undefined: Sequence[str]) -> dict[str, str]:
+def datum_warnings(
+    grid: Grid, undefined: Sequence[str], *, supported: bool = False
+) -> dict[str, str]:
     """Warn that the approach has no datum on a grid that is periodic along one axis only.
 
-    It and all that follows from it, by name, is then `undefined`.
+    It and all that follows from it, by name, is then `undefined`. It has a datum on layers that are
+    `supported` by a rigid base.
 
     >>> list(datum_warnings(Grid((1, 8), (1e-3, 1e-3), periodic=(True, False)), ["approach"]))
     ['datum']
     """
-    if grid.has_datum:
+    if grid.has_datum or supported:
         return {}
     *others, last = undefined
     named = f"{', '.join(others)} and {last} are" if others else f"{last} is"

@@ -20,7 +20,11 @@ from viscontact.halfspace.layered_influence import (
 )
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
-from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
+from viscontact.halfspace.surface_response import (
+    HALF_SPACE,
+    SummedResponse,
+    SurfaceResponse,
+)
 
 #: Maps pressure to unit displacement on cells.
 Operator = Convolution | PeriodicConvolution
@@ -97,6 +101,9 @@ class ContactDomain:
         if np.any(np.logical_and(mirrored, grid.periodic)):
             raise ValueError("along a period a grid is worked with as a whole, not mirrored")
         self.grid, self.response = grid, response
+        #: Influence tables, and operators on all cells, of the parts of responses that change.
+        self._tables: dict[SurfaceResponse, NDArray[np.float64]] = {}
+        self._of_parts: dict[SurfaceResponse, Operator] = {}
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
@@ -104,10 +111,36 @@ class ContactDomain:
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
         self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
+        self._build_operators()
+        self._last = self.whole
+
+    def _build_operators(self) -> None:
         self._coefficients = self._influence_table()
         self.convolution = self._operator(self.shape, single=False)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
-        self._last = self.whole
+
+    def set_response(self, parts: tuple[SurfaceResponse, ...], weights: tuple[float, ...]) -> None:
+        """Set the surface's response to a weighted sum of parts, whose tables are kept."""
+        response = SummedResponse(parts, weights)
+        if response == self.response:
+            return
+        self.response = response
+        last = self._last
+        self._build_operators()
+        is_whole = (last.rows, last.columns) == (self.whole.rows, self.whole.columns)
+        self._last = self.whole if is_whole else self._patch(last.rows, last.columns)
+
+    def unit_displacement(
+        self, pressure: NDArray[np.float64], response: SurfaceResponse
+    ) -> NDArray[np.float64]:
+        """Displacement per unit compliance [Pa m] under a part of the response, of all cells."""
+        if response not in self._of_parts:
+            own = self.response, self._coefficients
+            self.response = response
+            self._coefficients = self._influence_table()
+            self._of_parts[response] = self._operator(self.shape, single=False)
+            self.response, self._coefficients = own
+        return self._of_parts[response].apply(pressure)
 
     def coarser(self) -> ContactDomain | None:
         """Same region in cells twice as long and wide; None if their number is odd or too small."""
@@ -220,7 +253,16 @@ class ContactDomain:
         """Influence coefficients between all cells of the grid; none for a periodic one."""
         if all(self.grid.periodic):
             return np.empty((0, 0))
-        return _coefficients(self.grid, self.response)
+        if not isinstance(self.response, SummedResponse):
+            return self._table_of(self.response)
+        pairs = zip(self.response.weights, self.response.parts, strict=True)
+        return np.asarray(sum(weight * self._table_of(part) for weight, part in pairs))
+
+    def _table_of(self, response: SurfaceResponse) -> NDArray[np.float64]:
+        """Influence table of a response, kept."""
+        if response not in self._tables:
+            self._tables[response] = _coefficients(self.grid, response)
+        return self._tables[response]
 
     def _preconditioner(self, shape: tuple[int, int]) -> Preconditioner:
         """Approximate inverse of the convolution over a block of cells."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
@@ -36,10 +37,16 @@ class PointContact:
     point: LoadPoint
     compliance: float  # of the elastic body [1/Pa]
     estimate: ContactEstimate
+    response: SurfaceResponse = HALF_SPACE
 
 
 def contacts_of_history(
-    indenter: Indenter, compliance: float, load: LoadHistory, end: float | None
+    indenter: Indenter,
+    compliance: float,
+    load: LoadHistory,
+    end: float | None,
+    *,
+    response: SurfaceResponse = HALF_SPACE,
 ) -> list[PointContact]:
     """Estimate the contact under every corner of a load history, at one compliance [1/Pa].
 
@@ -52,7 +59,12 @@ def contacts_of_history(
             "give a grid"
         )
     return [
-        PointContact(point, compliance, locate_contact(indenter, compliance, point))
+        PointContact(
+            point,
+            compliance,
+            locate_contact(indenter, compliance, point, response=response),
+            response,
+        )
         for point in points
     ]
 
@@ -76,8 +88,9 @@ def smallest_contact(
     stiffer = _compliance_at_largest_load(compliance, load, end)
     if not 0 < stiffer < smallest.compliance:
         return smallest
-    estimate = locate_contact(indenter, stiffer, smallest.point)
-    return PointContact(smallest.point, stiffer, estimate)
+    response = smallest.response
+    estimate = locate_contact(indenter, stiffer, smallest.point, response=response)
+    return PointContact(smallest.point, stiffer, estimate, response)
 
 
 def _compliance_at_largest_load(

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from viscontact.grid import MIN_CELLS_ACROSS
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact
@@ -19,7 +20,13 @@ FAR = 4.0
 Place = tuple[float, float]
 
 
-def locate_contact(indenter: Indenter, compliance: float, point: LoadPoint) -> ContactEstimate:
+def locate_contact(
+    indenter: Indenter,
+    compliance: float,
+    point: LoadPoint,
+    *,
+    response: SurfaceResponse = HALF_SPACE,
+) -> ContactEstimate:
     """Estimate a contact at one compliance [1/Pa], on a grid around the origin or around itself.
 
     Raises ValueError if no grid fits.
@@ -36,21 +43,22 @@ def locate_contact(indenter: Indenter, compliance: float, point: LoadPoint) -> C
     [5.0, 0.0, 0.18]
     """
     found, refusals = None, []
+    far_compliance = response.long_waves * compliance
     try:
-        found = estimate_contact(indenter, compliance, point)
+        found = estimate_contact(indenter, compliance, point, response=response)
     except ValueError as error:
         refusals.append(error)
     if found is not None and found.rim.cells_across >= MIN_CELLS_ACROSS:
         return found
-    alone = _far_contact(indenter, compliance, point, found)
+    alone = _far_contact(indenter, compliance, point, found, response)
     if alone is not None:
-        elsewhere = _place_elsewhere(indenter, compliance, point, alone)
+        elsewhere = _place_elsewhere(indenter, far_compliance, point, alone)
         if elsewhere is None:
             return alone
         refusals.append(_refusal(alone.peak_place, elsewhere))
     if found is not None:
         may_tilt = point.tilt_x is None or point.tilt_y is None
-        elsewhere = None if may_tilt else _place_elsewhere(indenter, compliance, point, found)
+        elsewhere = None if may_tilt else _place_elsewhere(indenter, far_compliance, point, found)
         if elsewhere is None:
             return found
         refusals.append(_refusal(found.peak_place, elsewhere))
@@ -58,14 +66,18 @@ def locate_contact(indenter: Indenter, compliance: float, point: LoadPoint) -> C
 
 
 def _far_contact(
-    indenter: Indenter, compliance: float, point: LoadPoint, found: ContactEstimate | None
+    indenter: Indenter,
+    compliance: float,
+    point: LoadPoint,
+    found: ContactEstimate | None,
+    response: SurfaceResponse,
 ) -> ContactEstimate | None:
     """Estimate a contact on a grid around its probable place; None if it is not far away."""
     place = _probable_place(indenter, point, found)
     if place is None or not any(place):
         return None
     try:
-        alone = estimate_contact(indenter, compliance, point, around=place)
+        alone = estimate_contact(indenter, compliance, point, around=place, response=response)
     except ValueError:
         return None
     is_far = any(grid_centre([alone])) and alone.rim.cells_across >= MIN_CELLS_ACROSS

@@ -178,7 +178,8 @@ def _exponents(indenter: Indenter, largest: PointContact) -> tuple[tuple[float, 
         compliance *= SMALLER_REFERENCE
     else:
         point = replace(point, approach=SMALLER_REFERENCE * point.approach)
-    smaller, estimate = locate_contact(indenter, compliance, point), largest.estimate
+    smaller = locate_contact(indenter, compliance, point, response=largest.response)
+    estimate = largest.estimate
     ratios = np.divide(
         [*smaller.extents, smaller.peak_pressure * compliance],
         [*estimate.extents, estimate.peak_pressure * largest.compliance],

@@ -15,6 +15,7 @@ from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.grid import Grid
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 from viscontact.units.formatting import format_quantity
@@ -132,12 +133,13 @@ def elastic_contact(
     point: LoadPoint,
     grid: Grid,
     *,
+    response: SurfaceResponse = HALF_SPACE,
     tolerance: float = COARSE_TOLERANCE,
     mirrored: tuple[bool, bool] = (False, False),
     start: NDArray[np.float64] | None = None,
 ) -> ContactEstimate:
     """Solve an elastic contact on a grid; `compliance` [1/Pa], `start` a pressure or None [Pa]."""
-    domain = ContactDomain(grid, mirrored=mirrored)
+    domain = ContactDomain(grid, response=response, mirrored=mirrored)
     problem = ContactProblem(
         domain.reduce_by_symmetry(open_gap),
         compliance,
@@ -165,6 +167,8 @@ def estimate_contact(
     contact_compliance: float,
     point: LoadPoint,
     around: tuple[float, float] | None = None,
+    *,
+    response: SurfaceResponse = HALF_SPACE,
 ) -> ContactEstimate:
     """Solve an elastic contact to a few per cent, on a coarse grid that is fitted to it.
 
@@ -189,7 +193,7 @@ def estimate_contact(
         if not np.isfinite(open_gap).any():
             size = 2.0 * size
             continue
-        found = elastic_contact(open_gap, contact_compliance, point, grid)
+        found = elastic_contact(open_gap, contact_compliance, point, grid, response=response)
         factors = _size_factors(found, follows=around is not None)
         if factors is None:
             return found
@@ -200,7 +204,12 @@ def estimate_contact(
 
 
 def estimate_period(
-    indenter: Indenter, contact_compliance: float, point: LoadPoint, grid: Grid
+    indenter: Indenter,
+    contact_compliance: float,
+    point: LoadPoint,
+    grid: Grid,
+    *,
+    response: SurfaceResponse = HALF_SPACE,
 ) -> ContactEstimate:
     """Solve an elastic contact to a few per cent on a periodic grid, coarsened where it is fine.
 
@@ -217,7 +226,7 @@ def estimate_period(
     nx, ny = (min(count, MAX_PERIOD_CELLS) for count in grid.shape)
     coarse = replace(grid, shape=(nx, ny))
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
-    found = elastic_contact(open_gap, contact_compliance, point, coarse)
+    found = elastic_contact(open_gap, contact_compliance, point, coarse, response=response)
     if not found.converged:
         raise ValueError("grid: the contact on this period could not be estimated; use more cells")
     return found

@@ -83,7 +83,10 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     indenter, load, compliance = problem.indenter, problem.load, problem.compliance
     request = problem.automatic_grid or AutomaticGrid()
     # Step 1: the contacts of the history, and the size of the grid.
-    found = contacts_of_history(indenter, largest_compliance(compliance, end), load, end)
+    response = problem.surface.response_at(math.inf if end is None else end)
+    found = contacts_of_history(
+        indenter, largest_compliance(compliance, end), load, end, response=response
+    )
     highest = max(each.point.level for each in found)
     largest = next(each for each in found if each.point.level == highest)
     centre = grid_centre([each.estimate for each in found])
@@ -283,7 +286,9 @@ def _resolved(
     extents = (float(size[0]), float(size[1]))
     centre = choice.centre
     ends = straight_ends(indenter, extents, contact.estimate.reach_from(centre), centre)
-    pressing = ElasticContact(indenter, contact.compliance, contact.point, extents, ends, centre)
+    pressing = ElasticContact(
+        *(indenter, contact.compliance, contact.point, extents, ends, centre, contact.response)
+    )
     steps = np.array(indenter.sample_spacing)
     finest = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
     return refine_mesh(

@@ -13,6 +13,7 @@ from viscontact.contact.body_edge import END_DEPTH, end_cells, trace_outline
 from viscontact.contact.domain import mirrored_axes
 from viscontact.contact.rim import mean_chords, trace_rim
 from viscontact.grid import GRID_QUANTITIES, Grid
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 from viscontact.meshing.body_fit import fitted_extents
@@ -44,6 +45,7 @@ class ElasticContact:
     size: tuple[float, float]  # extents of the grid, to be fitted to the body's ends [m]
     ends: tuple[float, float] = (math.inf, math.inf)  # of the body, from `straight_ends` [m]
     centre: tuple[float, float] = (0.0, 0.0)  # of the grid [m]
+    response: SurfaceResponse = HALF_SPACE
 
     def grid(self, shape: tuple[int, int]) -> Grid:
         """Grid with these numbers of cells, which end where the body ends."""
@@ -168,6 +170,7 @@ def _found(
         pressing.compliance,
         point,
         grid,
+        response=pressing.response,
         tolerance=tolerance,
         mirrored=mirrored_axes(grid, open_gap, even),
         start=start,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +17,9 @@ from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
 from viscontact.loads.motion import Motion, MovingLoad
 from viscontact.materials.compliance import ContactCompliance
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
+from viscontact.problem.surface import Surface, surface_of
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps, Step, plan_steps
 from viscontact.time_integration.moving_times import CellTimes, moving_times
@@ -54,15 +57,15 @@ class Problem:
     ----------
     indenter : Indenter
         Shape of the pressed body.
-    material : Material
-        Material of the half-space.
+    material : Material or Layered
+        Material of the half-space, or a body of layers.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid, AutomaticGrid or None
         Cells that carry the pressure, or requirements on a grid that the run chooses.
     times : array_like, AdaptiveTimes or None
         Times of the states [s], or requirements on steps that the run chooses.
-    indenter_material : Material or None
+    indenter_material : Material, Layered or None
         Material of the pressed body; None for a rigid one.
     tolerance : float
         Relative error of gap and balances at every step [-].
@@ -75,11 +78,11 @@ class Problem:
     """
 
     indenter: Indenter
-    material: Material
+    material: Material | Layered
     load: LoadHistory
     grid: Grid | AutomaticGrid | None = None
     times: ArrayLike | AdaptiveTimes | CellTimes | None = None
-    indenter_material: Material | None = None
+    indenter_material: Material | Layered | None = None
     tolerance: float = 1e-6
     fields: str | Sequence[float] = "all"
     step_ratio: float = 1.0
@@ -88,10 +91,10 @@ class Problem:
     def __post_init__(self) -> None:
         for name, kinds, optional in (
             ("indenter", (Indenter,), False),
-            ("material", (Material,), False),
+            ("material", (Material, Layered), False),
             ("load", (LoadHistory,), False),
             ("grid", (Grid, AutomaticGrid), True),
-            ("indenter_material", (Material,), True),
+            ("indenter_material", (Material, Layered), True),
             ("motion", (Motion,), True),
         ):
             value = getattr(self, name)
@@ -111,16 +114,30 @@ class Problem:
         return SOLVER_ERROR_FACTOR * self.tolerance
 
     @property
-    def bodies(self) -> tuple[Material, ...]:
-        """Materials of the bodies that deform."""
+    def bodies(self) -> tuple[Material | Layered, ...]:
+        """The bodies that deform."""
         both = (self.material, self.indenter_material)
         return tuple(body for body in both if body is not None)
 
+    @property
+    def materials(self) -> tuple[Material, ...]:
+        """Materials of all bodies and of their layers."""
+        each = ((body,) if isinstance(body, Material) else body.materials for body in self.bodies)
+        return tuple(chain.from_iterable(each))
+
     @cached_property
+    def surface(self) -> Surface:
+        """Creep functions and frequency responses of both bodies together."""
+        return surface_of(self.bodies)
+
+    @property
     def compliance(self) -> ContactCompliance:
-        """J(t) of both bodies together [1/Pa]."""
-        first, *others = (body.contact_compliance() for body in self.bodies)
-        return sum(others, start=first)
+        """J(t) of both bodies together [1/Pa]; of layers that of short waves."""
+        return self.surface.compliance
+
+    def has_datum(self, grid: Grid) -> bool:
+        """True if the approach has a datum on a grid: not of a line contact on a half-space."""
+        return grid.has_datum or self.surface.is_supported
 
     @property
     def automatic_grid(self) -> AutomaticGrid | None:
@@ -199,14 +216,20 @@ class Problem:
     @property
     def measured_until(self) -> float:
         """Last time of the data of the laws [s]; inf for formulas."""
-        return min(body.known_until for body in self.bodies)
+        return min(material.known_until for material in self.materials)
 
     @property
     def measured_from(self) -> float:
         """First time of the data of the laws [s]; 0 for formulas."""
-        return max(body.known_from for body in self.bodies)
+        return max(material.known_from for material in self.materials)
+
+    @property
+    def thinnest_layer(self) -> float:
+        """Thickness of the thinnest layer of a body [m]; inf without layers."""
+        layered = [body for body in self.bodies if isinstance(body, Layered)]
+        return min((each.thickness for body in layered for each in body.layers), default=np.inf)
 
     @property
     def thickness(self) -> float:
-        """Thickness of the thinnest body [m]; inf where none is given."""
-        return min(body.thickness or np.inf for body in self.bodies)
+        """Thickness of the thinnest body that is a half-space [m]; inf where none is given."""
+        return min(material.thickness or np.inf for material in self.materials)

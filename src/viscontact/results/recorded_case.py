@@ -19,8 +19,28 @@ def case_of(ds: xr.Dataset) -> dict[str, Any]:
         return {}
 
 
+def is_layered(results: xr.Dataset, part: str = "material") -> bool:
+    """True if a body of a result, the pressed one or the half-space, has layers."""
+    return (case_of(results).get(part) or {}).get("type") == "Layered"
+
+
+def refuse_layers(results: xr.Dataset, what: str) -> None:
+    """Raise ValueError for a result of layers, to which the formulas of a half-space do not apply.
+
+    >>> refuse_layers(xr.Dataset(attrs={"case": '{"material": {"type": "Layered"}}'}), "stresses")
+    Traceback (most recent call last):
+    ...
+    ValueError: stresses: those of a half-space are known only, and this result is one of layers
+    """
+    if is_layered(results):
+        raise ValueError(
+            f"{what}: those of a half-space are known only, and this result is one of layers"
+        )
+
+
 def recorded_poisson_ratio(results: xr.Dataset) -> float:
     """Poisson's ratio [-] of the half-space that a result belongs to."""
+    refuse_layers(results, "stresses")
     material = case_of(results).get("material") or {}
     ratio = material.get("poisson_ratio")
     if ratio is not None:

@@ -12,7 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import Grid
 from viscontact.halfspace.stress import Stress, stress_on_section
 from viscontact.halfspace.stress_influence import COMPONENTS
-from viscontact.results.recorded_case import across_period, recorded_grid, recorded_poisson_ratio
+from viscontact.results.recorded_case import (
+    across_period,
+    recorded_grid,
+    recorded_poisson_ratio,
+    refuse_layers,
+)
 
 #: Default depths: their number, and the largest in half widths of the contact.
 DEPTHS, REACH = 61, 2.0
@@ -78,6 +83,7 @@ def section_stresses(
             "stresses need stored pressure; run again with fields stored ('output: fields: all' "
             "or a list of instants in the case file, fields= in Python)"
         )
+    refuse_layers(results, "stresses")
     ratio = recorded_poisson_ratio(results) if poisson_ratio is None else poisson_ratio
     grid = recorded_grid(results)
     if depths is None:

@@ -86,9 +86,11 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
 
 
 def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEstimate:
+    problem = run.problem
+    response = problem.surface.response_at(problem.end)
     if any(run.grid.periodic):
-        return estimate_period(run.problem.indenter, compliance, point, run.grid)
-    return locate_contact(run.problem.indenter, compliance, point)
+        return estimate_period(problem.indenter, compliance, point, run.grid, response=response)
+    return locate_contact(problem.indenter, compliance, point, response=response)
 
 
 def _representative_compliance(problem: Problem, time: float) -> tuple[float, str]:

@@ -8,7 +8,7 @@ from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.runs.forecast import Forecast, forecast
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import curve_memory, least_memory, needed_memory
+from viscontact.runs.resources import curve_memory, fields_kept, least_memory, needed_memory
 from viscontact.runs.steady_forecast import steady_forecast
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.steady.preparation import SteadySetup, prepare
@@ -36,7 +36,7 @@ def prepared(case: Case, threads: int = 1, memory: float | None = None) -> Prepa
     if isinstance(run, SteadySetup):
         needed = curve_memory(run)
     else:
-        needed = needed_memory(run.grid, run.hereditary.fields_kept)
+        needed = needed_memory(run.grid, fields_kept(run))
     _refuse_beyond(available, case, run.grid, needed)
     return PreparedRun(case, run)
 

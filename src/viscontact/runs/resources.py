@@ -18,6 +18,9 @@ PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 64, 2
 #: Arrays of a state over speed on the grid of all speeds.
 ARRAYS_OF_STATE = 4
 
+#: Fields that take as much memory as the tables and operators of a further term of layers.
+ARRAYS_OF_TERM = 12
+
 #: Memory of the time and the scalars of a step [bytes], measured.
 BYTES_PER_STEP = 2000.0
 
@@ -25,7 +28,13 @@ BYTES_PER_STEP = 2000.0
 def run_memory(run: RunSetup) -> float:
     """Memory of a checked run [bytes], with the scalars of its steps."""
     kept = BYTES_PER_STEP * run.problem.step_count
-    return needed_memory(run.grid, run.hereditary.fields_kept) + kept
+    return needed_memory(run.grid, fields_kept(run)) + kept
+
+
+def fields_kept(run: RunSetup) -> int:
+    """Stored fields of pressure of a run; each further term of layers adds a few operators."""
+    further = sum(plan.fields_kept + ARRAYS_OF_TERM for plan in run.other_terms)
+    return run.hereditary.fields_kept + further
 
 
 def curve_memory(run: SteadySetup) -> float:

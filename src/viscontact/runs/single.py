@@ -17,6 +17,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.loads.motion import Motion
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.results.dataset import to_dataset
@@ -31,12 +32,12 @@ from viscontact.time_integration.requested_times import AdaptiveTimes
 
 def simulate(
     indenter: Indenter,
-    material: Material,
+    material: Material | Layered,
     load: LoadHistory,
     grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
-    indenter_material: Material | None = None,
+    indenter_material: Material | Layered | None = None,
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
@@ -50,8 +51,8 @@ def simulate(
     ----------
     indenter : Indenter
         Shape of the pressed body.
-    material : Material
-        Material of the half-space.
+    material : Material or Layered
+        Material of the half-space, or a body of layers.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid or AutomaticGrid, optional
@@ -61,7 +62,7 @@ def simulate(
         Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds
         the instants at which they end.
-    indenter_material : Material, optional
+    indenter_material : Material or Layered, optional
         Material of the indenter; rigid when left out.
     tolerance : float, optional
         Relative error of gap and balances at every instant.

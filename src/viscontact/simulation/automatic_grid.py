@@ -8,6 +8,7 @@ from viscontact.checks.periodicity import check_endless
 from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.meshing.mesh_choice import choose_mesh
 from viscontact.problem.problem import Problem
@@ -15,13 +16,13 @@ from viscontact.problem.problem import Problem
 
 def auto_grid(
     indenter: Indenter,
-    material: Material,
+    material: Material | Layered,
     load: LoadHistory,
     tolerance: float = 0.01,
     *,
     quantities: Sequence[str] = GRID_QUANTITIES,
     end: float | None = None,
-    indenter_material: Material | None = None,
+    indenter_material: Material | Layered | None = None,
 ) -> Grid:
     """Choose a grid for a run.
 
@@ -29,8 +30,8 @@ def auto_grid(
     ----------
     indenter : Indenter
         Shape of the pressed body.
-    material : Material
-        Material of the half-space.
+    material : Material or Layered
+        Material of the half-space, or a body of layers.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     tolerance : float, optional
@@ -40,7 +41,7 @@ def auto_grid(
     end : float, optional
         Last instant of the run [s]; the load's last point, or the end of all creep, when left
         out.
-    indenter_material : Material, optional
+    indenter_material : Material or Layered, optional
         Material of the indenter; rigid when left out.
 
     Returns

@@ -12,6 +12,7 @@ from scipy import fft
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.rim_crossings import MARGIN
 from viscontact.grid import Grid
+from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.meshing.contact_extent import MAX_CELLS
 from viscontact.simulation.step_solution import StepSolution
 
@@ -89,23 +90,35 @@ class GridEnlargement:
         whole = self.small.expand_by_symmetry(pressure)
         return self.large.reduce_by_symmetry(self.small.grid.embed(whole, self.large.grid))
 
-    def pairs(self, fields: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Map pressures and their unit displacements, shape (..., 2, nx, ny)."""
+    def pairs(
+        self, fields: NDArray[np.float64], response: SurfaceResponse | None = None
+    ) -> NDArray[np.float64]:
+        """Map pressures and their unit displacements, shape (..., 2, nx, ny).
+
+        Under the surface of the larger domain, or a part of its response.
+        """
+        is_part = response is not None and response != self.large.response
         grown = np.empty((*fields.shape[:-2], *self.large.shape))
         for index in np.ndindex(fields.shape[:-3]):
             pressure, unit_displacement = grown[index]
             pressure[:] = self.pressure(fields[index][0])
-            unit_displacement[:] = self.large.convolution.apply(pressure)
+            if is_part and response is not None:
+                unit_displacement[:] = self.large.unit_displacement(pressure, response)
+            else:
+                self.large.convolution.apply(pressure, into=unit_displacement)
         return grown
 
     def solution(self, before: StepSolution) -> StepSolution:
         """Map the solution of a step; its gap beyond the smaller grid is NaN."""
         small, large = self.small, self.large
         reference = self.pairs(before.reference)
+        # Of several terms, the displacement is known on the smaller grid only.
+        beyond = large.expand_by_symmetry(reference[1])
+        known = small.grid.embed(before.displacement, large.grid, beyond=np.nan)
         return replace(
             before,
             pressure=small.grid.embed(before.pressure, large.grid),
             gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
-            displacement=large.expand_by_symmetry(reference[1]),
+            displacement=np.where(np.isnan(known), beyond, known),
             reference=reference,
         )

@@ -150,8 +150,13 @@ class March:
 
 
 def _domain_of(run: RunSetup) -> ContactDomain:
-    transforms = transforms_by(run.transforms, run.threads)
-    return ContactDomain(run.grid, mirrored=run.mirrored, transforms=transforms)
+    terms = run.problem.surface.terms
+    return ContactDomain(
+        run.grid,
+        response=terms[0].response,
+        mirrored=run.mirrored,
+        transforms=transforms_by(run.transforms, run.threads),
+    )
 
 
 def _refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:

@@ -78,7 +78,8 @@ class Observer:
         contact = solution.pressure > 0
         rim = trace_rim(self._run.grid, contact, solution.gap, self._outline)
         # Work since the step before, and the loss of a cycle that ends here.
-        self._work += self._work_of(point, solution) if rim.grid.has_datum else math.nan
+        has_datum = self._run.problem.has_datum(rim.grid)
+        self._work += self._work_of(point, solution) if has_datum else math.nan
         moved = None
         if self._motion is not None:
             moved = self._motion.evaluate(step, solution)
@@ -88,7 +89,9 @@ class Observer:
         self._cycles.record_work(step, total)
         if self._warns:
             self._collect_warnings(step, solution, rim)
-        state = _state(step, solution, rim, self._work, self._cycles.last_loss)
+        state = _state(
+            *(step, solution, rim, self._work, self._cycles.last_loss), has_datum=has_datum
+        )
         if moved is not None:
             state = replace(state, **vars(moved))
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
@@ -227,6 +230,8 @@ def _state(
     rim: Rim,
     work: float,
     loss: float,
+    *,
+    has_datum: bool,
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
     touching = force > 0
@@ -246,7 +251,7 @@ def _state(
         force=force,
         eccentricity_x=moment_x / force if centred_x else math.nan,
         eccentricity_y=moment_y / force if centred_y else math.nan,
-        approach=float(solution.motion[0]) if rim.grid.has_datum else math.nan,
+        approach=float(solution.motion[0]) if has_datum else math.nan,
         tilt_x=float(solution.motion[1]),
         tilt_y=float(solution.motion[2]),
         contact_area=area,

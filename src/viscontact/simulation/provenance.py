@@ -22,7 +22,8 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "tolerance": run.problem.tolerance,
         "transforms": run.transforms,
         "memory": run.hereditary.method,
-        "memory_error": run.hereditary.error,
+        "memory_error": max(plan.error for plan in run.plans),
+        "splitting_error": run.problem.surface.splitting_error,
         "inversion_error": run.problem.compliance.inversion_error,
     }
 

@@ -48,7 +48,7 @@ class RunSetup:
     open_gap : ndarray, shape (nx, ny)
         The indenter's gap on the grid [m], +inf outside its outline; that at time 0 if it moves.
     hereditary : HereditaryPlan
-        Method of the hereditary integral.
+        Method of the hereditary integral, of the first term of the surface.
     mesh : Mesh or None
         Chosen grid with its expected errors; None for a given grid.
     threads : int
@@ -56,6 +56,8 @@ class RunSetup:
     transforms : str
         Library of the transforms. Libraries differ in rounding, so a run keeps the one it began
         with.
+    other_terms : tuple of HereditaryPlan
+        Methods of the hereditary integrals of further terms, of layers that creep differently.
     """
 
     problem: Problem
@@ -65,6 +67,12 @@ class RunSetup:
     mesh: Mesh | None
     threads: int
     transforms: str
+    other_terms: tuple[HereditaryPlan, ...] = ()
+
+    @property
+    def plans(self) -> tuple[HereditaryPlan, ...]:
+        """Methods of the hereditary integrals of all terms of the surface."""
+        return (self.hereditary, *self.other_terms)
 
     @property
     def grows(self) -> bool:
@@ -143,12 +151,14 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     open_gap = _gap_on(problem, grid)
     about_body = _about_body(problem, grid)
     check_touch(problem, points[0][1], open_gap, about_body)
-    check_period(problem.indenter, open_gap, grid, problem.load)
+    supported = problem.surface.is_supported
+    check_period(problem.indenter, open_gap, grid, problem.load, supported=supported)
     check_balance(points[1:], open_gap, about_body)
     check_path(problem, grid)
     # 4. Plan the hereditary integral: internal variables, or the whole history.
-    plan = plan_history(problem, open_gap, grid)
-    return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), fastest_transforms())
+    plan, *others = plan_history(problem, open_gap, grid)
+    transforms = fastest_transforms()
+    return RunSetup(*(problem, grid, open_gap, plan, mesh, int(threads), transforms, tuple(others)))
 
 
 def _mesh_over_path(problem: Problem) -> Mesh:
@@ -203,8 +213,13 @@ def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tu
     return along_x, along_y
 
 
-def plan_history(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> HereditaryPlan:
-    """Plan the hereditary integral of a problem on a grid, whose open gap is given [m]."""
+def plan_history(
+    problem: Problem, open_gap: NDArray[np.float64], grid: Grid
+) -> list[HereditaryPlan]:
+    """Plan the hereditary integrals of a problem on a grid, whose open gap is given [m].
+
+    One for each term of the surface.
+    """
     if problem.adaptive is None:
         ends = step_ends(problem.planned_steps)
     else:
@@ -214,5 +229,8 @@ def plan_history(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) ->
         ends = np.append(0.0, np.geomspace(1e-9 * end, end, count))
     # Pressure and unit displacement are kept, of all cells that are computed.
     numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
-    plan = plan_hereditary_integral(problem.compliance, ends, numbers)
-    return plan if problem.adaptive is None else replace(plan, instants=np.zeros(0))
+    terms = problem.surface.terms
+    plans = [plan_hereditary_integral(term.compliance, ends, numbers) for term in terms]
+    if problem.adaptive is None:
+        return plans
+    return [replace(plan, instants=np.zeros(0)) for plan in plans]

@@ -13,6 +13,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.loads.motion import Motion
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
@@ -27,12 +28,12 @@ Progress = Callable[[ContactState, int, int], None]
 
 def march(
     indenter: Indenter,
-    material: Material,
+    material: Material | Layered,
     load: LoadHistory,
     grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
-    indenter_material: Material | None = None,
+    indenter_material: Material | Layered | None = None,
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
@@ -45,8 +46,8 @@ def march(
     ----------
     indenter : Indenter
         Shape of the pressed body.
-    material : Material
-        Material of the half-space.
+    material : Material or Layered
+        Material of the half-space, or a body of layers.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid or AutomaticGrid, optional
@@ -57,7 +58,7 @@ def march(
         law when left out. At a jump the state is the one just after it. With `adaptive_times`
         there is a state for each step that the run chooses, and one at each instant of
         `fields`.
-    indenter_material : Material, optional
+    indenter_material : Material or Layered, optional
         Material of the indenter; rigid when left out.
     tolerance : float, optional
         Relative error of gap and balances at every instant.

@@ -29,6 +29,7 @@ from viscontact.loads import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
+from viscontact.simulation.surface_history import SurfaceHistory, SurfaceStep
 from viscontact.state import Outcome
 from viscontact.time_integration.extrapolation import (
     EXTRAPOLATION_POINTS,
@@ -37,7 +38,7 @@ from viscontact.time_integration.extrapolation import (
     shifted,
 )
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.hereditary_integral import HereditaryResponse, response_to
+from viscontact.time_integration.hereditary_integral import response_to
 from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import StepError, TimeErrors
@@ -59,18 +60,22 @@ class StepProblem:
     """
 
     point: LoadPoint
-    response: HereditaryResponse
+    response: SurfaceStep
     drive: float
     problem: ContactProblem
 
 
 @dataclass(frozen=True, eq=False)
 class TrialStep:
-    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds."""
+    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds.
+
+    `pairs` are pressure and unit displacement of each term of the surface.
+    """
 
     point: LoadPoint
     solution: ContactSolution
-    response: HereditaryResponse
+    response: SurfaceStep
+    pairs: tuple[NDArray[np.float64], ...]
     reference: ElasticReference
     outcome: Outcome
     error: StepError
@@ -82,7 +87,7 @@ class Stepper:
     def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
         self._run, self._domain = run, domain
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
-        self._memory = run.hereditary.integral((2, *domain.shape))
+        self._history = SurfaceHistory(run, domain)
         self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
         self._errors = TimeErrors(run.hereditary, run.problem.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
@@ -93,16 +98,16 @@ class Stepper:
         """Solve a step without accepting it."""
         posed = self._step_problem(step)
         solution, outcome = self._solved(step, posed)
-        values, response = solution.values, posed.response
-        values.flags.writeable = False  # the hereditary integral keeps it without a copy
-        reference = ElasticReference(step.time, posed.drive, response.of(values), solution.motion)
-        error = self._errors.of_step(step, posed.point, values, response)  # step 4
-        return TrialStep(posed.point, solution, response, reference, outcome, error)
+        response = posed.response
+        pairs = self._history.pairs(response, solution.values)
+        reference = ElasticReference(step.time, posed.drive, response.of(pairs), solution.motion)
+        error = self._errors.of_step(step, posed.point, pairs[0], response.first)  # step 4
+        return TrialStep(posed.point, solution, response, pairs, reference, outcome, error)
 
     def restart_data(self) -> RestartData:
         """Return the state after an accepted step as plain data."""
         return {
-            "memory": self._memory.restart_data(),
+            "history": self._history.restart_data(),
             "force_memory": self._force_memory.restart_data(),
             "errors": self._errors.restart_data(),
             "scale": self._scale,
@@ -112,7 +117,7 @@ class Stepper:
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue the same run from restart data."""
-        self._memory.restore(restart_data["memory"])
+        self._history.restore(restart_data["history"])
         self._force_memory.restore(restart_data["force_memory"])
         self._errors.restore(restart_data["errors"])
         self._scale = restart_data["scale"]
@@ -123,7 +128,7 @@ class Stepper:
         """Continue the same run on a larger grid."""
         mapped = enlargement.pairs
         self._run, self._domain = run, enlargement.large
-        self._memory.map_fields(mapped)
+        self._history.map_fields(enlargement)
         self._errors.map_fields(mapped)
         self._references = [
             replace(reference, fields=mapped(reference.fields)) for reference in self._references
@@ -133,7 +138,8 @@ class Stepper:
         """Pose a step: load at its end, response of the history, elastic contact to be solved."""
         point = self._run.problem.load.at(step.time, side=step.side)  # step 1
         response, force_response = (
-            response_to(step, each) for each in (self._memory, self._force_memory)
+            self._history.respond(step),
+            response_to(step, self._force_memory),
         )
         reference_force = float(force_response.of(_force(point))[0])
         drive = reference_force if point.approach is None else point.approach
@@ -141,7 +147,7 @@ class Stepper:
         self._domain.move_axis(position)
         open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
         problem = ContactProblem(  # step 2: the history widens the gap
-            open_gap + response.history[1],
+            open_gap + response.history,
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
@@ -157,10 +163,10 @@ class Stepper:
             known = [] if step.is_jump else self._reference_history(step)
             self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
         self._motion = trial.solution.motion
-        loss = self._loss(trial.solution.values)
-        self._memory.accept(trial.solution.values)
+        loss = self._loss(trial.pairs[0])
+        self._history.accept(trial.pairs)
         self._force_memory.accept(_force(trial.point))
-        time_error = self._errors.after(step, trial.solution.values, trial.error)
+        time_error = self._errors.after(step, trial.pairs[0], trial.error)
         largest = float(trial.reference.fields[1].max())
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
         return replace(_on_full_grid(self._domain, trial, time_error), heat=loss[0], power=loss[1])
@@ -179,8 +185,8 @@ class Stepper:
 
         NaN without internal variables, and without a datum: part of it is lost by the approach.
         """
-        memory, run = self._memory, self._run
-        if run.problem.motion is None or not run.grid.has_datum:
+        memory, run = self._history.only_integral, self._run
+        if run.problem.motion is None or not run.problem.has_datum(run.grid):
             return math.nan, math.nan
         if not isinstance(memory, InternalVariables):
             return math.nan, math.nan
@@ -196,7 +202,7 @@ class Stepper:
         """Guess from earlier steps; of a moving body from their pressures, moved with it."""
         known = self._reference_history(step)
         if self._run.problem.motion is None:
-            return _guess(predict(known, step.time, posed.drive), posed.response)
+            return self._reference_guess(predict(known, step.time, posed.drive), posed.response)
         moved = predict(self._moved(known, step), step.time, posed.point.level)
         if moved is None:
             return None
@@ -207,6 +213,21 @@ class Stepper:
             pressure = np.where(beyond, 0.0, pressure)
             unit_displacement = self._domain.convolution.apply(pressure)
         return Guess(pressure, unit_displacement, moved.motion)
+
+    def _reference_guess(
+        self, reference: ElasticReference | None, response: SurfaceStep
+    ) -> Guess | None:
+        """Pressure and unit displacement that a predicted elastic reference belongs to."""
+        if reference is None or response.first.compliance == 0:
+            return None
+        values = reference.fields  # made by `predict` for this use, so it may be overwritten
+        if len(response.terms) > 1:  # the displacement is that of all terms
+            pressure = (values[0] - response.first.history[0]) / response.first.compliance
+            unit_displacement = self._domain.convolution.apply(pressure)
+            return Guess(pressure, unit_displacement, reference.motion)
+        np.subtract(values, response.first.history, out=values)
+        values /= response.compliance
+        return Guess(values[0], values[1], reference.motion)
 
     def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
@@ -228,7 +249,7 @@ class Stepper:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
-            untouched = not response.history[1].any()
+            untouched = not response.history.any()
             return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):
@@ -263,16 +284,6 @@ class Stepper:
 def _force(point: LoadPoint) -> NDArray[np.float64]:
     """The prescribed force as a field of one number [N]; 0 under a prescribed approach."""
     return np.array([point.force or 0.0])
-
-
-def _guess(reference: ElasticReference | None, response: HereditaryResponse) -> Guess | None:
-    """Pressure and unit displacement that a predicted elastic reference belongs to."""
-    if reference is None:
-        return None
-    values = reference.fields  # made by `predict` for this use, so it may be overwritten
-    np.subtract(values, response.history, out=values)
-    values /= response.compliance
-    return Guess(values[0], values[1], reference.motion)
 
 
 def _without_pressure(
@@ -325,6 +336,6 @@ def _on_full_grid(domain: ContactDomain, trial: TrialStep, time_error: float) ->
         residual=solution.residual,
         iterations=solution.iterations,
         outcome=trial.outcome,
-        resolved=trial.response.resolved,
+        resolved=trial.response.first.resolved,
         time_error=time_error,
     )

@@ -6,7 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.half_space_theory import Geometry
-from viscontact.checks.material import law_warnings, origin_warnings, passivity_warnings
+from viscontact.checks.material import (
+    law_warnings,
+    origin_warnings,
+    passivity_warnings,
+    splitting_warnings,
+)
+from viscontact.checks.mesh import layer_warnings
 from viscontact.checks.motion import axle_warnings, heat_warnings, row_warnings, turn_warnings
 from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.steps import (
@@ -27,16 +33,20 @@ from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
 def setup_warnings(run: RunSetup) -> dict[str, str]:
     """Return the warnings, by kind, that hold for a whole run: law, conversion, chosen mesh."""
     problem = run.problem
-    warnings = law_warnings(run.hereditary.error, problem.compliance.inversion_error)
-    warnings |= origin_warnings(problem.bodies)
+    memory_error = max(plan.error for plan in run.plans)
+    warnings = law_warnings(memory_error, problem.compliance.inversion_error)
+    warnings |= splitting_warnings(problem.surface.splitting_error)
+    warnings |= origin_warnings(problem.materials)
     lost = ("dissipation", "heat") if problem.motion is not None else ()
-    warnings |= datum_warnings(run.grid, ("approach", "work", *lost, "loss per cycle"))
+    undefined = ("approach", "work", *lost, "loss per cycle")
+    warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)
+    warnings |= layer_warnings(problem.thinnest_layer, run.grid.cell_size)
     if run.mesh is not None:
         warnings |= run.mesh.warnings
     warnings |= axle_warnings(problem) | turn_warnings(problem) | row_warnings(problem)
     warnings |= heat_warnings(problem, run.grid, run.hereditary.compliance)
-    for body in problem.bodies:
-        warnings |= passivity_warnings(body.law, problem.end)
+    for material in problem.materials:
+        warnings |= passivity_warnings(material.law, problem.end)
     return warnings
 
 

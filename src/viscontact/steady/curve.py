@@ -203,7 +203,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     problem = run.problem
     compliance, law = problem.contact.compliance, run.solver.law
     found = law_warnings(law.error, compliance.inversion_error)
-    found |= origin_warnings(problem.contact.bodies)
+    found |= origin_warnings(problem.contact.materials)
     found |= datum_warnings(run.grids[0], ("approach",))
     if run.tolerance_reached is not None:
         requested = problem.contact.automatic_grid

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
+from viscontact.materials.material import Material
 from viscontact.steady.problem import SteadyProblem
 from viscontact.time_integration.prony_approximation import as_exponentials
 
@@ -77,7 +78,10 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
         last = LONGEST_OF_LINES * max(grid.size) / float(speeds.min())
     else:
         last = LONGEST * extents[1] / float(speeds.min())
-    series, error, late_creep = _series(problem.contact.material.contact_compliance(), first, last)
+    material, mate = problem.contact.material, problem.contact.indenter_material
+    assert isinstance(material, Material)  # layers are refused
+    assert isinstance(mate, Material | None)
+    series, error, late_creep = _series(material.contact_compliance(), first, last)
     law = MovingLaw(
         series.instant,
         series.amplitudes,
@@ -87,7 +91,6 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
         error,
         late_creep,
     )
-    mate = problem.contact.indenter_material
     if mate is None:
         return law
     compliance = mate.contact_compliance()

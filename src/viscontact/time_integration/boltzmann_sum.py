@@ -56,8 +56,9 @@ class BoltzmannSum(HereditaryIntegral):
         shape: tuple[int, ...],
         instants: NDArray[np.float64] | None = None,
         steps: int = BLOCK_STEPS,
+        others: tuple[ContactCompliance, ...] = (),
     ) -> None:
-        self._compliance, self._shape = compliance, shape
+        self._compliance, self._shape, self._others = compliance, shape, others
         self._planned = np.zeros(0) if instants is None else instants
         rows = max(len(self._planned), steps)
         # A row for each linear part of a step: increment of the field, and start and end.
@@ -84,7 +85,13 @@ class BoltzmannSum(HereditaryIntegral):
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         self._next_jumps, self._next_smooth = False, smooth
         trend = self._trend if smooth else None
-        step = step_shape(self._compliance, duration, after_jump=self._jumped, trend=trend)
+        step = step_shape(
+            self._compliance,
+            duration,
+            after_jump=self._jumped,
+            trend=trend,
+            others=self._others,
+        )
         history = self._history_at(self._time + duration, step)
         # Weights of the changes over both parts of the step.
         risen = self._compliance.mean(step.slow, duration)

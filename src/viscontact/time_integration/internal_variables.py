@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.materials.compliance import SeriesCompliance
+from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.time_integration.hereditary_integral import (
     HereditaryIntegral,
@@ -36,6 +36,8 @@ class InternalVariables(HereditaryIntegral):
     Goudreau 1970, Int. J. Numer. Meth. Eng. 2, 45, for relaxation; Simo & Hughes, Computational
     Inelasticity, 1998, section 10.3).
 
+    `others` are further creep functions that act on the same field, for the shape of its steps.
+
     Examples
     --------
     A Maxwell body, J = 1 + t, under q = 1 from time 0 on, has the displacement J(2) = 3 at t = 2:
@@ -51,8 +53,13 @@ class InternalVariables(HereditaryIntegral):
     3.0
     """
 
-    def __init__(self, compliance: SeriesCompliance, shape: tuple[int, ...]) -> None:
-        self._compliance = compliance
+    def __init__(
+        self,
+        compliance: SeriesCompliance,
+        shape: tuple[int, ...],
+        others: tuple[ContactCompliance, ...] = (),
+    ) -> None:
+        self._compliance, self._others = compliance, others
         self._fields = np.zeros((compliance.term_count, *shape))
         self._value = np.zeros(shape)
         self._term = np.empty(shape)  # work array
@@ -72,7 +79,13 @@ class InternalVariables(HereditaryIntegral):
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         self._next_jumps, self._next_smooth = False, smooth
         trend = self._trend if smooth else None
-        self._shape = step_shape(self._compliance, duration, after_jump=self._jumped, trend=trend)
+        self._shape = step_shape(
+            self._compliance,
+            duration,
+            after_jump=self._jumped,
+            trend=trend,
+            others=self._others,
+        )
         self._next = ramp_weights(self._compliance, self._shape)
         return self._response()
 

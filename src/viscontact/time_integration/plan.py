@@ -44,13 +44,18 @@ class HereditaryPlan:
             return self.compliance.term_count
         return self.rows
 
-    def integral(self, shape: tuple[int, ...]) -> HereditaryIntegral:
-        """Hereditary integral of a field of this shape, without a history."""
+    def integral(
+        self, shape: tuple[int, ...], others: tuple[ContactCompliance, ...] = ()
+    ) -> HereditaryIntegral:
+        """Hereditary integral of a field of this shape, without a history.
+
+        `others` are further creep functions that act on the same field.
+        """
         if isinstance(self.compliance, SeriesCompliance):
-            return InternalVariables(self.compliance, shape)
+            return InternalVariables(self.compliance, shape, others)
         is_adaptive = not self.instants.size
         room = STEP_RESERVE * self.rows if is_adaptive else self.rows
-        return BoltzmannSum(self.compliance, shape, self.instants, room)
+        return BoltzmannSum(self.compliance, shape, self.instants, room, others)
 
 
 def plan_hereditary_integral(

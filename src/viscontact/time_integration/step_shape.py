@@ -90,8 +90,11 @@ def step_shape(
     *,
     after_jump: bool = False,
     trend: Trend | None = None,
+    others: tuple[ContactCompliance, ...] = (),
 ) -> StepShape:
     """Shape of a step of a duration [s], continued from a trend if that is recent enough.
+
+    With `others`, further creep functions that act on the same field, it is short enough for all.
 
     Examples
     --------
@@ -100,9 +103,10 @@ def step_shape(
     >>> step_shape(fluid, 9.0, trend=Trend(np.ones(1), age=3.5))
     StepShape(duration=9.0, rise=2.0, turn_weight=0.44)
     """
-    rise = longest_smooth_rise(compliance, duration, after_jump=after_jump)
+    laws = (compliance, *others)
+    rise = min(longest_smooth_rise(law, duration, after_jump=after_jump) for law in laws)
     # Without instantaneous compliance the rise damps errors too little for a trend.
-    if trend is None or compliance.instant == 0:
+    if trend is None or any(law.instant == 0 for law in laws):
         return StepShape(duration, rise)
     if not 0 < duration - rise <= MAX_TREND_GROWTH * 2 * trend.age:
         return StepShape(duration, rise)

@@ -20,7 +20,7 @@ from viscontact.reference import (
     clustered_times,
     press_axisymmetric,
 )
-from viscontact.results.recorded_case import recorded_grid, recorded_object
+from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_object
 
 Array = NDArray[np.float64]
 
@@ -75,6 +75,8 @@ def _require_known(
             f"{figure}: needs a sphere or a round paraboloid, for which there is an exact "
             f"solution, got a {kind}; draw history instead"
         )
+    if is_layered(results) or is_layered(results, "indenter_material"):
+        raise ValueError(f"{figure}: needs a half-space, not layers; draw history instead")
     if any(recorded_grid(results).periodic):
         raise ValueError(f"{figure}: needs a half-space without period; draw history instead")
     if not isinstance(load, ForceHistory | ApproachHistory):

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from viscontact import reference
 from viscontact.indenters import Indenter, Paraboloid, Roller, Sphere
 from viscontact.materials.compliance import SeriesCompliance
+from viscontact.materials.material import Material
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_case import case_of, recorded_object
@@ -153,6 +154,8 @@ def _series(results: xr.Dataset) -> SeriesCompliance | None:
     """Contact compliance of both bodies if only the half-space creeps, and as a series."""
     material = recorded_object(results, "material", "friction")
     mate = recorded_object(results, "indenter_material", "friction")
+    if not isinstance(material, Material) or not isinstance(mate, Material | None):
+        return None
     found = material.contact_compliance()
     if not isinstance(found, SeriesCompliance) or not found.amplitudes.size + found.fluidity:
         return None

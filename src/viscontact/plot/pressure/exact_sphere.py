@@ -9,7 +9,7 @@ import xarray as xr
 from viscontact.indenters import Indenter, Paraboloid, Sphere
 from viscontact.loads import ForceHistory
 from viscontact.reference import LeeRadokContact, lee_radok_ramp, lee_radok_step
-from viscontact.results.recorded_case import recorded_object
+from viscontact.results.recorded_case import is_layered, recorded_object
 
 
 def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
@@ -20,6 +20,8 @@ def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
     )
     radius = sphere_radius(indenter)
     if radius is None or not isinstance(load, ForceHistory):
+        return None
+    if is_layered(results) or is_layered(results, "indenter_material"):
         return None
     compliance = material.contact_compliance()
     if other is not None:

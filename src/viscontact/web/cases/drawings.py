@@ -5,6 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from viscontact.case import Case, CaseError, Parts
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
 from viscontact.notebook.shapes import natural_size
@@ -71,6 +72,8 @@ def _material(case: Case, what: str) -> Material:
     material = case.indenter_material if what == "indenter_material" else case.material
     if material is None:
         raise RequestError(422, "the indenter is rigid: there are no curves of its material")
+    if isinstance(material, Layered):
+        raise RequestError(422, "a body of layers has no curves of its own; each material has")
     return material
 
 
