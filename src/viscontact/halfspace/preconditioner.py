@@ -48,7 +48,8 @@ def _ratios(response: SurfaceResponse, q: NDArray[np.float64]) -> NDArray[np.flo
     """L at all wave numbers [1/m], interpolated between enough of them; 1 where it is q = 0."""
     least, largest = q[q > 0].min(), q.max()
     waves = np.geomspace(least, largest, 2 + int(WAVES_PER_DECADE * np.log10(largest / least)))
-    known = np.log(response.ratio(waves))
+    # Of a sum of several terms, rounding may be negative where nothing is left.
+    known = np.log(np.maximum(np.abs(response.ratio(waves)), np.finfo(float).tiny))
     return np.asarray(np.exp(np.interp(np.log(np.maximum(q, least)), np.log(waves), known)))
 
 

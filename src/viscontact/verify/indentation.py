@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, Paraboloid
 from viscontact.loads import LoadHistory
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.simulation.state_generator import march
 from viscontact.state import ContactState, Outcome
@@ -65,7 +66,7 @@ def grid_around(
 
 
 def press(
-    material: Material,
+    material: Material | Layered,
     load: LoadHistory,
     times: Iterable[float],
     grid: Grid,
