@@ -69,7 +69,7 @@ def test_a_soft_cover_on_an_elastic_core_is_two_terms(eps, nu, allowed):
     error = worst(found, wanted)
     assert error < allowed
     # What is stated holds where it was not measured.
-    assert error < 1.5 * found.error + 1e-12
+    assert error < found.error + 1e-12
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_the_stated_error_of_harder_covers_holds(eps, ratio, allowed):
         phi = creep(omega)
         return 0.6 * phi * coated(eps / (2 * SHEAR * phi), 0.4, 0.3)
 
-    assert worst(found, wanted) < 1.5 * found.error < 1.5 * allowed
+    assert worst(found, wanted) < found.error < 2 * allowed
 
 
 def test_an_elastic_bulk_modulus_is_separated():
@@ -104,7 +104,7 @@ def test_an_elastic_bulk_modulus_is_separated():
         nu = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
         return (1 - nu) * creep(omega) * on_rigid(nu)
 
-    assert worst(found, wanted) < 1.5 * found.error < 2e-4
+    assert worst(found, wanted) < found.error < 2e-4
 
 
 def test_every_term_creeps_and_the_sum_is_compliant():

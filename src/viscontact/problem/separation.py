@@ -14,7 +14,8 @@ amplitudes >= 0. So each J_m is passive. The L_m follow by collocation at as man
     L_m(q) = Σ_j (B^-1)_mj C(q, s_j),   B_jm = b_m(s_j):
 
 sums of responses of elastic stacks. Functions and s_j are chosen one after the other for the least
-error of the harmonic response, max |Σ b_m L_m - C|/|C| over wave numbers and frequencies.
+error of the harmonic response, max |Σ b_m L_m - C|/|C| over wave numbers and frequencies. Twice
+this error is stated.
 """
 
 from __future__ import annotations
@@ -41,6 +42,10 @@ Array = NDArray[Any]
 #: Error at which no term is added, and most terms.
 ENOUGH, MOST_TERMS = 1e-4, 5
 
+#: Stated error over the largest one found, for wave numbers and frequencies between those, and for
+#: creep in time.
+SAFETY = 2.0
+
 #: Wave numbers, frequencies and real s at which the error is measured and collocation tried.
 WAVES, FREQUENCIES, COLLOCATION = 60, 40, 14
 
@@ -62,7 +67,7 @@ REFINEMENTS = 12
 
 @dataclass(frozen=True, eq=False)
 class Separation:
-    """Terms (J_m, L_m) of a body of layers, and the largest relative error of their sum [-]."""
+    """Terms (J_m, L_m) of a body of layers, and a bound of the relative error of their sum [-]."""
 
     compliances: tuple[SeriesCompliance, ...]
     responses: tuple[SummedResponse, ...]
@@ -121,7 +126,7 @@ class _Search:
             if found is None or not found[2] < error:
                 break
             chosen, points, error = found
-        return Separation(tuple(chosen), self._kernels(chosen, points), error)
+        return Separation(tuple(chosen), self._kernels(chosen, points), SAFETY * error)
 
     def _responses(self, s: Array) -> Array:
         """C(q, s) [1/Pa], shape (s, q)."""
