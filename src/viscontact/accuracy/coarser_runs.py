@@ -107,7 +107,7 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     """
     times, load = history["time"], run.problem.history
     own = step_ends(plan_steps(times, load))
-    creeping = creeps(run.problem.compliance, times)
+    creeping = creeps(run.problem.surface.creep, times)
     few = len(own) < FEW_STEPS or _creeps_behind_jumps(run, own)
     divides = creeping and (few or not _has_small_time_error(history))
     step_ratios = _step_ratios(len(own))

@@ -154,7 +154,7 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     spots = spots_across(times, results)
     of_spots = np.where(np.isnan(spots), moving_minimum(spots), spots) < COARSE_SPOT_CELLS
     # A creeping body keeps the error of a contact that has reached the end.
-    creeping = creeps(run.problem.compliance, times)
+    creeping = creeps(run.problem.surface.creep, times)
     ended = np.logical_or.accumulate(at_end) if creeping else at_end
     singular = moving_maximum(unbounded_peak(history, results)) > 0
     drops = moving_maximum(peak_drops(times, results))

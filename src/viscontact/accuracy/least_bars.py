@@ -187,7 +187,7 @@ def _crest_cells(run: RunSetup, history: History, axis: int) -> Array:
 def _late_cells(run: RunSetup, history: History) -> Array:
     """Least error of the rim of a shrinking contact, in cells."""
     radius = _half_breadth(run, history)
-    if not creeps(run.problem.compliance, history["time"]):
+    if not creeps(run.problem.surface.creep, history["time"]):
         return np.zeros_like(radius)
     if run.problem.motion is not None:  # the rear edge leaves a surface that is almost closed
         return np.full_like(radius, MOST_LATE)

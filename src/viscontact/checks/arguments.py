@@ -39,7 +39,7 @@ def check_magnitudes(problem: Problem) -> None:
 
 def check_creep(problem: Problem) -> None:
     """Refuse a law whose creep within the run is not a number, negative or decreasing."""
-    compliance, times = problem.compliance, problem.instants
+    compliance, times = problem.surface.creep, problem.instants
     # A Prony series is fitted at least to ten times the first step.
     end = max(float(times[-1]), 10 * float(np.diff(times).min(initial=times[-1])))
     # Steps between the requested instants may be arbitrarily short.

@@ -164,7 +164,7 @@ class Problem:
                 return self.times_at_cells(self.grid.cell_size)
             # Until the cells are known, those of one that is longer than any path.
             return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
-        return run_instants(self.times, self.fields, self.load, self.compliance)
+        return run_instants(self.times, self.fields, self.load, self.surface.creep)
 
     def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
         """Times of a moving contact at which the body has passed whole cells [s]."""
@@ -204,14 +204,15 @@ class Problem:
         """Number of steps, estimated for adaptive ones."""
         if self.adaptive is None:
             return float(len(self.planned_steps))
-        return estimated_steps(self.adaptive, self.history, self.compliance)
+        return estimated_steps(self.adaptive, self.history, self.surface.creep)
 
     def steps(self, cell_size: tuple[float, float]) -> FixedSteps | AdaptiveSteps:
         """Return the sequence of steps from the start, on cells of a size (dx, dy) [m]."""
         if self.adaptive is None:
             return FixedSteps(self.planned_steps)
         marks = None if self.motion is None else self.motion.times_at_cells(cell_size)
-        return AdaptiveSteps(self.adaptive, self.instants, self.history, self.compliance, marks)
+        creep = self.surface.creep
+        return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks)
 
     @property
     def measured_until(self) -> float:

@@ -32,6 +32,12 @@ from viscontact.problem.separation import separate, stack_of
 #: Relative difference of two creep functions that count as proportional.
 PROPORTIONAL = 1e-12
 
+#: Time at which a creep function without an end is taken as late [s].
+LATE = 1e9
+
+#: Part of the largest growth of a creep function from which on a term counts as creeping most.
+NEARLY_MOST = 0.5
+
 #: Rounding of the response to short waves of a term that they do not see [-].
 ROUNDING = 1e-6
 
@@ -63,7 +69,7 @@ class Surface:
     terms : tuple of SurfaceTerm
         The first is one that short waves see.
     splitting_error : float
-        Largest relative error of their sum in the harmonic response of a body [-]; 0 if exact.
+        Bound of the relative error of their sum [-]; 0 if exact.
     """
 
     terms: tuple[SurfaceTerm, ...]
@@ -74,6 +80,18 @@ class Surface:
         """J(t) of short waves, which do not feel the layers [1/Pa]."""
         local = [term.short_wave_compliance for term in self.terms if term.is_local]
         return sum(local[1:], start=local[0])
+
+    @cached_property
+    def creep(self) -> ContactCompliance:
+        """Sum of the creep functions of all terms, for times and rates of creep [1/Pa]."""
+        functions = [term.compliance for term in self.terms]
+        return sum(functions[1:], start=functions[0])
+
+    @cached_property
+    def most_creeping(self) -> int:
+        """Index of the term that creeps most over its instant compliance, the first of several."""
+        growth = [_growth(term.compliance) for term in self.terms]
+        return next(k for k, own in enumerate(growth) if own >= NEARLY_MOST * max(growth))
 
     @property
     def is_supported(self) -> bool:
@@ -185,6 +203,14 @@ def constant_poisson_ratio(material: Material) -> float | None:
     assert material.bulk_modulus is not None  # exactly one is given
     shear, bulk = 0.5 / float(material.law(0.0)), material.bulk_modulus
     return (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+
+
+def _growth(compliance: ContactCompliance) -> float:
+    """Creep function after all creep, or a long time, over the one at once [-]."""
+    if compliance.is_elastic:
+        return 1.0
+    late = min(compliance.settled_after, LATE)
+    return float(compliance(late)) / compliance.instant if compliance.instant > 0 else np.inf
 
 
 def _creep_until(compliance: ContactCompliance, time: float) -> float:

@@ -89,7 +89,8 @@ class Stepper:
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
         self._history = SurfaceHistory(run, domain)
         self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
-        self._errors = TimeErrors(run.hereditary, run.problem.load)
+        self._creeping = run.problem.surface.most_creeping  # term whose time error is estimated
+        self._errors = TimeErrors(run.plans[self._creeping], run.problem.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
@@ -101,7 +102,8 @@ class Stepper:
         response = posed.response
         pairs = self._history.pairs(response, solution.values)
         reference = ElasticReference(step.time, posed.drive, response.of(pairs), solution.motion)
-        error = self._errors.of_step(step, posed.point, pairs[0], response.first)  # step 4
+        creeping = pairs[self._creeping], response.terms[self._creeping]
+        error = self._errors.of_step(step, posed.point, *creeping)  # step 4
         return TrialStep(posed.point, solution, response, pairs, reference, outcome, error)
 
     def restart_data(self) -> RestartData:
@@ -166,7 +168,7 @@ class Stepper:
         loss = self._loss(trial.pairs[0])
         self._history.accept(trial.pairs)
         self._force_memory.accept(_force(trial.point))
-        time_error = self._errors.after(step, trial.pairs[0], trial.error)
+        time_error = self._errors.after(step, trial.pairs[self._creeping], trial.error)
         largest = float(trial.reference.fields[1].max())
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
         return replace(_on_full_grid(self._domain, trial, time_error), heat=loss[0], power=loss[1])
@@ -336,6 +338,6 @@ def _on_full_grid(domain: ContactDomain, trial: TrialStep, time_error: float) ->
         residual=solution.residual,
         iterations=solution.iterations,
         outcome=trial.outcome,
-        resolved=trial.response.first.resolved,
+        resolved=all(term.resolved for term in trial.response.terms),
         time_error=time_error,
     )

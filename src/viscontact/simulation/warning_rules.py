@@ -76,7 +76,7 @@ def contact_change_warnings(
     problem: Problem, step: Step, *, touched: bool, touches: bool
 ) -> dict[str, str]:
     """Return warnings, by kind, about a step in which a creeping body gains or loses contact."""
-    compliance = problem.compliance
+    compliance = problem.surface.creep
     if step.is_jump or touched == touches or compliance(step.duration) == compliance.instant:
         return {}  # an elastic body does not depend on how the force arrives
     begin, end, largest = _levels(problem, step)
