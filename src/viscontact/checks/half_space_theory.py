@@ -178,7 +178,8 @@ def body_warnings(
         warnings["thickness"] = (
             f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
             f"thickness of {format_quantity(geometry.thickness, 'm', 3)}; half-space theory is "
-            f"meant for less than {THIN_BODY:g}, beyond it the support of the body matters"
+            f"meant for less than {THIN_BODY:g}, beyond it the support of the body matters: "
+            "vc.Layered([vc.Layer(thickness, material)], base) computes it"
         )
     return warnings
 
