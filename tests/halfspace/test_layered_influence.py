@@ -59,6 +59,7 @@ class Images(SurfaceResponse):
     """L = 1 + c e^(-2 q h): a half-space and one image force at the depth 2 h."""
 
     short_waves, long_waves, mean_displacement = 1.0, 1.3, np.inf
+    length = np.inf  # of an instance: its own
 
     def __init__(self, length):
         self.length = length

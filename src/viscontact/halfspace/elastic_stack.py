@@ -84,12 +84,12 @@ class ElasticStack(SurfaceResponse):
     short_waves = 1.0
 
     @cached_property
-    def length(self) -> float:  # type: ignore[override]
+    def length(self) -> float:
         """Thickness of the thinnest layer [m]."""
         return min(layer.thickness for layer in self.layers)
 
     @cached_property
-    def long_waves(self) -> float:  # type: ignore[override]
+    def long_waves(self) -> float:
         """Ratio of the base's compliance, as a half-space, to that of the top; 0 if it is rigid."""
         if self.base is None:
             return 0.0

@@ -16,21 +16,25 @@ class SurfaceResponse(ABC):
 
     A pressure p cos(q x) on a surface without shear traction displaces it into the body by
     (2/q) L(q) p cos(q x) per unit contact compliance; on a half-space L = 1.
-
-    Attributes
-    ----------
-    short_waves : float
-        Limit of L for short waves [-].
-    long_waves : float
-        Limit of L for long waves [-]; 0 on a rigid base.
-    length : float
-        Shortest length over which the surface differs from a half-space [m]: the thickness of the
-        thinnest layer, inf for a half-space.
     """
 
-    short_waves: float
-    long_waves: float
-    length: float
+    @property
+    @abstractmethod
+    def short_waves(self) -> float:
+        """Limit of L for short waves [-]."""
+
+    @property
+    @abstractmethod
+    def long_waves(self) -> float:
+        """Limit of L for long waves [-]; 0 on a rigid base."""
+
+    @property
+    @abstractmethod
+    def length(self) -> float:
+        """Shortest length over which the surface differs from a half-space [m].
+
+        The thickness of the thinnest layer, inf for a half-space.
+        """
 
     @abstractmethod
     def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
@@ -82,17 +86,17 @@ class SummedResponse(SurfaceResponse):
     weights: tuple[float, ...]
 
     @property
-    def short_waves(self) -> float:  # type: ignore[override]
+    def short_waves(self) -> float:
         """Limit of L for short waves [-]."""
         return self._sum([part.short_waves for part in self.parts])
 
     @property
-    def long_waves(self) -> float:  # type: ignore[override]
+    def long_waves(self) -> float:
         """Limit of L for long waves [-]."""
         return self._sum([part.long_waves for part in self.parts])
 
     @property
-    def length(self) -> float:  # type: ignore[override]
+    def length(self) -> float:
         """The shortest of the parts' [m]."""
         return min(part.length for part in self.parts)
 

@@ -36,7 +36,7 @@ class RunAxis:
         return format_quantity(float(value), self.unit, digits)
 
     def place(self, value: float, digits: int = 4) -> str:
-        """Format an instant or a speed as it stands in sentences."""
+        """Format an instant or a speed for a sentence."""
         return f"{self.symbol}{self.quantity(value, digits)}"
 
 

@@ -1,4 +1,4 @@
-"""What a result over speed records: the problem, states on a common grid, and error bars."""
+"""Record of a result over speed: the problem, states on a common grid, and error bars."""
 
 from __future__ import annotations
 
