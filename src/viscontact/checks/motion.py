@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.problem.surface import creeps
@@ -41,11 +40,6 @@ def _check_mate(problem: Problem, motion: Motion) -> None:
     mate = problem.indenter_material
     if mate is None or not creeps(mate):
         return
-    if isinstance(mate, Layered):
-        raise ValueError(
-            "indenter_material: layers that creep on a moving indenter are not supported yet; "
-            "give a Material, or let the layered body be the one at rest"
-        )
     if motion.rolling is None:
         raise ValueError(
             "motion.rolling: the indenter's material creeps, so that it matters whether it flows "
@@ -84,10 +78,12 @@ def _circumference(problem: Problem, motion: Motion) -> float:
 def turn_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a roller whose material returns to the contact before it has recovered."""
     motion, mate = problem.motion, problem.indenter_material
-    if motion is None or not isinstance(mate, Material) or not creeps(mate):
+    if motion is None or mate is None or not creeps(mate):
         return {}
     turn = _circumference(problem, motion)
-    left = left_after(mate.contact_compliance(), turn / motion.top_speed)
+    parts = (mate,) if isinstance(mate, Material) else mate.materials
+    duration = turn / motion.top_speed
+    left = max(left_after(part.contact_compliance(), duration) for part in parts)
     if _way(motion) <= turn or left <= LEFT_AFTER_TURN:
         return {}
     return {
@@ -180,18 +176,13 @@ def row_warnings(problem: Problem) -> dict[str, str]:
     return {}
 
 
-def heat_warnings(problem: Problem, grid: Grid, compliance: ContactCompliance) -> dict[str, str]:
-    """Warn of a law, in the form that the run uses, whose heat is not known."""
+def heat_warnings(
+    problem: Problem, grid: Grid, compliances: Sequence[ContactCompliance]
+) -> dict[str, str]:
+    """Warn of a law, among those in the form that the run uses, whose heat is not known."""
     if problem.motion is None or not problem.has_datum(grid):
         return {}
-    if len(problem.surface.terms) > 1:
-        return {
-            "heat": (
-                "the bodies have layers that creep differently: dissipation and heat are not known "
-                "(NaN)"
-            )
-        }
-    if isinstance(compliance, SeriesCompliance):
+    if all(isinstance(each, SeriesCompliance) for each in compliances):
         return {}
     return {
         "heat": (

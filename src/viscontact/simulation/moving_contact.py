@@ -19,6 +19,7 @@ from viscontact.contact.resistance import (
     resistance_by_displacement,
     resistance_by_slope,
 )
+from viscontact.materials.compliance import SeriesCompliance
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.time_integration.fixed_steps import Step
@@ -126,7 +127,7 @@ class MovingContact:
 
     def _relaxation_way(self, half_extent: float) -> float:
         """Way of the body during the retardation time that loses most; inf without loss [m]."""
-        motion, law = self._run.problem.motion, self._run.hereditary.prony_approximation
+        motion, law = self._run.problem.motion, self._law
         assert motion is not None
         if half_extent == 0:
             return 0.0
@@ -134,6 +135,12 @@ class MovingContact:
         if not shares.sum() > 0:
             return math.inf
         return motion.top_speed * float(shares @ law.times) / float(shares.sum())
+
+    @property
+    def _law(self) -> SeriesCompliance:
+        """Creep function of the term that creeps most, as a Prony series."""
+        most = self._run.problem.surface.most_creeping
+        return self._run.plans[most].prony_approximation
 
     def _pace(self, step: Step, solution: StepSolution, way: float) -> None:
         """Keep way and duration of a step of the moving body that counts for the accuracy."""
@@ -147,7 +154,7 @@ class MovingContact:
 
     def warnings(self) -> dict[str, str]:
         """Warnings, by kind, about the steps so far."""
-        law = self._run.hereditary.prony_approximation
+        law = self._law
         found = way_warnings(*self._way) | self._edge_warnings()
         if self._rate[0] > 0:
             found |= retardation_warnings(law, self._rate[1], self._rate[0])

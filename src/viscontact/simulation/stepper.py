@@ -165,7 +165,7 @@ class Stepper:
             known = [] if step.is_jump else self._reference_history(step)
             self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
         self._motion = trial.solution.motion
-        loss = self._loss(trial.pairs[0])
+        loss = self._loss(trial.pairs)
         self._history.accept(trial.pairs)
         self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.pairs[self._creeping], trial.error)
@@ -182,19 +182,19 @@ class Stepper:
             return trial.reference
         return replace(trial.reference, drive=trial.point.level, fields=trial.solution.values)
 
-    def _loss(self, values: NDArray[np.float64]) -> tuple[float, float]:
+    def _loss(self, pairs: tuple[NDArray[np.float64], ...]) -> tuple[float, float]:
         """Heat [J] of a step and power [W] lost at its end.
 
         NaN without internal variables, and without a datum: part of it is lost by the approach.
         """
-        memory, run = self._history.only_integral, self._run
+        run = self._run
         if run.problem.motion is None or not run.problem.has_datum(run.grid):
             return math.nan, math.nan
-        if not isinstance(memory, InternalVariables):
+        lost = self._history.loss(pairs)
+        if lost is None:
             return math.nan, math.nan
         area = self._domain.symmetry_count * self._domain.grid.cell_area
-        heat, power = memory.loss(values)
-        return heat * area, power * area
+        return lost[0] * area, lost[1] * area
 
     def _reference_history(self, step: Step) -> list[ElasticReference]:
         """The references that the next one is extrapolated from; after a kink, the last one."""

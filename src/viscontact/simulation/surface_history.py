@@ -24,6 +24,7 @@ from viscontact.time_integration.hereditary_integral import (
     HereditaryResponse,
     response_to,
 )
+from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.restart_data import RestartData
 
 Array = NDArray[np.float64]
@@ -82,10 +83,18 @@ class SurfaceHistory:
             plan.integral((2, *domain.shape), laws) for plan in run.plans
         ]
 
-    @property
-    def only_integral(self) -> HereditaryIntegral | None:
-        """The hereditary integral of the only term; None if there are several."""
-        return self._integrals[0] if len(self._integrals) == 1 else None
+    def loss(self, pairs: tuple[Array, ...]) -> tuple[float, float] | None:
+        """Heat of the step to new pairs, and power lost at its end, as of `InternalVariables`.
+
+        Those of all terms; None if one of them is not kept as internal variables.
+        """
+        heat = power = 0.0
+        for integral, pair in zip(self._integrals, pairs, strict=True):
+            if not isinstance(integral, InternalVariables):
+                return None
+            lost = integral.loss(pair)
+            heat, power = heat + lost[0], power + lost[1]
+        return heat, power
 
     def respond(self, step: Step) -> SurfaceStep:
         """Response to a step; sets that of the domain's surface."""

@@ -44,7 +44,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     if run.mesh is not None:
         warnings |= run.mesh.warnings
     warnings |= axle_warnings(problem) | turn_warnings(problem) | row_warnings(problem)
-    warnings |= heat_warnings(problem, run.grid, run.hereditary.compliance)
+    warnings |= heat_warnings(problem, run.grid, [plan.compliance for plan in run.plans])
     for material in problem.materials:
         warnings |= passivity_warnings(material.law, problem.end)
     return warnings
