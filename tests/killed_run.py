@@ -88,7 +88,7 @@ def complete(directory: Path, whole: xr.Dataset) -> list[str]:
         named = set(ds.attrs) | set(whole.attrs)
         faults += [
             f"attribute {name} differs"
-            for name in named - {"wall_time"}
+            for name in named - {"wall_time", "started"}
             if not np.array_equal(ds.attrs.get(name, ()), whole.attrs.get(name, ()))
         ]
     names = {path.name for path in directory.iterdir()}

@@ -34,10 +34,12 @@ class Case(DisplayableGroup, Problem):
         The CSV of the load history, if it has one.
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
+    title_block : mapping of str to str
+        Entries of the report's title block, by name.
     steady : SteadyMotion or None
         Steady motion, whose speeds take the place of times; None for a run over time.
     digests : mapping of Path to bytes
-        SHA-256 of each of those files when it was read.
+        SHA-256 of each of those files, and of the case file, when it was read.
     notes : tuple of str
         Notes on contents of the files, and on those that are not used.
     document : Document
@@ -48,6 +50,7 @@ class Case(DisplayableGroup, Problem):
     errors: bool
     load_file: Path | None
     files: Mapping[KeyPath, Path]
+    title_block: Mapping[str, str]
     steady: SteadyMotion | None
     digests: Mapping[Path, bytes] = field(repr=False)
     notes: tuple[str, ...]

@@ -21,6 +21,7 @@ from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.motion import AnyMotion, SpeedRange
 from viscontact.case.quantities import alternatives
 from viscontact.case.sections import CaseFile
+from viscontact.case.title_block import TitleBlock
 from viscontact.units.dimensions import DIMENSIONS
 
 # Sections by name, or by the value of shape, law or kind.
@@ -28,6 +29,7 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
     "time": time_grid_output.Time,
     "grid": time_grid_output.Cells,
     "output": time_grid_output.Output,
+    "report": TitleBlock,
 }
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)

@@ -144,6 +144,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         material=found.material.built,
         load=found.history(),
         motion=motion if isinstance(motion, Motion) else None,
+        title_block=found.report.entries,
         steady=steady,
         grid=found.grid.build() if found.grid else None,
         times=times,
@@ -153,7 +154,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         errors=found.output.errors,
         load_file=found.load.table,
         files=files,
-        digests={path: digest(path) for path in files.values()},
+        digests={path: digest(path) for path in (document.path, *files.values())},
         notes=_notes(found),
         document=document,
     )

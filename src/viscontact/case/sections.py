@@ -15,6 +15,7 @@ from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
+from viscontact.case.title_block import TitleBlock
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
 from viscontact.loads.motion import Motion
@@ -44,6 +45,7 @@ class CaseFile(Section):
     )
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
     output: Output = Field(default=Output(), description="results to keep")
+    report: TitleBlock = Field(default=TitleBlock(), description="title block of the report")
     tolerance: Annotated[float, Field(ge=FINEST_TOLERANCE, le=COARSEST_TOLERANCE)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )

@@ -17,6 +17,7 @@ from viscontact import __version__
 from viscontact.notebook.html import element
 from viscontact.report import accuracy, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
+from viscontact.report.title_block import file_lines
 from viscontact.results.citation import citations
 from viscontact.results.formatting import format_scalar
 from viscontact.results.run_axis import SPEED, TIME, run_axis
@@ -34,6 +35,7 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
         yield element("div", *tables, class_="inputs")
     else:
         yield element("p", "This result does not contain its case.", class_="faint")
+    yield from file_lines(ds)
     if text := case_file(ds):
         source = f"data:application/yaml;charset=utf-8,{quote(text)}"
         link = element("a", "Download", class_="download", download=CASE_NAME, href=source)

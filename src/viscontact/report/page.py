@@ -20,6 +20,7 @@ from viscontact.report.histories import load_panels, response_panels, time_axis
 from viscontact.report.map_data import curves_data, map_data
 from viscontact.report.resistance_loops import loops_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
+from viscontact.report.title_block import title_lines
 from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 
 _CHAPTERS = {
@@ -149,6 +150,7 @@ def _body(
         "about": input_chapters.about_chapter(ds),
     }
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
+    yield from title_lines(ds)
     yield result_chapters.opening(name, ds, titles)
     for place, parts in chapters.items():
         yield element("section", element("h2", titles[place]), *parts, id=place)

@@ -23,7 +23,7 @@ from viscontact.problem.problem import Problem
 from viscontact.results.dataset import to_dataset
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.variables import field_axis
-from viscontact.simulation.provenance import run_attributes
+from viscontact.simulation.provenance import date_and_time, run_attributes
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import Progress, march_run
 from viscontact.state import ContactState
@@ -164,6 +164,7 @@ def labelled(
     warned = [text for state in states for text in state.warnings]
     warned += bars.warnings if bars is not None else ()
     attributes = run_attributes(run) | {
+        "started": date_and_time(wall_time),
         "wall_time": wall_time,
         "warnings": "\n".join(warned),
         "grid_enlarged": "\n".join(enlargements(run.grid, states)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from datetime import datetime, timedelta
 from typing import Any
 
 from viscontact import __version__
@@ -10,6 +11,16 @@ from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.simulation.setup import RunSetup
+
+
+def date_and_time(ago: float = 0.0) -> str:
+    """Return date and local time some seconds ago, with the offset from UTC, as in ISO 8601.
+
+    >>> datetime.fromisoformat(date_and_time()).utcoffset() is not None
+    True
+    """
+    moment = datetime.now().astimezone() - timedelta(seconds=ago)
+    return moment.isoformat(timespec="seconds")
 
 
 def run_attributes(run: RunSetup) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
+from viscontact.simulation.provenance import date_and_time
 from viscontact.state import ContactState
 from viscontact.steady.curve import SteadyCurve
 from viscontact.steady.dataset import steady_dataset
@@ -146,7 +147,8 @@ def steady(
 
     def result() -> xr.Dataset:
         issued = "\n".join(curve.warnings.issued.values())
-        attributes = {"warnings": issued, "wall_time": clock.perf_counter() - started}
+        seconds = clock.perf_counter() - started
+        attributes = {"warnings": issued, "started": date_and_time(seconds), "wall_time": seconds}
         return steady_dataset(run, states, curve.bars if errors else None, attributes)
 
     try:

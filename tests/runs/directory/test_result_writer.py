@@ -40,7 +40,7 @@ def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def content(path: Path) -> dict[str, Any]:
-    """All that a file says, but for the time it took."""
+    """All that a file says, but for its date and the time it took."""
     with netCDF4.Dataset(str(path)) as file:
         file.set_auto_maskandscale(False)
         said: dict[str, Any] = {name: file.getncattr(name) for name in file.ncattrs()}
@@ -48,7 +48,7 @@ def content(path: Path) -> dict[str, Any]:
             attributes = {key: str(variable.getncattr(key)) for key in variable.ncattrs()}
             data = variable[:].tobytes()
             said[name] = (variable.dtype, variable.dimensions, variable.shape, attributes, data)
-    del said["wall_time"]
+    del said["wall_time"], said["started"]
     return said
 
 
@@ -215,6 +215,16 @@ def test_time_spent_adds_up(path: Path) -> None:
         writer.finish()
     with vc.open_results(path) as ds:
         assert 1e6 < ds.attrs["wall_time"] < 1e6 + 60
+
+
+def test_a_resumed_run_keeps_its_date(path: Path) -> None:
+    with begun(path) as writer:
+        write(writer, 2)
+        position = writer.position
+    with resumed(path, {**position, "started": "2001-02-03T04:05:06+07:00"}) as writer:
+        writer.finish()
+    with vc.open_results(path) as ds:
+        assert ds.attrs["started"] == "2001-02-03T04:05:06+07:00"
 
 
 def test_rows_that_come_out_differently_end_what_was_there(path: Path) -> None:

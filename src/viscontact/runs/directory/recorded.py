@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Generic, Protocol, Self, TypeVar
 
@@ -79,6 +79,8 @@ class Recorded(ABC, Generic[Run]):
     title: str = ""  # of the result
     errors: bool = False  # True if errors of the scalars are estimated
     check: LockCheck = never_lost  # of the lock of the directory, before each write
+    #: Attributes of the result that come from the case file.
+    filed: Mapping[str, Any] = field(default_factory=dict)
 
     #: Name of a row of the result, for messages.
     row = "instant"

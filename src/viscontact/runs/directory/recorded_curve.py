@@ -53,7 +53,8 @@ class RecordedCurve(Recorded[SteadySetup]):
         """Contents of the result."""
         case, problem = self.case, self.run.problem
         about = {name: json.dumps(case[name]) for name in ("fields", "errors")}
-        attributes = {"title": self.title, **steady_attributes(self.run, self.run.grid), **about}
+        from_run = steady_attributes(self.run, self.run.grid)
+        attributes = {"title": self.title, **self.filed, **from_run, **about}
         late = self.run.grid.size[problem.axis] / float(problem.speeds.min())
         single = fits_single_precision(problem.contact, late)
         return Contents(

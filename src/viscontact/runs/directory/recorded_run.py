@@ -41,7 +41,7 @@ class RecordedRun(Recorded[RunSetup]):
         """Contents of the result."""
         case, problem = self.case, self.run.problem
         about = {name: json.dumps(case[name]) for name in ("fields", "errors")}
-        attributes = {"title": self.title, **run_attributes(self.run), **about}
+        attributes = {"title": self.title, **self.filed, **run_attributes(self.run), **about}
         return Contents(
             self.run.grid,
             problem.instants,

@@ -34,6 +34,7 @@ from viscontact.runs.directory.netcdf_layout import (
 )
 from viscontact.runs.directory.stored_result import check_result, stored_grid
 from viscontact.runs.directory.write_guard import WriteGuard
+from viscontact.simulation.provenance import date_and_time
 from viscontact.state import ContactState
 
 #: Rows of scalars that wait in memory at most.
@@ -67,7 +68,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     `check` is called before each write; its LockLost leaves all files to the other run.
 
     To the given global attributes are added `warnings` and `grid_enlarged`, a line each;
-    `wall_time` [s], summed over resumptions; `complete`, 1 once the run is finished.
+    `started`, the date and time of the first start; `wall_time` [s], summed over resumptions;
+    `complete`, 1 once the run is finished.
 
     >>> import tempfile
     >>> import viscontact as vc
@@ -119,6 +121,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         self._complete = False
         self.grid = contents.grid.widened(tuple(position["cells"] or contents.grid.shape))
         self._started: float = clock.monotonic() - position["wall_time"]
+        # Positions of earlier versions lack it.
+        self._date: str = position.get("started") or date_and_time()
         self._warnings, self._enlarged = list(position["warnings"]), list(position["enlarged"])
         # States without fields, of rows from `_written` on.
         self._waiting: list[ContactState] = []
@@ -137,6 +141,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             **self._done._asdict(),
             "warnings": list(self._warnings),
             "wall_time": clock.monotonic() - self._started,
+            "started": self._date,
             "cells": list(self.grid.shape),
             "enlarged": list(self._enlarged),
         }
@@ -275,6 +280,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             "complete": np.int32(self._complete),
             "warnings": "\n".join(self._warnings),
             "grid_enlarged": "\n".join(self._enlarged),
+            "started": self._date,
             "wall_time": clock.monotonic() - self._started,
         }
 

@@ -20,8 +20,8 @@ from viscontact.case.reader import digest
 
 #: Length of a digest [characters].
 _LENGTH = 16
-#: Section without influence on the numbers, and key of the name of a file.
-_TITLE, _FILE = "title", "file"
+#: Sections without influence on the numbers, and key of the name of a file.
+_FILED, _FILE = ("title", "report"), "file"
 
 #: Digests of sections and files, by their names.
 Digests = Mapping[str, str]
@@ -47,7 +47,7 @@ def digests_of(case: Path) -> Callable[[Mapping[str, str]], Digests]:
     @cache
     def sections(keys: tuple[str, ...]) -> dict[str, str]:
         data = override(document, (f"{key}=null" for key in keys)).data
-        return {name: _digest(value) for name, value in data.items() if name != _TITLE}
+        return {name: _digest(value) for name, value in data.items() if name not in _FILED}
 
     @cache
     def files(settings: tuple[str, ...]) -> dict[str, str]:

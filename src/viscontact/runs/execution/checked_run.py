@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import CaseError, read_case
+from viscontact.case.filing import case_attributes
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded
@@ -55,11 +56,12 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
     directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case
-    about = (case.fields, case.title, case.errors)
+    about: dict[str, Any] = {"fields": case.fields, "title": case.title, "errors": case.errors}
+    about["filed"] = case_attributes(case)
     recorded = (
-        RecordedCurve(directory, found.run, *about)
+        RecordedCurve(directory, found.run, **about)
         if isinstance(found.run, SteadySetup)
-        else RecordedRun(directory, found.run, *about)
+        else RecordedRun(directory, found.run, **about)
     )
     return CheckedRun(request, found, recorded)
 

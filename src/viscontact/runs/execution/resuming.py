@@ -28,7 +28,7 @@ from viscontact.units.parsing import parse_quantity
 #: Largest number of changes of a case that are listed.
 _MAX_CHANGES = 12
 #: Keys without influence on the numbers.
-_IRRELEVANT = ("title",)
+_IRRELEVANT = ("title", "report")
 
 
 def standing(request: RunRequest, recorded: Recorded[Any], case: Case) -> Standing:
@@ -95,7 +95,7 @@ def _case_changes(kept: Path, case: Case, computed: Iterable[Difference]) -> lis
 
 
 def _means_the_same(change: Difference) -> bool:
-    if change.where in _IRRELEVANT:
+    if change.where.partition(".")[0] in _IRRELEVANT:
         return True
     return any(
         isclose(one, other, rel_tol=1e-12)

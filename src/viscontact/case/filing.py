@@ -1,0 +1,38 @@
+"""Attributes of a result from its case file: title block, digests of files, values as typed."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from viscontact.case.case import Case
+from viscontact.case.errors import dotted
+from viscontact.run_files import CASE_NAME
+
+
+def case_attributes(case: Case) -> Mapping[str, Any]:
+    """Return the attributes of a result that come from its case file, as JSON.
+
+    `title_block` has the entries of the section `report`, if any; `input_files` name, key and
+    SHA-256 of the files when they were read; `case_as_typed` all values as they were typed.
+    """
+    block = {"title_block": json.dumps(case.title_block)} if case.title_block else {}
+    typed = json.dumps(case.document.data, default=str)
+    return {**block, "input_files": json.dumps(_input_files(case)), "case_as_typed": typed}
+
+
+def _input_files(case: Case) -> list[dict[str, str]]:
+    """Name, role and SHA-256 of each file of a case; the case file may differ from that as run."""
+    typed, run = case.digests.get(case.document.path, b""), hashlib.sha256(case.text.encode())
+    found = [_entry(CASE_NAME, "case as run", run.digest())]
+    if typed and typed != run.digest():
+        found.insert(0, _entry(case.document.path.name, "case file", typed))
+    named = {path: dotted(key) for key, path in case.files.items()}
+    files = (_entry(case.file_names[path], named[path], case.digests[path]) for path in named)
+    return [*found, *sorted(files, key=lambda entry: entry["role"])]
+
+
+def _entry(name: str, role: str, digest: bytes) -> dict[str, str]:
+    return {"name": name, "role": role, "sha256": digest.hex()}

@@ -1,0 +1,52 @@
+"""Title block of a report, and the files that its run has read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+import xarray as xr
+
+from viscontact.notebook.html import element
+from viscontact.results.filed_case import input_files, started_at, title_block
+
+
+def title_entries(ds: xr.Dataset) -> list[tuple[str, str]]:
+    """Entries of the title block, and date and time of the run, those that are known.
+
+    >>> title_entries(xr.Dataset(attrs={"title_block": '{"project": "P-7", "revision": "B"}'}))
+    [('Project', 'P-7'), ('Revision', 'B')]
+    """
+    entries = [(name.capitalize(), value) for name, value in title_block(ds).items()]
+    started = started_at(ds)
+    return [*entries, ("Run started", started)] if started else entries
+
+
+def title_lines(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the title block, if it has entries."""
+    if entries := title_entries(ds):
+        pairs = (
+            element("div", element("dt", name), element("dd", value)) for name, value in entries
+        )
+        yield element("dl", *pairs, class_="title-block")
+
+
+def file_lines(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the table of input files, if there are any."""
+    files = input_files(ds)
+    if not files:
+        return
+    yield element("h3", "Input files")
+    head = element("tr", *(element("th", text) for text in ("file", "used for", "SHA-256")))
+    rows = (
+        element(
+            "tr",
+            element("th", each["name"], scope="row"),
+            element("td", each["role"]),
+            element("td", element("code", each["sha256"])),
+        )
+        for each in files
+    )
+    table = element("table", element("thead", head), element("tbody", *rows))
+    yield element("div", table, class_="scroll files")
+    yield element("p", "As they were when the run was made.", class_="faint")
