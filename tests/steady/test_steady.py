@@ -125,7 +125,9 @@ def loss_under_hertz(length):
     return float((share * (surface(along[..., None])[..., 0] - late)).sum()) / length
 
 
-@pytest.mark.parametrize(("speed", "error"), [(0.1, 5e-3), (10.0, 5e-4)])
+@pytest.mark.parametrize(
+    ("speed", "error"), [(0.1, 5e-3), pytest.param(10.0, 5e-4, marks=pytest.mark.slow)]
+)
 def test_a_body_that_hardly_creeps_loses_as_hertz_contact_does(speed, error):
     """To first order in the creep, by the slope of the body and by the dissipation."""
     material = vc.Material(vc.CreepSeries(1e-3, [1e-6], [1.0]), poisson_ratio=0.5)

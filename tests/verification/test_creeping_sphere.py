@@ -142,6 +142,7 @@ def test_ramp_loaded_sphere_in_steps_that_grow_from_the_first_touch(name):
     assert found["radius"] < 3e-3
 
 
+@pytest.mark.slow
 def test_ramp_loaded_sphere_in_uniform_steps_is_of_order_four_thirds():
     """Lee & Radok (1960). A straight line stands for a cube root in the step of first touch.
 
@@ -229,7 +230,7 @@ def test_radial_pressure_follows_table_1(name):
 # The error of the time steps alone, against the same grid's solution in 480 steps.
 
 
-@pytest.mark.parametrize("name", TABLE_1)
+@pytest.mark.parametrize("name", [pytest.param("maxwell", marks=pytest.mark.slow), "zener"])
 def test_time_error_of_the_pressure_falls_with_the_square_of_the_step(name):
     """Pressure linear in time, jumps exact; piecewise constant (eq. 12) would be of order one.
 

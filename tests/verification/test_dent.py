@@ -47,7 +47,9 @@ def surface_errors(grid, states, exact):
     }
 
 
-@pytest.mark.parametrize("name", ["maxwell", "zener", "burgers"])
+@pytest.mark.parametrize(
+    "name", ["maxwell", "zener", pytest.param("burgers", marks=pytest.mark.slow)]
+)
 def test_surface_is_where_it_should_be_before_and_after_contact_is_lost(name):
     """A Maxwell body keeps 36 % of the depth as a dent, a Zener body 6 % when it is met again.
 
@@ -63,6 +65,7 @@ def test_surface_is_where_it_should_be_before_and_after_contact_is_lost(name):
     assert deviation(over_time(states, "force"), exact.force) < 1e-3
 
 
+@pytest.mark.slow
 def test_error_of_the_surface_falls_with_the_cell_size():
     """The worst is at the rim, where the slope of the surface has a root: measured order 1.4."""
     body, cells = BODIES["zener"], np.array([10, 20, 40])

@@ -61,7 +61,11 @@ def test_recursion_and_sum_over_all_steps_agree_to_rounding(law, history, planne
 @pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # the same in both
 @pytest.mark.parametrize(
     "name",
-    [pytest.param("fractional_zener", marks=pytest.mark.slow), "power_law", "tabulated_creep"],
+    [
+        pytest.param("fractional_zener", marks=pytest.mark.slow),
+        pytest.param("power_law", marks=pytest.mark.slow),
+        "tabulated_creep",
+    ],
 )
 def test_a_sum_of_exponentials_is_as_good_as_it_says(name, monkeypatch):
     """The same run with room for all steps, and without.

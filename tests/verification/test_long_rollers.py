@@ -99,6 +99,7 @@ def test_shorter_rollers_have_the_peak_of_what_they_lack_beyond_their_ends(ratio
     assert peak == pytest.approx(1 / (8 * ratio**2), rel=0.08)
 
 
+@pytest.mark.slow
 def test_errors_in_the_middle_fall_with_the_square_of_the_cell_size():
     """2L = 400 b; the mean of all profiles, three meshes of each: the rim hits its cell by chance.
 

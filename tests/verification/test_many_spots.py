@@ -115,6 +115,7 @@ def test_real_area_approach_and_spots_converge_as_cells_are_halved():
     assert spots(states[1]) == pytest.approx(spots(states[2]), rel=0.02)
 
 
+@pytest.mark.slow
 def test_rough_ball_creeps_in_balance_with_hertzs_pressure_between_its_spots():
     """1531 spots at once, 2226 when all creep is over, a tenth of them Hertz's area.
 

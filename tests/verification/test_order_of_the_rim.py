@@ -112,7 +112,13 @@ def mean_errors(case: Case, cells: np.ndarray, draws: list[int]) -> np.ndarray:
 
 
 @pytest.mark.filterwarnings("ignore:only:viscontact.AccuracyWarning")  # few cells, on purpose
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name.startswith("ball") else pytest.param(name, marks=pytest.mark.slow)
+        for name in CASES
+    ],
+)
 def test_area_and_extents_are_of_second_order(name: str) -> None:
     """Orders measured: area 2.6 to 3.1, extents 1.45 to 2.8, down to 9e-6 and 9e-5 of the ball.
 
@@ -196,6 +202,7 @@ def shrinking_error(cells: int, rng: np.random.Generator) -> float:
     return float(np.mean(np.abs(over_time(states, "contact_area")[late] / exact[late] - 1)))
 
 
+@pytest.mark.slow
 def test_area_of_a_shrinking_contact_is_of_second_order() -> None:
     """Ting (1966), with steps as fine as the cells, while half the radius is left.
 

@@ -45,6 +45,7 @@ def test_eccentric_punch_at_128_cells_a_radius(odd):
     assert np.abs(punch_errors(128, odd=odd)).max() < 4e-3
 
 
+@pytest.mark.slow
 def test_errors_of_the_punch_fall_with_the_cell_size():
     """Sneddon (1965); six meshes, each the mean of eight drawn about it: the staircase jitters.
 

@@ -71,7 +71,7 @@ def harmonic_part(times, values, frequency):
 @pytest.mark.parametrize(
     ("name", "period", "control"),
     [
-        ("zener", 200.0, "approach"),
+        pytest.param("zener", 200.0, "approach", marks=pytest.mark.slow),
         ("relaxation_series", 300.0, "force"),
         pytest.param("zener", 200.0, "force", marks=pytest.mark.slow),
         pytest.param("relaxation_series", 300.0, "approach", marks=pytest.mark.slow),

@@ -167,6 +167,7 @@ def check_beside(seeds):
     return fit / len(seeds)
 
 
+@pytest.mark.slow
 def test_six_random_bodies_beside_the_pivot_of_a_stage_are_in_equilibrium():
     assert check_beside(range(10, 16)) > 0.8
 

@@ -87,7 +87,7 @@ def test_area_of_a_held_soft_solid(ratio):
     assert abs(errors).max() < 5e-4
 
 
-@pytest.mark.parametrize("ratio", [10, 100])
+@pytest.mark.parametrize("ratio", [10, pytest.param(100, marks=pytest.mark.slow)])
 @pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
 @pytest.mark.filterwarnings("ignore:only:viscontact.AccuracyWarning")  # few cells, on purpose
 def test_area_of_a_held_soft_solid_is_of_second_order(ratio):
@@ -101,7 +101,7 @@ def test_area_of_a_held_soft_solid_is_of_second_order(ratio):
     assert errors[-1] < 8e-5
 
 
-@pytest.mark.parametrize("ratio", [10, 100])
+@pytest.mark.parametrize("ratio", [10, pytest.param(100, marks=pytest.mark.slow)])
 def test_area_of_a_soft_solid_held_for_100_relaxation_times(ratio):
     """The other reading of a long hold: with M(0)/M(inf) = 100 the contact then still grows.
 

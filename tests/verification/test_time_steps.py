@@ -182,6 +182,7 @@ def test_error_falls_with_the_tolerance():
     assert order(1 / np.array(steps), errors) == pytest.approx(2.0, abs=0.6)
 
 
+@pytest.mark.slow
 def test_steps_on_a_strongly_relaxing_body_do_not_grow_with_the_cells():
     """Moduli 1000 apart. Measured: 500 and 568 steps; if every cell counts, 518 and 1130.
 

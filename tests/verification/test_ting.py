@@ -74,6 +74,7 @@ def test_contact_is_lost_when_ting_says(name):
     assert abs(found - exact.lost) <= half + 2e-4 * RISE
 
 
+@pytest.mark.slow
 def test_error_of_the_force_falls_with_the_square_of_mesh_and_step():
     """Ting (1966). Mesh and step refined together. Measured: order 2.0, down to 6.7e-5."""
     exact = reference.ting_triangle(SPHERE, PEAK, RISE, *TERMS["zener"])
@@ -109,7 +110,7 @@ def test_time_error_of_the_force_falls_with_the_square_of_the_step():
 @pytest.mark.parametrize(
     ("name", "sampled", "cells"),
     [
-        ("zener", False, 44.3),
+        pytest.param("zener", False, 44.3, marks=pytest.mark.slow),
         ("zener", True, 44.3),
         pytest.param("relaxation_series", False, 110.3, marks=pytest.mark.slow),
     ],
@@ -139,6 +140,7 @@ def test_stage_in_and_out_smoothly(name, sampled, cells):
     assert abs(found - exact.lost) <= half + 2e-4 * RISE
 
 
+@pytest.mark.slow
 def test_stage_in_and_out_three_times():
     """Ting (1968) on a Maxwell body, in closed form: each time it is met later, and left earlier.
 
@@ -172,16 +174,8 @@ def test_force_up_and_down():
     assert run.touching.tolist() == [False, *[True] * 119, False]
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "zener",
-        *(
-            pytest.param(n, marks=pytest.mark.slow)
-            for n in ("burgers", "maxwell_with_elastic_bulk")
-        ),
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["zener", "burgers", "maxwell_with_elastic_bulk"])
 def test_force_swings_three_times(name):
     """Graham (1965): haversines of force, sampled. Measured, worst: approach 2.5e-4, radius 9.9e-4.
 

@@ -171,6 +171,7 @@ def test_a_thousand_empty_calls_take_seconds() -> None:
         assert clock.perf_counter() - began < 10
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="without SIGKILL")
 def test_runs_whose_workers_are_killed_at_random_end_in_the_bits_of_runs_alone(case: Path) -> None:
     chance, over = random.Random(20261123), threading.Event()
