@@ -74,7 +74,7 @@ def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str
     if len(names) == 1:
         only = defs[names[0]]
         yield from (_sentence(only["description"]), "")
-        yield from _table(only["properties"], only.get("required", []))
+        yield from _table(only["properties"], _required(only))
         yield from _below(defs, path, only["properties"], depth)
         return
     kinds = {name: defs[name] for name in names}
@@ -102,7 +102,7 @@ def _kind(path: str, kind: Schema, alike: Schema, depth: int) -> Iterator[str]:
     yield from ("", _target(anchor), f"{'#' * depth} `{name}`", "")
     yield _sentence(kind["description"])
     if own:
-        yield from ("", *_table(own, kind.get("required", [])))
+        yield from ("", *_table(own, _required(kind)))
 
 
 def _below(defs: Schema, path: str, properties: Schema, depth: int) -> Iterator[str]:
@@ -132,7 +132,7 @@ def _alike(kinds: Mapping[str, Schema]) -> dict[str, Any]:
 def _table(properties: Schema, required: list[str]) -> Iterator[str]:
     yield from ("| key | meaning | value | default |", "|---|---|---|---|")
     for key, value in properties.items():
-        default = "required" if key in required else _default(value)
+        default = _in_place(value) or ("required" if key in required else _default(value))
         yield f"| `{key}` | {_meaning(value)} | {_cell(_value(value))} | {_cell(default)} |"
 
 
@@ -143,6 +143,17 @@ def _meaning(value: Schema) -> str:
         return _cell(said)
     # The description of an optional key is in one of its alternatives.
     return next(filter(None, map(_meaning, value.get("anyOf", []))), "")
+
+
+def _in_place(value: Schema) -> str:
+    """Key that an alias stands for; empty for any other key."""
+    return f"for `{value['x-alias-of']}`" if "x-alias-of" in value else ""
+
+
+def _required(kind: Schema) -> list[str]:
+    """Required keys, those included that have aliases."""
+    choices = [rule.get("oneOf") or rule.get("anyOf", []) for rule in kind.get("allOf", [])]
+    return [*kind.get("required", []), *(each[0]["required"][0] for each in choices if each)]
 
 
 _WORDS = {
@@ -203,6 +214,8 @@ def _simple(value: Schema) -> str:
         return f"list: {_value(value['items'])}"
     if kind == "boolean":
         return "`true` or `false`"
+    if "x-alias-of" in value:
+        return f"as `{value['x-alias-of']}`{_example(value)}"
     if "pattern" in value:
         return _quantity(value)
     if "x-dimension" in value:

@@ -318,3 +318,13 @@ def test_drawings_for_a_phone_stand_below_one_another(client: TestClient) -> Non
 def test_every_part_of_a_case_is_drawn(client: TestClient) -> None:
     drawn = [drawing(client, what) for what in ("indenter", "material", "load")]
     assert len(set(drawn)) == 3
+
+
+def test_the_form_of_a_case_with_aliases_has_the_canonical_keys(client: TestClient) -> None:
+    text = CASE.replace("radius: 10 mm", "diameter: 20 mm")
+    assert text != CASE
+    found = client.post("/api/case", json={"yaml": text}).json()["case"]
+    assert found == client.post("/api/case", json={"yaml": CASE}).json()["case"]
+    written = client.post("/api/yaml", json={"case": found, "yaml": text}).json()["yaml"]
+    assert "radius: 10 mm" in written
+    assert "diameter" not in written

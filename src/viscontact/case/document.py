@@ -5,12 +5,13 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
 from viscontact.case import toml_source, yaml_source
+from viscontact.case.aliases import Resolution, resolved
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 
 # Largest case file [bytes]; long histories belong in a CSV file. The parser needs ten seconds for
@@ -23,7 +24,8 @@ class Document:
     """Content of a case file before it is validated.
 
     The `data` contain the values given by ``--set``, which are not in the `source` text; a
-    `confined` case may name files in its folder only.
+    `confined` case may name files in its folder only. Both have canonical keys; `aliases` are
+    those that were typed in their place, `misused` those that cannot be resolved.
     """
 
     path: Path
@@ -32,6 +34,8 @@ class Document:
     lines: dict[KeyPath, int]
     overrides: Mapping[KeyPath, Any] = field(default_factory=dict)
     confined: bool = False
+    aliases: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
+    misused: tuple[tuple[KeyPath, str], ...] = ()
 
     @cached_property
     def text(self) -> str:
@@ -50,8 +54,15 @@ class Document:
         return f"{self.path}:"
 
     def problem(self, key: KeyPath, why: str) -> str:
-        """Return a problem as one line: place, key and reason."""
-        return " ".join(filter(None, (self.place(key), f"{dotted(key)}:" if key else "", why)))
+        """Return a problem as one line: place, key as it was typed, and reason."""
+        name = f"{dotted(self._as_typed(key))}:" if key else ""
+        return " ".join(filter(None, (self.place(key), name, why)))
+
+    def _as_typed(self, key: KeyPath) -> KeyPath:
+        for length in range(len(key), 0, -1):
+            if typed := self.aliases.get(key[:length]):
+                return (*typed, *key[length:])
+        return key
 
 
 def _same_branch(one: KeyPath, other: KeyPath) -> bool:
@@ -92,7 +103,26 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
             f"got {_kind(data)}; `viscontact example` shows complete ones"
         )
     written = yaml_source.write(data) if is_toml else text
-    return Document(path, written, data, lines, confined=confined)
+    document = Document(path, written, data, lines, confined=confined)
+    return with_canonical_keys(document, resolved(data))
+
+
+def with_canonical_keys(document: Document, found: Resolution) -> Document:
+    """Return a document with the resolved data, and with the same keys in its text."""
+    if found.data is document.data:
+        return document
+    lines = dict(document.lines)
+    for canonical, typed in found.typed.items():
+        if typed in lines:
+            lines[canonical] = lines[typed]
+    text = document.source
+    if not document.overrides:
+        text = yaml_source.renamed(text, found.typed, found.data)
+    aliases = {**document.aliases, **found.typed}
+    misused = (*document.misused, *found.problems)
+    return replace(
+        document, source=text, data=found.data, lines=lines, aliases=aliases, misused=misused
+    )
 
 
 @lru_cache(maxsize=8)

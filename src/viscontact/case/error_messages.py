@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from copy import deepcopy
 from typing import Any, get_args
@@ -11,9 +10,10 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from viscontact.case import time_grid_output
+from viscontact.case.aliases import aliases_of, known_aliases
 from viscontact.case.document import Document
 from viscontact.case.errors import KeyPath, dotted
-from viscontact.case.indenters.profiles import AnyProfile
+from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.material import AnyMaterial
@@ -22,6 +22,7 @@ from viscontact.case.motion import AnyMotion, SpeedRange
 from viscontact.case.quantities import alternatives
 from viscontact.case.sections import CaseFile
 from viscontact.case.title_block import TitleBlock
+from viscontact.case.unknown_words import nearest_word, unknown_word
 from viscontact.units.dimensions import DIMENSIONS
 
 # Sections by name, or by the value of shape, law or kind.
@@ -41,21 +42,6 @@ _WITHIN: dict[str | int, dict[str | int, Any]] = {
     "shift": _SHIFTS,
     "profile": _PROFILES,
     "motion": _MOTIONS,
-}
-
-# Synonyms that are not similar in spelling.
-_OTHER_NAMES = {
-    **{"cylinder": "roller", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
-    **{"ring": "torus", "o-ring": "torus", "wave": "waviness", "wheel": "roller"},
-    **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
-    **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
-    **{"abaqus": "card", "ansys": "card", "tabulated": "table"},
-    **{"standard-linear-solid": "zener", "sls": "zener", "constant": "step"},
-    **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},
-    **{"points": "history", "sentences": "history", "file": "history"},
-    **{"depth": "approach", "indentation": "approach", "displacement": "approach"},
-    **{"path": "travel", "oscillating": "reciprocating", "speed": "points"},
-    **{"force": "mean", "frequency": "period", "logarithmic": "log", "linear": "uniform"},
 }
 
 
@@ -80,7 +66,7 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
     for error in errors:
         if error["type"] != "union_tag_invalid":
             continue
-        near = _nearest(error["ctx"]["tag"], _choices(error))
+        near = nearest_word(error["ctx"]["tag"], _choices(error))
         if near is not None:
             changed = deepcopy(data) if changed is None else changed
             path = _key_path(data, error)
@@ -166,14 +152,14 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     if kind == "extra_forbidden":
         return _unknown_key(model, key[-1])
     if kind == "missing":
-        return f"is missing{_example(model, str(key[-1]))}"
+        return f"is missing{_example(model, str(key[-1]))}{_in_place(model, str(key[-1]))}"
     if kind == "union_tag_not_found":
         return f"is missing; choose one of: {', '.join(_choices(error))}"
     if kind == "union_tag_invalid":
-        return _unknown("value", context["tag"], _choices(error))
+        return unknown_word("value", context["tag"], _choices(error))
     if kind == "literal_error":
         choices = re.findall(r"'([^']*)'", context["expected"])
-        return _unknown("value", error["input"], choices)
+        return unknown_word("value", error["input"], choices)
     return _plain_words(error)
 
 
@@ -186,17 +172,10 @@ def _choices(error: ErrorDetails) -> list[str]:
     ]
 
 
-def _unknown(what: str, given: object, allowed: list[str]) -> str:
-    near = _nearest(given, allowed)
-    shown = "" if what == "key" else f" {str(given)[:40]!r}"
-    hint = f"; did you mean {near!r}?" if near else "."
-    return f"unknown {what}{shown}{hint} Allowed: {', '.join(allowed)}"
-
-
 def _unknown_key(model: type[BaseModel], given: object) -> str:
     """Message with the allowed keys, or the other kinds, laws or shapes that have the key."""
-    names = (each.alias or name for name, each in model.model_fields.items())
-    unknown = _unknown("key", given, sorted(names))
+    allowed = sorted([*_names(model), *(each.name for each in known_aliases(model))])
+    unknown = unknown_word("key", given, allowed)
     alike = next((each for each in _WITHIN.values() if model in each.values()), _NO_SHIFTS)
     for discriminator in ("kind", "law", "shape"):
         if discriminator not in model.model_fields:
@@ -208,14 +187,30 @@ def _unknown_key(model: type[BaseModel], given: object) -> str:
         ]
         if others:
             return f"{unknown}. It goes with {discriminator}: {' or '.join(others)}"
-    return unknown
+    return unknown if "did you mean" in unknown else f"{unknown}{_elsewhere(model, str(given))}"
 
 
-def _nearest(given: object, allowed: list[str]) -> str | None:
-    known = _OTHER_NAMES.get(str(given).lower())
-    if known in allowed:
-        return known
-    return next(iter(difflib.get_close_matches(str(given), allowed, n=1)), None)
+def _elsewhere(model: type[BaseModel], given: str) -> str:
+    """Section that has an unknown key; empty if none has it."""
+    loads = alternatives(AnyLoad).values()
+    sections: dict[str, list[type[BaseModel]]] = {
+        "the case file": [CaseFile],
+        "indenter": list(alternatives(AnyShape).values()),
+        "material": list(alternatives(AnyMaterial).values()),
+        "load": list(loads),
+        **{str(name): [section] for name, section in _SECTIONS.items()},
+        "motion": list(_MOTIONS.values()),
+    }
+    for name, models in sections.items():
+        known = {key for each in models for key in _names(each)}
+        known |= {alias.name for each in models for alias in known_aliases(each)}
+        if model not in models and given in known:
+            return f". It is a key of {name}"
+    return ""
+
+
+def _names(model: type[BaseModel]) -> list[str]:
+    return [each.alias or name for name, each in model.model_fields.items()]
 
 
 def _example(model: type[BaseModel], key: str) -> str:
@@ -225,9 +220,21 @@ def _example(model: type[BaseModel], key: str) -> str:
         return ""
     for annotation in fields[key].metadata:
         if dimension := getattr(annotation, "dimension", None):
-            return f"; write e.g. '{key}: {DIMENSIONS[dimension].example}'"
+            examples = fields[key].examples or [DIMENSIONS[dimension].example]
+            return f"; write e.g. '{key}: {examples[0]}'"
     described = fields[key].description
     return f"; {described}" if described else ""
+
+
+def _in_place(model: type[BaseModel], key: str) -> str:
+    """Aliases and other profiles that may stand in place of a missing key."""
+    if model is Logarithmic and key == "amplitude":
+        return (
+            "; or choose the profile lundberg or johns-gohar, which need the design force and "
+            "effective_modulus"
+        )
+    words = [f"'{alias.name}: {alias.example}'" for alias in aliases_of(model, key)]
+    return f", or {' or '.join(words)}" if words else ""
 
 
 def _plain_words(error: ErrorDetails) -> str:

@@ -123,7 +123,7 @@ class Reciprocating(MotionSection):
 
     kind: Literal["reciprocating"]
     amplitude: Length = Field(description="largest distance from the middle")
-    period: Duration = Field(description="time of a cycle")
+    period: Duration = Field(description="time of a cycle", examples=["1 s"])
     cycles: CycleCount = Field(description="number of cycles; then the body is at rest")
     along: Literal["x", "y"] = Field(default="y", description="axis of the motion")
 

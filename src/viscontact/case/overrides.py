@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from viscontact.case import yaml_source
+from viscontact.case.aliases import Resolution, canonical_path, resolved, value_at
 from viscontact.case.document import Document
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 
@@ -24,7 +25,33 @@ def override(document: Document, settings: Iterable[str]) -> Document:
     problems = [why for path, value in values.items() if (why := _put(data, path, value))]
     if problems:
         raise CaseError(*problems)
-    return replace(document, data=data, overrides=values)
+    for path in values:
+        canonical = canonical_path(data, path)
+        if canonical and canonical not in values and value_at(data, canonical) is not None:
+            del value_at(data, canonical[:-1])[canonical[-1]]
+    found = resolved(data)
+    aliases = {key: typed for key, typed in document.aliases.items() if key not in values}
+    return replace(
+        document,
+        data=found.data,
+        overrides=_canonical(document, found, values),
+        aliases={**aliases, **found.typed},
+        misused=(*document.misused, *found.problems),
+    )
+
+
+def _canonical(
+    before: Document, found: Resolution, values: Iterable[KeyPath]
+) -> dict[KeyPath, Any]:
+    """Values of ``--set`` in the resolved data, under canonical keys."""
+    canonical, settings = {old: new for new, old in found.typed.items()}, {}
+    for path in values:
+        key = canonical.get(path, path)
+        if path in canonical and not isinstance(value_at(before.data, key[:-1]), dict):
+            key = key[:-1]  # a profile that was a name, or missing
+        if (value := value_at(found.data, key)) is not None or path not in canonical:
+            settings[key] = value
+    return settings
 
 
 def _setting(text: str) -> tuple[KeyPath, Any]:

@@ -93,14 +93,15 @@ def digest(path: Path) -> bytes:
 
 
 def _checked(document: Document) -> CaseFile:
-    lacks_time = _lacks_time(document)
+    known = [document.problem(key, why) for key, why in document.misused]
+    known += [why] if (why := _lacks_time(document)) else []
     try:
         found = _validated(document, document.data)
     except ValidationError as error:
         findings = error.errors()
     else:
-        if lacks_time:
-            raise CaseError(lacks_time)
+        if known:
+            raise CaseError(*known)
         return found
     if guess := corrected(document.data, findings):
         try:
@@ -108,7 +109,7 @@ def _checked(document: Document) -> CaseFile:
         except ValidationError as error:
             findings += error.errors()
     problems = dict.fromkeys(problem(document, each) for each in findings[:_MOST_PROBLEMS])
-    problems |= {lacks_time: None} if lacks_time else {}
+    problems |= dict.fromkeys(known)
     more = len(findings) - _MOST_PROBLEMS
     raise CaseError(*problems, *([f"{document.path}: and {more} more"] if more > 0 else []))
 

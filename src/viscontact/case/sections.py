@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from viscontact.case.aliases import with_aliases
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.material import AnyMaterial
@@ -126,8 +127,8 @@ def case_schema() -> dict[str, Any]:
     -------
     dict
         JSON Schema, draft 2020-12. Beyond the standard, `x-dimension` names the dimension of a
-        quantity, or the allowed ones, `x-sign` the allowed sign, and `x-units` common units of each
-        dimension.
+        quantity, or the allowed ones, `x-sign` the allowed sign, `x-units` common units of each
+        dimension, and `x-alias-of` the key that an alias stands for.
 
     Examples
     --------
@@ -135,7 +136,7 @@ def case_schema() -> dict[str, Any]:
     >>> schema["required"], schema["else"]["required"]
     (['indenter', 'material', 'load'], ['time'])
     """
-    schema = CaseFile.model_json_schema() | _TIME_UNLESS_STEADY
+    schema = with_aliases(CaseFile.model_json_schema()) | _TIME_UNLESS_STEADY
     units = {name: list(dimension.units) for name, dimension in DIMENSIONS.items()}
     draft = "https://json-schema.org/draft/2020-12/schema"
     return {"$schema": draft, "x-units": units, **schema}

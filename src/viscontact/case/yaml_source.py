@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import io
 import re
 import warnings
+from collections.abc import Mapping
+from operator import getitem
 from typing import Any
 
 from ruamel.yaml import YAML
@@ -95,6 +98,27 @@ def rewritten(text: str, data: dict[str, Any]) -> str:
         return write(data)
     _bring_up_to_date(document, data)
     return write(document)
+
+
+def renamed(text: str, keys: Mapping[KeyPath, KeyPath], data: dict[str, Any]) -> str:
+    """Write data under new keys, each by its old one, in the text of a YAML file with its comments.
+
+    >>> print(renamed("b: 4 m  # long", {("a",): ("b",)}, {"a": "2 m"}))
+    a: 2 m  # long
+    <BLANKLINE>
+    """
+    document = _load(text)
+    for new, old in keys.items():
+        section = functools.reduce(getitem, old[:-1], document)
+        if new[:-1] == old[:-1] and old[-1] in section.ca.items:
+            section.ca.items[new[-1]] = section.ca.items.pop(old[-1])
+        if new[:-1] == old[:-1]:
+            section.insert(list(section).index(old[-1]), new[-1], None)
+        section.pop(old[-1], None)
+    _bring_up_to_date(document, data)
+    written = write(document)
+    # A key that was merged from an anchor cannot be renamed in its place.
+    return written if parse(written)[0] == data else write(data)
 
 
 def _bring_up_to_date(old: CommentedMap, new: dict[str, Any]) -> None:

@@ -68,7 +68,7 @@ class Harmonic(Load):
         examples=[APPROACH_EXAMPLE],
     )
     amplitude: ForceOrApproach = Field(description="of the force, or of the approach")
-    period: Duration = Field(description="time of a cycle")
+    period: Duration = Field(description="time of a cycle", examples=["1 s"])
     cycles: CycleCount = Field(description="number of cycles; then the level is held")
     phase: Angle = Field(default=0.0, description="at time 0")
 

@@ -68,7 +68,13 @@ function array(part) {
   return { kind: item.kind === "choice" ? "set" : "list", item };
 }
 
-const group = (part) => ({ kind: "group", properties: part.properties, required: part.required ?? [] });
+// A group without the aliases of its keys. One of a key and its aliases is required under allOf.
+function group(part) {
+  const own = Object.entries(part.properties).filter(([, each]) => !each["x-alias-of"]);
+  const choices = (part.allOf ?? []).map((rule) => rule.oneOf ?? rule.anyOf ?? []);
+  const required = [...(part.required ?? []), ...choices.flatMap((choice) => choice[0]?.required ?? [])];
+  return { kind: "group", properties: Object.fromEntries(own), required };
+}
 
 // The key whose constant identifies one of several groups.
 function tagOf(groups) {
