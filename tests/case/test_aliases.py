@@ -46,6 +46,7 @@ def test_diameter_is_twice_the_radius_to_the_last_digit(tmp_path: Path) -> None:
     assert found.indenter == vc.Sphere(0.009565)
     assert "radius: 9.565 mm" in found.text
     assert "diameter" not in found.text
+    assert found.document.data_as_typed["indenter"]["diameter"] == "19.13 mm"
 
 
 def test_a_crowned_roller_has_a_total_and_a_straight_length(tmp_path: Path) -> None:
@@ -129,6 +130,9 @@ def test_a_setting_replaces_the_same_quantity(
     again.write_text(found.text, encoding="utf-8")
     assert read_case(again).indenter == found.indenter
     assert "diameter" not in found.text
+    key, value = (settings[0].split(".")[-1]).split("=")
+    if not value.startswith("{"):  # what was typed last
+        assert found.document.data_as_typed["indenter"] == {"shape": "sphere", key: value}
 
 
 def test_a_set_length_of_a_crowned_roller_gets_a_profile(tmp_path: Path) -> None:

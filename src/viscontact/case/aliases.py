@@ -90,11 +90,13 @@ class Resolution:
 
     data: dict[str, Any]
     typed: dict[KeyPath, KeyPath] = field(default_factory=dict)  # alias, by canonical key
+    values: dict[KeyPath, Any] = field(default_factory=dict)  # as typed, by alias
     problems: list[tuple[KeyPath, str]] = field(default_factory=list)
 
     def rename(self, old: KeyPath, new: KeyPath, value: Any) -> None:
         """Put a value under a canonical key, at the place of the alias."""
         parent, target = value_at(self.data, old[:-1]), value_at(self.data, new[:-1])
+        self.values[old] = parent[old[-1]]
         if parent is target and new[-1] not in parent:
             items = list(parent.items())
             parent.clear()

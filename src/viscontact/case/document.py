@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import toml_source, yaml_source
-from viscontact.case.aliases import Resolution, resolved
+from viscontact.case.aliases import Resolution, resolved, value_at
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 
 # Largest case file [bytes]; long histories belong in a CSV file. The parser needs ten seconds for
@@ -35,6 +35,7 @@ class Document:
     overrides: Mapping[KeyPath, Any] = field(default_factory=dict)
     confined: bool = False
     aliases: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
+    of_aliases: Mapping[KeyPath, Any] = field(default_factory=dict)  # values, as typed
     misused: tuple[tuple[KeyPath, str], ...] = ()
 
     @cached_property
@@ -43,6 +44,15 @@ class Document:
         if not self.overrides:
             return self.source
         return yaml_source.with_overrides(self.source, dict(self.overrides))
+
+    @property
+    def data_as_typed(self) -> dict[str, Any]:
+        """The data with the aliases that were typed, and their values."""
+        data = deepcopy(self.data)
+        for canonical, typed in self.aliases.items():
+            del value_at(data, canonical[:-1])[canonical[-1]]
+            value_at(data, typed[:-1])[typed[-1]] = self.of_aliases[typed]
+        return data
 
     def place(self, key: KeyPath) -> str:
         """Return the place of a key: ``case.yaml:6:``, or ``--set`` if it was given there."""
@@ -104,10 +114,10 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
         )
     written = yaml_source.write(data) if is_toml else text
     document = Document(path, written, data, lines, confined=confined)
-    return with_canonical_keys(document, resolved(data))
+    return _with_canonical_keys(document, resolved(data))
 
 
-def with_canonical_keys(document: Document, found: Resolution) -> Document:
+def _with_canonical_keys(document: Document, found: Resolution) -> Document:
     """Return a document with the resolved data, and with the same keys in its text."""
     if found.data is document.data:
         return document
@@ -115,13 +125,15 @@ def with_canonical_keys(document: Document, found: Resolution) -> Document:
     for canonical, typed in found.typed.items():
         if typed in lines:
             lines[canonical] = lines[typed]
-    text = document.source
-    if not document.overrides:
-        text = yaml_source.renamed(text, found.typed, found.data)
-    aliases = {**document.aliases, **found.typed}
-    misused = (*document.misused, *found.problems)
+    text = yaml_source.renamed(document.source, found.typed, found.data)
     return replace(
-        document, source=text, data=found.data, lines=lines, aliases=aliases, misused=misused
+        document,
+        source=text,
+        data=found.data,
+        lines=lines,
+        aliases=found.typed,
+        of_aliases=found.values,
+        misused=tuple(found.problems),
     )
 
 

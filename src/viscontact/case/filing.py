@@ -19,7 +19,7 @@ def case_attributes(case: Case) -> Mapping[str, Any]:
     SHA-256 of the files when they were read; `case_as_typed` all values as they were typed.
     """
     block = {"title_block": json.dumps(case.title_block)} if case.title_block else {}
-    typed = json.dumps(case.document.data, default=str)
+    typed = json.dumps(case.document.data_as_typed, default=str)
     return {**block, "input_files": json.dumps(_input_files(case)), "case_as_typed": typed}
 
 

@@ -30,12 +30,15 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         if canonical and canonical not in values and value_at(data, canonical) is not None:
             del value_at(data, canonical[:-1])[canonical[-1]]
     found = resolved(data)
-    aliases = {key: typed for key, typed in document.aliases.items() if key not in values}
+    # A setting of a key, or of its section, replaces the alias in the file.
+    kept = [key for key in document.aliases if not any(key[: len(path)] == path for path in values)]
+    aliases = {key: document.aliases[key] for key in kept}
     return replace(
         document,
         data=found.data,
         overrides=_canonical(document, found, values),
         aliases={**aliases, **found.typed},
+        of_aliases={**document.of_aliases, **found.values},
         misused=(*document.misused, *found.problems),
     )
 
