@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from datetime import datetime, timedelta
 from pathlib import Path
 from xml.etree.ElementTree import fromstring
@@ -16,8 +17,10 @@ from viscontact.case import CaseError, read_case
 from viscontact.cli import main
 from viscontact.notebook.html import written
 from viscontact.report import report_page
+from viscontact.report.inputs import Input, inputs
+from viscontact.report.measured import measured_figure, measured_lines
 from viscontact.report.title_block import file_lines, title_entries
-from viscontact.results.filed_case import input_files, started_at
+from viscontact.results.filed_case import input_files, measured_tables, started_at
 
 TABLE = """time [s], D [1/GPa]
 1, 0.30
@@ -144,3 +147,52 @@ def test_typed_values_are_kept_as_they_were_typed(ds: xr.Dataset) -> None:
     typed = json.loads(ds.attrs["case_as_typed"])
     assert typed["indenter"] == {"shape": "sphere", "radius": "10 mm"}
     assert typed["load"]["force"] == "6 N"  # of --set
+
+
+ROLLER = """indenter:
+  shape: roller
+  radius: 5 mm
+  half_length: 8 mm
+  profile: {kind: johns-gohar, force: 500 N, effective_modulus: 3300 MPa}
+material: {law: zener, shear_modulus: 1 GPa, delayed_modulus: 1 GPa, viscosity: 10 GPa s,
+  poisson_ratio: 0.4}
+load: {kind: step, force: 0.2 kN}
+time: {end: 10 s, steps: 4, spacing: log}
+grid: {shape: [24, 24], size: [20 mm, 1 mm]}
+output: {errors: false, fields: none}
+"""
+
+
+def test_design_of_a_crown_stands_beside_the_amplitude_that_follows(tmp_path: Path) -> None:
+    with vc.open_results(directory(tmp_path, text=ROLLER)) as found:
+        rows = inputs(found)
+    assert Input("Indenter", "profile", "logarithmic profile", "johns-gohar") in rows
+    assert Input("Indenter", "profile force", "", "500 N") in rows
+    [amplitude] = [each for each in rows if each.name == "profile amplitude"]
+    # Q / (2 pi L E*) with half the length L (Lundberg 1939), by hand.
+    lundberg = 1e6 * 500 / (2 * math.pi * 8e-3 * 3300e6)
+    assert amplitude.value == f"{lundberg:.4f} µm"
+    assert amplitude.typed == ""
+    assert Input("Load", "force", "200 N", "0.2 kN") in rows
+    assert Input("Indenter", "radius", "", "5 mm") in rows  # one value, not twice the same
+
+
+def test_a_measured_compliance_is_shown_as_it_was_measured(ds: xr.Dataset) -> None:
+    record = measured_tables(ds)["material"]
+    assert (record["file"], record["data"], record["rows"]) == ("pom.csv", "uniaxial", 4)
+    [axes] = measured_figure(record).axes
+    assert axes.get_ylabel() == "Creep compliance D [1/GPa]"
+    [line] = axes.lines
+    assert line.get_xdata().tolist() == [1, 10, 100, 1000]
+    assert line.get_ydata() == pytest.approx([0.30, 0.36, 0.45, 0.60])  # not times 1 + nu
+    assert "“D [1/GPa]” (uniaxial test)" in "".join(map(written, measured_lines(ds, "Half-space")))
+    assert list(measured_lines(ds, "Indenter")) == []
+
+
+def test_a_creep_modulus_is_shown_as_a_modulus(tmp_path: Path) -> None:
+    case = CASE.replace("pom.csv", "sheet.csv")
+    (tmp_path / "sheet.csv").write_text("time [h], E_c [MPa]\n1, 2500\n10, 2000\n100, 1600\n")
+    with vc.open_results(directory(tmp_path, text=case)) as found:
+        [axes] = measured_figure(measured_tables(found)["material"]).axes
+    assert axes.get_ylabel() == "Creep modulus E_c [GPa]"
+    assert axes.lines[0].get_ydata() == pytest.approx([2.5, 2.0, 1.6])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from viscontact.case.document import Document
 from viscontact.case.error_messages import object_problem
@@ -40,6 +41,8 @@ class Case(DisplayableGroup, Problem):
         Steady motion, whose speeds take the place of times; None for a run over time.
     digests : mapping of Path to bytes
         SHA-256 of each of those files, and of the case file, when it was read.
+    measured : mapping of str to mapping
+        Tables of the laws, in the quantities that were measured, by the section of the material.
     notes : tuple of str
         Notes on contents of the files, and on those that are not used.
     document : Document
@@ -53,6 +56,7 @@ class Case(DisplayableGroup, Problem):
     title_block: Mapping[str, str]
     steady: SteadyMotion | None
     digests: Mapping[Path, bytes] = field(repr=False)
+    measured: Mapping[str, Mapping[str, Any]]
     notes: tuple[str, ...]
     document: Document = field(repr=False)
 

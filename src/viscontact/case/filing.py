@@ -16,11 +16,15 @@ def case_attributes(case: Case) -> Mapping[str, Any]:
     """Return the attributes of a result that come from its case file, as JSON.
 
     `title_block` has the entries of the section `report`, if any; `input_files` name, key and
-    SHA-256 of the files when they were read; `case_as_typed` all values as they were typed.
+    SHA-256 of the files when they were read; `case_as_typed` all values as they were typed;
+    `measured` the tables of the laws, if any, in the quantities that were measured.
     """
-    block = {"title_block": json.dumps(case.title_block)} if case.title_block else {}
-    typed = json.dumps(case.document.data_as_typed, default=str)
-    return {**block, "input_files": json.dumps(_input_files(case)), "case_as_typed": typed}
+    sometimes = {"title_block": case.title_block, "measured": case.measured}
+    return {
+        **{name: json.dumps(value) for name, value in sometimes.items() if value},
+        "input_files": json.dumps(_input_files(case)),
+        "case_as_typed": json.dumps(case.document.data_as_typed, default=str),
+    }
 
 
 def _input_files(case: Case) -> list[dict[str, str]]:

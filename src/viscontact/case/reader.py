@@ -15,6 +15,7 @@ from viscontact.case.document import Document, document_of, read_document
 from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.indenters.shapes import combined
+from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
 from viscontact.case.time_grid_output import kept_fields, kept_speeds, with_instants
@@ -156,6 +157,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         load_file=found.load.table,
         files=files,
         digests={path: digest(path) for path in (document.path, *files.values())},
+        measured=_measured(found),
         notes=_notes(found),
         document=document,
     )
@@ -164,6 +166,11 @@ def _case(document: Document, found: CaseFile) -> Case:
 def _notes(found: CaseFile) -> tuple[str, ...]:
     described = (*found.indenter, found.material, found.indenter_material)
     return tuple(note for each in described if each is not None for note in each.notes)
+
+
+def _measured(found: CaseFile) -> dict[str, Any]:
+    materials = {"material": found.material, "indenter_material": found.indenter_material}
+    return {name: law.measured for name, law in materials.items() if isinstance(law, TableLaw)}
 
 
 def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:

@@ -21,16 +21,19 @@ from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times
 
+#: Bodies by the section of their material.
+BODIES = {"material": "Half-space", "indenter_material": "Indenter"}
+
 
 def geometry(ds: xr.Dataset) -> Element:
     """Drawing of the indenter, with the largest contact shaded."""
-    wide = _drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
+    wide = drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
     return _both(wide, partial(_small_sections, ds))
 
 
 def friction_curve(ds: xr.Dataset) -> Element:
     """Friction coefficient over speed with its limits, or why it is not drawn."""
-    return _drawn(partial(friction, ds), "Friction coefficient over speed")
+    return drawn(partial(friction, ds), "Friction coefficient over speed")
 
 
 def is_drawn_from_fields(ds: xr.Dataset) -> bool:
@@ -40,11 +43,10 @@ def is_drawn_from_fields(ds: xr.Dataset) -> bool:
 
 def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
     """Yield the curves of each creeping body: whose they are, and the drawing."""
-    bodies = {"material": "Half-space", "indenter_material": "Indenter"}
-    for part, title in bodies.items():
+    for part, title in BODIES.items():
         if case_of(ds).get(part) is not None or part == "material":
             about = f"Creep compliance and relaxation modulus: {title.lower()}"
-            wide = _drawn(partial(_curves, ds, part), about)
+            wide = drawn(partial(_curves, ds, part), about)
             yield title, _both(wide, partial(_small_curves, ds, part))
 
 
@@ -109,7 +111,7 @@ def _curves(ds: xr.Dataset, part: str) -> Figure:
     return creep_curve(law, curve_times(end, float(positive.min(initial=end))))
 
 
-def _drawn(draw: Callable[[], Figure], about: str) -> Element:
+def drawn(draw: Callable[[], Figure], about: str) -> Element:
     """An image that needs nothing from outside, or why there is none."""
     try:
         figure = draw()

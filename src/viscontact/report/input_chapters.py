@@ -17,8 +17,10 @@ from viscontact import __version__
 from viscontact.notebook.html import element
 from viscontact.report import accuracy, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
+from viscontact.report.measured import measured_lines
 from viscontact.report.title_block import file_lines
 from viscontact.results.citation import citations
+from viscontact.results.filed_case import typed_case
 from viscontact.results.formatting import format_scalar
 from viscontact.results.run_axis import SPEED, TIME, run_axis
 from viscontact.results.shown_scalars import is_shown
@@ -33,6 +35,9 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
     tables = [_part(part, list(rows)) for part, rows in groupby(inputs(ds), lambda each: each.part)]
     if tables:
         yield element("div", *tables, class_="inputs")
+        if typed_case(ds):
+            text = "An empty field: computed with the typed value, or with what follows from it."
+            yield element("p", text, class_="faint")
     else:
         yield element("p", "This result does not contain its case.", class_="faint")
     yield from file_lines(ds)
@@ -62,6 +67,7 @@ def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
     for title, drawing in drawings.materials(ds):
         yield element("h3", title)
         yield element("figure", drawing)
+        yield from measured_lines(ds, title)
     yield element(
         "p",
         "Φ is the strain deviator per unit stress deviator, so that Φ(0) = 1/(2 G(0)); G is the "
@@ -138,12 +144,22 @@ def _effort(ds: xr.Dataset) -> str:
     )
 
 
-def _part(title: str, given: Iterable[Input]) -> Element:
+def _part(title: str, given: Sequence[Input]) -> Element:
+    """Table of a part: one column, or two if values were typed."""
+    caption, both = element("caption", title), any(each.typed for each in given)
     rows = (
-        element("tr", element("th", each.name, scope="row"), element("td", each.value))
+        element(
+            "tr",
+            element("th", each.name, scope="row"),
+            element("td", each.typed) if both else None,
+            element("td", each.value),
+        )
         for each in given
     )
-    return element("table", element("caption", title), element("tbody", *rows))
+    if not both:
+        return element("table", caption, element("tbody", *rows))
+    head = element("tr", *(element("th", text) for text in ("", "as typed", "computed with")))
+    return element("table", caption, element("thead", head), element("tbody", *rows))
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Element:

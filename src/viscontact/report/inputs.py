@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from viscontact.results.argument_table import argument_rows
+from viscontact.results.filed_case import typed_case
 from viscontact.results.recorded_case import case_of
+from viscontact.results.typed_rows import typed_rows
 from viscontact.run_files import CASE_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
 
@@ -22,7 +24,8 @@ _PARTS = {
     "motion": "Motion",
     "grid": "Grid",
 }
-
+#: Sections of a case file.
+_TYPED_PARTS = _PARTS | {"time": "Time", "output": "Output"}
 
 #: Speeds up to this number are listed one by one.
 _FEW_SPEEDS = 6
@@ -30,11 +33,12 @@ _FEW_SPEEDS = 6
 
 @dataclass(frozen=True)
 class Input:
-    """One argument of a part of the case, with its value in a unit."""
+    """One argument of a part of the case, with its value in a unit, and as it was typed."""
 
     part: str
     name: str
-    value: str
+    value: str = ""
+    typed: str = ""
 
 
 def inputs(ds: xr.Dataset) -> list[Input]:
@@ -56,7 +60,33 @@ def inputs(ds: xr.Dataset) -> list[Input]:
     if case and case.get("indenter_material") is None and "indenter" in case:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)
         found.insert(place, Input(_PARTS["indenter_material"], "law", "rigid"))
-    return [*found, *_steady(case), *_steps(case)]
+    found += [*_steady(case), *_steps(case)]
+    return _beside(found, _typed(typed_case(ds)))
+
+
+def _typed(case: Mapping[str, Any]) -> Iterator[Input]:
+    for key, title in _TYPED_PARTS.items():
+        for name, text in typed_rows(case.get(key)):
+            yield Input(title, name, typed=text)
+
+
+def _beside(computed: list[Input], typed: Iterable[Input]) -> list[Input]:
+    """Put the typed values beside the computed ones of the same name, the others before these."""
+    values = {(each.part, each.name): each.value for each in computed}
+    rows: dict[str, list[Input]] = {part: [] for part in _TYPED_PARTS.values()}
+    for each in typed:
+        value = values.pop((each.part, each.name), "")
+        same = _plain(value) == _plain(each.typed)
+        rows[each.part].append(replace(each, value="" if same else value))
+    for each in computed:
+        if (each.part, each.name) in values:
+            rows[each.part].append(each)
+    return [each for part in rows.values() for each in part]
+
+
+def _plain(text: str) -> str:
+    """Text without what the two notations differ in."""
+    return text.replace("-", " ").replace("um", "µm").replace(" ", "").replace("×", ",")
 
 
 def case_file(ds: xr.Dataset) -> str:

@@ -32,6 +32,12 @@ def typed_case(ds: xr.Dataset) -> Mapping[str, Any]:
     return found
 
 
+def measured_tables(ds: xr.Dataset) -> Mapping[str, Any]:
+    """Tables of the laws in the quantities that were measured, by the section of the material."""
+    found: dict[str, Any] = _attribute(ds, "measured", dict)
+    return found
+
+
 def started_at(ds: xr.Dataset) -> str:
     """Date and time of the start of a run, local with its offset and in UTC; empty if unknown.
 

@@ -14,6 +14,7 @@ from pydantic import Field
 from viscontact import laws
 from viscontact.case.data_file import DataFile
 from viscontact.case.materials.base import Medium
+from viscontact.case.materials.measured_record import measured_record
 from viscontact.case.materials.oscillation import fit_note, fit_oscillation, fit_warning
 from viscontact.case.quantities import Modulus
 from viscontact.laws import Law
@@ -156,6 +157,11 @@ class TableLaw(FromFile):
     def notes(self) -> tuple[str, ...]:
         """Note on the fit to an oscillation."""
         return () if self.fit is None else (fit_note(self.table, self.fit),)
+
+    @property
+    def measured(self) -> dict[str, Any]:
+        """The table in the quantities that were measured."""
+        return measured_record(self.table, self._data)
 
     @property
     def misfit(self) -> str | None:

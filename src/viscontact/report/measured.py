@@ -1,0 +1,74 @@
+"""Data of a material as they were measured, in a report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from viscontact.notebook.html import element
+from viscontact.plot.layout import style
+from viscontact.report.drawings import BODIES, drawn
+from viscontact.results.filed_case import measured_tables
+from viscontact.units.formatting import readable_unit
+
+_SYMBOLS = {
+    "creep_compliance": {"uniaxial": "D", "shear": "J", "deviatoric": "Φ"},
+    "creep_modulus": {"uniaxial": "E_c", "shear": "G_c"},
+    "relaxation_modulus": {"uniaxial": "E", "shear": "G"},
+    "storage_modulus": {"uniaxial": "E′", "shear": "G′"},
+    "loss_modulus": {"uniaxial": "E″", "shear": "G″"},
+    "loss_tangent": {"uniaxial": "tan δ", "shear": "tan δ"},
+}
+#: Size of a figure [inch]: width and height of each of its panels.
+_WIDTH, _HEIGHT = 4.2, 2.8
+
+
+def measured_lines(ds: xr.Dataset, body: str) -> Iterator[Element]:
+    """Yield the table of a body's law as it was measured; nothing for other laws."""
+    for part, record in measured_tables(ds).items():
+        if BODIES.get(part) == body:
+            about = f"Measured: {body.lower()}"
+            yield element("figure", drawn(partial(measured_figure, record), about))
+            yield element("p", measured_text(record), class_="faint")
+
+
+def measured_text(record: Mapping[str, Any]) -> str:
+    """Describe a table of measured values in a sentence.
+
+    >>> columns = [{"heading": "time [s]", "values": [1.0]}, {"heading": "D [1/GPa]"}]
+    >>> measured_text({"file": "pom.csv", "rows": 1, "columns": columns, "data": "uniaxial"})
+    'As measured: 1 row of pom.csv, columns “time [s]” and “D [1/GPa]” (uniaxial test).'
+    """
+    columns, rows = record["columns"], record["rows"]
+    names = " and ".join(f"“{each['heading']}”" for each in columns)
+    shown = len(columns[0]["values"])
+    some = f", {shown} of them drawn" if shown < rows else ""
+    row = "row" if rows == 1 else "rows"
+    return (
+        f"As measured: {rows} {row} of {record['file']}{some}, columns {names} "
+        f"({record['data']} test)."
+    )
+
+
+def measured_figure(record: Mapping[str, Any]) -> Figure:
+    """Draw the measured quantities over time or frequency, each in a panel of its own."""
+    over, *measured = record["columns"]
+    figure = style.new_figure(_WIDTH * len(measured), _HEIGHT)
+    unit = readable_unit(over["units"], over["values"])
+    spread = max(over["values"]) > 30 * min(over["values"]) > 0
+    for place, each in enumerate(measured, 1):
+        axes = figure.add_subplot(1, len(measured), place)
+        own = readable_unit(each["units"], each["values"])
+        axes.plot(unit(over["values"]), own(each["values"]), "o", markersize=4)
+        if spread:
+            axes.set_xscale("log")
+        axes.set_xlabel(unit.label(over["quantity"].replace("_", " ").capitalize()))
+        name = each["quantity"].replace("_", " ").capitalize()
+        axes.set_ylabel(own.label(f"{name} {_SYMBOLS[each['quantity']][record['data']]}"))
+        style.dress(axes)
+    return figure
