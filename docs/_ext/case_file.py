@@ -48,7 +48,7 @@ def case_file_reference(schema: Schema) -> str:
             lines += ["", _target(name), f"## `{name}`", "", _sentence(value["description"])]
             lines += [f"Same keys as [`{described[kinds]}`](#{_label(described[kinds])})."]
         else:
-            lines += _section(schema["$defs"], name, value, depth=2)
+            lines += _section(schema["$defs"], name, value, depth=2, within={})
             described[kinds] = name
     return "\n".join([*lines, *_units(schema.get("x-units", {}))])
 
@@ -62,11 +62,28 @@ def _units(units: Mapping[str, list[str]]) -> Iterator[str]:
         yield f"| {dimension} | {', '.join(f'`{name}`' for name in names)} |"
 
 
-def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str]:
-    """Section of a key whose value has keys: of one kind, or of several."""
+def _section(
+    defs: Schema, path: str, value: Schema, depth: int, within: Mapping[str, list[str]]
+) -> Iterator[str]:
+    """Section of a key whose value has keys: of one kind, or of several.
+
+    `within` has the kinds of the sections around it, such as the laws, which a layer has too.
+    """
     names = list(dict.fromkeys(_references(value)))
     if not names:
         return
+    around = next((each for each, kinds in within.items() if {*names} < {*kinds}), None)
+    if around and len(names) > 1:
+        yield from (
+            "",
+            _target(path),
+            f"{'#' * depth} `{path}`",
+            "",
+            _sentence(value["description"]),
+        )
+        yield f"One of the kinds of [`{around}`](#{_label(around)})."
+        return
+    within = {**within, path: names}
     yield from ("", _target(path), f"{'#' * depth} `{path}`", "")
     # For a single kind, its own description is sufficient.
     if len(names) > 1 and "description" in value:
@@ -75,39 +92,57 @@ def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str
         only = defs[names[0]]
         yield from (_sentence(only["description"]), "")
         yield from _table(only["properties"], _required(only))
-        yield from _below(defs, path, only["properties"], depth)
+        yield from _below(defs, path, only["properties"], depth, within)
         return
     kinds = {name: defs[name] for name in names}
     shipped = _names_of_no_kind(value, kinds)
     if shipped:
         names = ", ".join(f"`{name}`" for name in shipped)
         yield from (f"A name, one of {names}; or one of the kinds below.", "")
-    alike = _alike(kinds)
+    apart = [kind for kind in kinds.values() if _is_apart(kind, kinds)]
+    alike = _alike({name: kind for name, kind in kinds.items() if kind not in apart})
     if alike:
-        yield from ("Keys of every kind:", "", *_table(alike, []))
+        but = "".join(f" but `{_chosen(kind)}`" for kind in apart)
+        yield from (f"Keys of every kind{but}:", "", *_table(alike, []))
     for kind in kinds.values():
         yield from _kind(path, kind, alike, depth + 1)
     nested = {key: each for kind in kinds.values() for key, each in kind["properties"].items()}
-    yield from _below(defs, path, nested, depth)
+    yield from _below(defs, path, nested, depth, within)
 
 
 def _kind(path: str, kind: Schema, alike: Schema, depth: int) -> Iterator[str]:
     properties = kind["properties"]
     chosen = {key: value["const"] for key, value in properties.items() if "const" in value}
-    name = ", ".join(f"{key}: {value}" for key, value in chosen.items())
     own = {
         key: value for key, value in properties.items() if key not in alike and key not in chosen
     }
     anchor = "-".join([path, *chosen.values()])
-    yield from ("", _target(anchor), f"{'#' * depth} `{name}`", "")
+    yield from ("", _target(anchor), f"{'#' * depth} `{_chosen(kind)}`", "")
     yield _sentence(kind["description"])
     if own:
         yield from ("", *_table(own, _required(kind)))
 
 
-def _below(defs: Schema, path: str, properties: Schema, depth: int) -> Iterator[str]:
+def _chosen(kind: Schema) -> str:
+    """Keys and values that choose a kind, as a case has them."""
+    consts = (
+        (key, value["const"]) for key, value in kind["properties"].items() if "const" in value
+    )
+    return ", ".join(f"{key}: {value}" for key, value in consts)
+
+
+def _is_apart(kind: Schema, kinds: Mapping[str, Schema]) -> bool:
+    """True for one of many kinds that has no key in common with any other."""
+    own = {key for key, value in kind["properties"].items() if "const" not in value}
+    others = (each for each in kinds.values() if each is not kind)
+    return len(kinds) > ALIKE and all(own.isdisjoint(each["properties"]) for each in others)
+
+
+def _below(
+    defs: Schema, path: str, properties: Schema, depth: int, within: Mapping[str, list[str]]
+) -> Iterator[str]:
     for key, value in properties.items():
-        yield from _section(defs, f"{path}.{key}", value, depth + 1)
+        yield from _section(defs, f"{path}.{key}", value, depth + 1, within)
 
 
 def _names_of_no_kind(value: Schema, kinds: Mapping[str, Schema]) -> list[str]:
@@ -243,6 +278,8 @@ def _example(value: Schema) -> str:
 def _references(value: Any) -> Iterator[str]:
     """Definitions that a value may refer to, in order."""
     if isinstance(value, Mapping):
+        if "x-shorthand" in value:  # another spelling of the kinds beside it
+            return
         if "$ref" in value:
             yield str(value["$ref"]).rsplit("/", 1)[-1]
         for key in ("anyOf", "oneOf", "items"):

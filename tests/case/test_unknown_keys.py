@@ -25,6 +25,8 @@ def _places(schema: Schema, name: str = "", open_names: tuple[str, ...] = ()) ->
 
     The document holds the keys that choose among alternatives, and the unknown key.
     """
+    if "x-shorthand" in schema:  # other spellings of the objects beside it
+        return
     if "$ref" in schema:
         name = schema["$ref"].rpartition("/")[2]
         if name not in open_names:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from ruamel.yaml import YAML
 
 import viscontact as vc
 from interrupted_runs import (
@@ -27,6 +28,7 @@ from interrupted_runs import (
     same_bits,
     whole,
 )
+from viscontact.case.yaml_source import write
 from viscontact.cli import main
 from viscontact.cli.run import summary
 from viscontact.cli.terminal.interruption import watched_interruption
@@ -65,6 +67,21 @@ def test_resumed_periodic_run_ends_in_the_same_bits(folder: Path) -> None:
     with xr.open_dataset(folder / "at once" / "result.nc") as ds:
         at_once = ds.load()
     assert at_once.pressure.values[-1, 0].any()
+    kill(4, "-q")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    assert same_bits("case", at_once)
+
+
+def test_resumed_run_on_layers_ends_in_the_same_bits(folder: Path) -> None:
+    """Two terms, each with its own internal variables: a cover that creeps on an elastic core."""
+    data = YAML(typ="safe", pure=True).load(CASE)
+    core = {"law": "elastic", "shear_modulus": "100 MPa", "poisson_ratio": 0.3}
+    data["material"] = {"layers": [{"thickness": "0.3 mm", **data["material"]}], "base": core}
+    (folder / "case.yaml").write_text(write(data), encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "at once"]) == 0
+    with xr.open_dataset(folder / "at once" / "result.nc") as ds:
+        at_once = ds.load()
+    assert at_once.attrs["splitting_error"] > 0
     kill(4, "-q")
     assert main(["run", "case.yaml", "--resume"]) == 0
     assert same_bits("case", at_once)

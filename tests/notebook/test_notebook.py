@@ -116,7 +116,10 @@ MEASURED = [
     vc.build_master_curve(_ISOTHERMS, 293.15),
     vc.Card("gel", vc.Material(_ZENER, 0.5), vc.WLF(293.15, 17.44, 51.6), ("*DENSITY",)),
 ]
-STORED_CLASSES = [*INDENTERS, *LAWS, *OTHERS, *MEASURED]
+_RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.49)
+_STEEL = vc.Material(vc.Elastic(80e9), 0.3)
+LAYERED = vc.Layered([vc.Layer(5e-3, _RUBBER), vc.Layer(1e-4, _STEEL)], "rigid", (True, False))
+STORED_CLASSES = [*INDENTERS, *LAWS, *OTHERS, *MEASURED, LAYERED]
 #: Half of the last digit of a path, and what it may leave out of a straight piece [px].
 _ROUNDING = 0.05 + 0.03
 
@@ -251,6 +254,18 @@ def _check_outline(
     # Along a slope a point moves up by as much as it is moved aside.
     slope = np.abs(np.gradient(exact, position) * x_of[0])
     assert np.all(np.abs(height - exact) <= 2 * _ROUNDING * (abs(y_of[0]) + slope))
+
+
+def test_section_of_layers_is_to_scale_and_names_them() -> None:
+    layers = [vc.Layer(4e-3, _RUBBER), vc.Layer(2e-3, _STEEL), vc.Layer(1e-6, _RUBBER)]
+    section, *curves = _parsed(vc.Layered(layers, _STEEL, (True, False, True))).iter("svg")
+    heights = [float(each.get("height", "")) for each in section.iter("rect")]
+    assert heights[0] == pytest.approx(2 * heights[1], abs=0.2)  # rounded to 0.1
+    assert heights[2] == 18  # room for its label
+    assert _text(section) == "section 4 mm Zener 2 mm elastic 1 µm Zener slides base: elastic"
+    dashed = [each for each in section.iter("path") if "stroke-dasharray" in each.attrib]
+    assert len(dashed) == 1
+    assert ["layer 1" in _text(each) for each in curves] == [True, True, False, False]
 
 
 def test_curves_of_a_law_are_the_law() -> None:

@@ -75,6 +75,27 @@ class Document:
         return key
 
 
+def as_written(data: Any, path: KeyPath) -> KeyPath:
+    """Path of a value in the data of a file, without the steps that the file leaves out.
+
+    >>> as_written({"layers": [{"file": "law.yaml"}]}, ("layers", 0, "material", "file"))
+    ('layers', 0, 'file')
+    """
+    found: list[str | int] = []
+    for place, step in enumerate(path):
+        if isinstance(data, dict) and step in data:
+            # A name of the library, beside which the keys of its section are written.
+            if isinstance(data[str(step)], str) and any(key in data for key in path[place + 1 :]):
+                continue
+            data = data[str(step)]
+        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
+            data = data[step]
+        else:
+            continue
+        found.append(step)
+    return tuple(found)
+
+
 def _same_branch(one: KeyPath, other: KeyPath) -> bool:
     return all(a == b for a, b in zip(one, other, strict=False))
 

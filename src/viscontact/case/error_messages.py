@@ -11,11 +11,12 @@ from pydantic_core import ErrorDetails
 
 from viscontact.case import time_grid_output
 from viscontact.case.aliases import aliases_of, known_aliases
-from viscontact.case.document import Document
+from viscontact.case.document import Document, as_written
 from viscontact.case.errors import KeyPath, dotted
 from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
+from viscontact.case.materials.layers import AnyBody, Layer
 from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.motion import AnyMotion, SpeedRange
@@ -35,7 +36,8 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)
 _MOTIONS = alternatives(AnyMotion)
-_NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyMaterial) | alternatives(AnyLoad)
+_NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyBody) | alternatives(AnyLoad)
+_SINGLE = alternatives(AnyMaterial)  # of a layer, which has no layers of its own
 _ALTERNATIVES = _NO_SHIFTS | _SHIFTS | _MOTIONS | {"range": SpeedRange}
 # Values of these keys are identified by `kind`.
 _WITHIN: dict[str | int, dict[str | int, Any]] = {
@@ -121,20 +123,14 @@ def _holds(data: Any, path: KeyPath) -> bool:
 
 def _key_path(data: Any, error: ErrorDetails) -> KeyPath:
     """Location of a validation error with keys only, without names of alternatives."""
-    path: list[str | int] = []
-    for step in error["loc"]:
-        if isinstance(data, dict) and step in data:
-            data = data[str(step)]
-        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
-            data = data[step]
-        else:
-            continue
-        path.append(step)
-    return (*path, error["loc"][-1]) if error["type"] == "missing" else tuple(path)
+    path = as_written(data, error["loc"])
+    return (*path, error["loc"][-1]) if error["type"] == "missing" else path
 
 
 def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
     """Section to which the last key of a location belongs."""
+    if loc[-3:-2] == ("layers",) and isinstance(loc[-2], int):
+        return Layer
     # Section names count at the top level only: `load.time` is a key of the load.
     section = _SECTIONS.get(loc[0], CaseFile) if len(loc) > 1 else CaseFile
     within = reversed(loc[1:-1])
@@ -165,7 +161,8 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
 
 def _choices(error: ErrorDetails) -> list[str]:
     """Allowed values of the key that identifies a section."""
-    models = _WITHIN.get(error["loc"][-1], _NO_SHIFTS)
+    others = _SINGLE if "layered" in error["loc"] else _NO_SHIFTS
+    models = _WITHIN.get(error["loc"][-1], others)
     fields = {tag: model.model_fields.get(_union_key(error)) for tag, model in models.items()}
     return [
         str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)

@@ -13,14 +13,15 @@ from pydantic import TypeAdapter
 from viscontact.case.document import document_of
 from viscontact.case.indenters.shapes import Shapes, combined
 from viscontact.case.loads.load import AnyLoad
-from viscontact.case.materials.material import AnyMaterial
+from viscontact.case.materials.layers import AnyBody
 from viscontact.case.time_grid_output import Time
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 
 _SHAPES: TypeAdapter[Any] = TypeAdapter(Shapes)
-_MATERIAL: TypeAdapter[Any] = TypeAdapter(AnyMaterial)
+_MATERIAL: TypeAdapter[Any] = TypeAdapter(AnyBody)
 _LOAD: TypeAdapter[Any] = TypeAdapter(AnyLoad)
 _TIME: TypeAdapter[Any] = TypeAdapter(Time)
 
@@ -35,7 +36,7 @@ class Parts:
     ----------
     indenter : Indenter or None
         The pressed body's shape; None, here and below, where it is not valid.
-    material, indenter_material : Material or None
+    material, indenter_material : Material, Layered or None
         The half-space's material, and the pressed body's.
     load : LoadHistory or None
         Force or approach; None for a mean pressure, whose force needs a grid.
@@ -44,8 +45,8 @@ class Parts:
     """
 
     indenter: Indenter | None
-    material: Material | None
-    indenter_material: Material | None
+    material: Material | Layered | None
+    indenter_material: Material | Layered | None
     load: LoadHistory | None
     end: float | None
 

@@ -11,7 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from viscontact.case.case import Case
-from viscontact.case.document import Document, document_of, read_document
+from viscontact.case.document import Document, as_written, document_of, read_document
 from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.indenters.shapes import combined
@@ -186,5 +186,6 @@ def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
     materials = {"material": found.material, "indenter_material": found.indenter_material}
     for section, material in materials.items():
         if material is not None:
-            files |= {(section, *key): path for key, path in material.files.items()}
+            found_there = {(section, *key): path for key, path in material.files.items()}
+            files |= {as_written(document.data, key): path for key, path in found_there.items()}
     return files

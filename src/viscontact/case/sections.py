@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 from viscontact.case.aliases import with_aliases
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.loads.load import AnyLoad
-from viscontact.case.materials.material import AnyMaterial
+from viscontact.case.materials.layers import AnyBody
 from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
@@ -33,8 +33,8 @@ class CaseFile(Section):
 
     title: str = Field(default="", description="title of the run in tables, figures and reports")
     indenter: Shapes
-    material: AnyMaterial = Field(description="the half-space")
-    indenter_material: AnyMaterial | None = Field(
+    material: AnyBody = Field(description="the half-space")
+    indenter_material: AnyBody | None = Field(
         default=None, description="the pressed body's material; rigid when left out"
     )
     load: AnyLoad = Field(description="load over time")

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from viscontact.display import Displayable
+from viscontact.laws import Elastic, Law
 from viscontact.materials.material import Material
 from viscontact.units.numbers import check_fields, store
 
@@ -114,6 +115,26 @@ class Layered(Displayable):
     def thickness(self) -> float:
         """Thickness of all layers together [m]."""
         return sum(layer.thickness for layer in self.layers)
+
+
+def named_parts(body: Material | Layered) -> dict[str, Material]:
+    """Materials of a body by the part they belong to, the uppermost first; "" for all of it.
+
+    >>> from viscontact.laws import Elastic
+    >>> rubber = Material(Elastic(1e6), poisson_ratio=0.5)
+    >>> list(named_parts(Layered([Layer(5e-3, rubber)], base=rubber))), list(named_parts(rubber))
+    (['layer 1', 'base'], [''])
+    """
+    if isinstance(body, Material):
+        return {"": body}
+    names = [f"layer {number}" for number in range(1, len(body.layers) + 1)]
+    return dict(zip([*names, "base"], body.materials, strict=False))
+
+
+def creeping_laws(body: Material | Layered) -> dict[str, Law]:
+    """Laws of the parts of a body that creep, by their names; of all parts if none creeps."""
+    laws = {name: material.law for name, material in named_parts(body).items()}
+    return {name: law for name, law in laws.items() if not isinstance(law, Elastic)} or laws
 
 
 def _check_material(part: str, material: object) -> None:

@@ -13,6 +13,7 @@ from viscontact.indenters import Indenter
 from viscontact.laws import Law
 from viscontact.loads import LoadHistory
 from viscontact.materials.cards import Card as MaterialCard
+from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
 from viscontact.notebook.card import Card, as_html, as_text
 from viscontact.notebook.curves import law_drawings, load_drawings
@@ -25,6 +26,7 @@ from viscontact.notebook.measurements import (
 )
 from viscontact.notebook.result_card import result_card
 from viscontact.notebook.shapes import indenter_drawings
+from viscontact.notebook.stack import stack_drawing
 from viscontact.notebook.surface_map import surface_card
 from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import argument_rows, in_plain_words
@@ -165,6 +167,10 @@ def _drawings(obj: Displayable) -> list[Element]:
 def _drawn(obj: Displayable) -> list[Element]:
     if isinstance(obj, Indenter):
         return indenter_drawings(obj)
+    if isinstance(obj, Layered):
+        laws = creeping_laws(obj)
+        curves = [each for name, law in laws.items() for each in law_drawings(law, name)]
+        return [stack_drawing(obj), *curves]
     if isinstance(obj, Law | Material):
         return law_drawings(obj if isinstance(obj, Law) else obj.law)
     if isinstance(obj, LoadHistory):

@@ -31,18 +31,21 @@ _MOST_DOTS = 40
 _PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
 
 
-def law_drawings(law: Law) -> list[Element]:
-    """Draw creep compliance and relaxation modulus of a law over log time; none if elastic."""
+def law_drawings(law: Law, part: str = "") -> list[Element]:
+    """Draw creep compliance and relaxation modulus of a law over log time; none if elastic.
+
+    `part` names the part of a body that the law belongs to.
+    """
     if isinstance(law, Elastic):
         return []
     span = law_span(law)
     if isinstance(law, TabulatedCreep):
-        return [_curve(law, *_PHI, span, (law.times, law.compliance))]
+        return [_curve(law, *_PHI, span, (law.times, law.compliance), part)]
     if isinstance(law, TabulatedRelaxation):
-        return [_curve(law.relaxation, *_G, span, (law.times, law.modulus))]
-    drawn = [_curve(law, *_PHI, span)]
+        return [_curve(law.relaxation, *_G, span, (law.times, law.modulus), part)]
+    drawn = [_curve(law, *_PHI, span, aside=part)]
     if law(0.0) > 0 and law.inversion_error == 0:
-        drawn.append(_curve(law.relaxation, *_G, span))
+        drawn.append(_curve(law.relaxation, *_G, span, aside=part))
     return drawn
 
 
@@ -105,6 +108,7 @@ def _curve(
     unit: str,
     span: tuple[float, float],
     rows: tuple[Sequence[float], Sequence[float]] | None = None,
+    aside: str = "",
 ) -> Element:
     times = np.geomspace(*span, _POINTS)
     values = of(times)
@@ -114,7 +118,7 @@ def _curve(
         some = slice(None, None, math.ceil(len(rows[0]) / _MOST_DOTS))
         marks.append(Mark(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
     x = logarithmic("time", "s", *span, each_with_unit=True)
-    return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks)
+    return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks, aside=aside)
 
 
 def _upward(symbol: str, unit: str, values: NDArray[np.float64]) -> Scale:

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.results.formatting import format_bound
-from viscontact.results.recorded_case import case_of, prescribes_approach, recorded_grid
+from viscontact.results.recorded_case import case_of, is_layered, prescribes_approach, recorded_grid
 from viscontact.results.run_axis import TIME, run_axis
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.results.summary import SummaryRow, summary_rows, summary_scalars
@@ -44,9 +44,22 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
+    if is_layered(ds) or is_layered(ds, "indenter_material"):
+        yield "Layers", _splitting(ds)
     yield ("Coarser runs" if run_axis(ds) is TIME else "Coarser contacts"), _coarser_runs(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
+
+
+def _splitting(ds: xr.Dataset) -> str:
+    error = float(ds.attrs.get("splitting_error", 0.0))
+    if not error:
+        return "all parts creep alike, so that their response is exact"
+    return (
+        "their response is a short sum of products of a creep function and an elastic response; "
+        f"its error is {format_bound(error)} (measured over wave lengths and frequencies) and part "
+        "of those above"
+    )
 
 
 def _worst(row: SummaryRow, rows: str) -> str:
@@ -98,7 +111,11 @@ def _coarser_runs(ds: xr.Dataset) -> str:
 
 def _is_elastic(ds: xr.Dataset) -> bool:
     material = case_of(ds).get("material") or {}
-    return bool((material.get("law") or {}).get("type") == "Elastic")
+    parts = [each["material"] for each in material.get("layers", [])]
+    parts += [material.get("base", material)]
+    return all(
+        part == "rigid" or (part.get("law") or {}).get("type") == "Elastic" for part in parts
+    )
 
 
 def _is_marked(ds: xr.Dataset) -> bool:

@@ -11,14 +11,16 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.indenters import Indenter
+from viscontact.materials.layers import creeping_laws
 from viscontact.notebook.curves import law_drawings
 from viscontact.notebook.html import element
 from viscontact.notebook.shapes import indenter_drawings
+from viscontact.notebook.stack import stack_drawing
 from viscontact.plot import creep_curve, draw_indenter, friction
 from viscontact.plot.layout.saving import as_svg
 from viscontact.plot.materials.creep import curve_times
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
-from viscontact.results.recorded_case import case_of, recorded_grid, recorded_object
+from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times
 
 #: Bodies by the section of their material.
@@ -42,10 +44,12 @@ def is_drawn_from_fields(ds: xr.Dataset) -> bool:
 
 
 def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
-    """Yield the curves of each creeping body: whose they are, and the drawing."""
+    """Yield the layers and the curves of each creeping body: whose they are, and the drawing."""
     for part, title in BODIES.items():
         if case_of(ds).get(part) is not None or part == "material":
             about = f"Creep compliance and relaxation modulus: {title.lower()}"
+            if is_layered(ds, part):
+                yield f"{title}: layers", stack_drawing(recorded_object(ds, part, "section"))
             wide = drawn(partial(_curves, ds, part), about)
             yield title, _both(wide, partial(_small_curves, ds, part))
 
@@ -76,7 +80,8 @@ def _small_sections(ds: xr.Dataset) -> list[Element]:
 
 
 def _small_curves(ds: xr.Dataset, part: str) -> list[Element]:
-    return law_drawings(recorded_object(ds, part, "creep").law)
+    laws = creeping_laws(recorded_object(ds, part, "creep"))
+    return [each for name, law in laws.items() for each in law_drawings(law, name)]
 
 
 def _both(wide: Element, small: Callable[[], list[Element]]) -> Element:
@@ -104,11 +109,11 @@ def _middle(ds: xr.Dataset) -> tuple[float, float]:
 
 
 def _curves(ds: xr.Dataset, part: str) -> Figure:
-    law = recorded_object(ds, part, "creep").law
+    laws = creeping_laws(recorded_object(ds, part, "creep"))
     instants = law_times(ds)
     positive = instants[instants > 0]
     end = float(positive.max(initial=0.0)) or 1.0
-    return creep_curve(law, curve_times(end, float(positive.min(initial=end))))
+    return creep_curve(laws, curve_times(end, float(positive.min(initial=end))))
 
 
 def drawn(draw: Callable[[], Figure], about: str) -> Element:

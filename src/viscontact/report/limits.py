@@ -9,7 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.materials.layers import named_parts
+from viscontact.results.recorded_case import case_of, is_layered, recorded_object
 from viscontact.results.run_axis import SPEED, law_times, run_axis
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_number, format_quantity
@@ -51,7 +52,11 @@ def warnings_of(ds: xr.Dataset) -> list[str]:
 
 def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield the assumptions of the theory with this run's numbers: title and text."""
-    yield "Half-space", f"the surface is unbounded, and so is the body below it{_size(ds)}"
+    if is_layered(ds) or is_layered(ds, "indenter_material"):
+        unbounded = "surface and layers are plane and unbounded, and the base is infinitely deep"
+        yield "Layers", f"{unbounded}{_size(ds)}"
+    else:
+        yield "Half-space", f"the surface is unbounded, and so is the body below it{_size(ds)}"
     yield (
         "Small slopes",
         (
@@ -105,7 +110,8 @@ def _when(ds: xr.Dataset) -> str:
 def _strain(ds: xr.Dataset) -> str:
     """Pressure over stiffness, which is of the order of the strain."""
     try:
-        creep = recorded_object(ds, "material", "limits").law
+        uppermost = next(iter(named_parts(recorded_object(ds, "material", "limits")).values()))
+        creep = uppermost.law
     except (ValueError, AttributeError, json.JSONDecodeError):
         return ""
     compliance = float(creep(float(law_times(ds).max())))

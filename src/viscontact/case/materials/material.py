@@ -96,45 +96,56 @@ def _problem(error: ErrorDetails) -> str:
     return f"{key}: {why}" if key else why
 
 
-def _from_library(given: Any) -> Any:
+#: Keys of which a material has one.
+_VOLUME = {"poisson_ratio", "bulk_modulus"}
+
+
+def from_library(given: Any) -> Any:
+    """Return a section with its law: that of a file, or of a name, where given keys replace it."""
     if isinstance(given, dict) and "file" in given and "law" not in given:
         return {**given, "law": "file"}
-    if not isinstance(given, str):
+    keys = dict(given) if isinstance(given, dict) and "law" not in given else {}
+    name = keys.pop("material", None) if keys else given
+    if not isinstance(name, str):
         return given
-    if given not in library.names():
-        raise PydanticCustomError("library", "{why}", {"why": library.unknown_name(given)})
-    entry = library.entry(given)
+    if name not in library.names():
+        raise PydanticCustomError("library", "{why}", {"why": library.unknown_name(name)})
+    entry = library.entry(name)
     # A run beyond the measured range issues a warning.
-    return {**entry.material, "measured_until": f"{entry.measured[1]!r} s"}
+    section = {**entry.material, "measured_until": f"{entry.measured[1]!r} s"}
+    if not _VOLUME.isdisjoint(keys):
+        section = {key: value for key, value in section.items() if key not in _VOLUME}
+    return section | keys
 
 
-class _OrName:
+class OrName:
     """Schema annotation that allows the name of a shipped material in place of the section."""
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        return {"anyOf": [{"enum": list(library.names())}, handler(schema)]}
+        names = {"enum": list(library.names())}
+        changed = {"type": "object", "properties": {"material": names}, "required": ["material"]}
+        return {"anyOf": [names, {**changed, "x-shorthand": True}, handler(schema)]}
 
+
+Laws = (
+    Elastic
+    | Maxwell
+    | Zener
+    | Burgers
+    | CreepSeries
+    | RelaxationSeries
+    | PowerLaw
+    | FractionalMaxwell
+    | FractionalZener
+    | TableLaw
+    | CardLaw
+    | LawFile
+)
 
 AnyMaterial = Annotated[
-    Annotated[
-        Elastic
-        | Maxwell
-        | Zener
-        | Burgers
-        | CreepSeries
-        | RelaxationSeries
-        | PowerLaw
-        | FractionalMaxwell
-        | FractionalZener
-        | TableLaw
-        | CardLaw
-        | LawFile,
-        Field(discriminator="law"),
-    ],
-    BeforeValidator(_from_library),
-    _OrName(),
+    Annotated[Laws, Field(discriminator="law")], BeforeValidator(from_library), OrName()
 ]
 
 

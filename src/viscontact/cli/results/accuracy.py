@@ -20,14 +20,17 @@ _EXACT = "recursion, exact"
 
 
 def accuracy_lines(ds: xr.Dataset) -> Iterator[str]:
-    """Yield lines about errors of the time integration and of the law."""
+    """Yield lines about errors of the time integration, the layers and the law."""
     memory = str(ds.attrs.get("memory", ""))
     inversion_error = float(ds.attrs.get("inversion_error", 0.0))
+    splitting_error = float(ds.attrs.get("splitting_error", 0.0))
     largest = float(np.nanmax(ds["time_error"].values, initial=0.0)) if "time_error" in ds else 0.0
     if largest > 0:
         yield f"error due to the time steps: {format_bound(largest)} of the pressure (estimated)"
     if memory and not memory.startswith(_EXACT):
         yield f"memory: {memory}"
+    if splitting_error > 0:
+        yield f"error of the layers' creep by its separation: {format_bound(splitting_error)}"
     if inversion_error > 0:
         yield (
             f"the law was converted numerically; error: {format_bound(inversion_error)} (estimated)"

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws import Law
+from viscontact.materials.layers import creeping_laws
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.page import NARROW, Width, page_width
@@ -66,6 +67,8 @@ def compare_creep(
 ) -> Figure:
     """Overlay the creep compliances and relaxation moduli of the half-spaces of several runs.
 
+    Of a body of layers there is a curve for each part that creeps.
+
     Parameters
     ----------
     runs : mapping of str to xarray.Dataset
@@ -103,7 +106,11 @@ def compare_creep(
     'Creep compliance Φ [1/GPa]'
     """
     require_runs(runs, _NAME)
-    laws = {name: recorded_object(run, "material", _NAME).law for name, run in runs.items()}
+    laws = {
+        f"{name} {part}".strip(): law
+        for name, run in runs.items()
+        for part, law in creeping_laws(recorded_object(run, "material", _NAME)).items()
+    }
     simulated = np.concatenate([law_times(run) for run in runs.values()])
     span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
     positive = span[span > 0]
@@ -112,13 +119,15 @@ def compare_creep(
     return _curves(laws, curve_times(float(positive.max()), float(positive.min())), width)
 
 
-def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Figure:
+def creep_curve(
+    law: Law | Mapping[str, Law], times: ArrayLike, *, width: Width | None = None
+) -> Figure:
     """Draw creep compliance and relaxation modulus of a law against time.
 
     Parameters
     ----------
-    law : Law
-        A creep law.
+    law : Law or mapping of str to Law
+        A creep law, or several by the names to print.
     times : array_like
         Instants to evaluate the law at, above 0 and increasing [s].
     width : {"single", "double"} or float, optional
@@ -127,9 +136,9 @@ def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Fi
     Returns
     -------
     matplotlib.figure.Figure
-        Phi(t) and G(t) over logarithmic time, side by side; a dashed line marks the value
-        at time 0. The modulus is left out for a law without instant compliance, whose G(t)
-        starts with an impulse.
+        Phi(t) and G(t) over logarithmic time, side by side; of a single law a dashed line marks
+        the value at time 0. The modulus is left out for a law without instant compliance, whose
+        G(t) starts with an impulse.
 
     Raises
     ------
@@ -149,7 +158,7 @@ def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Fi
         raise ValueError(
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"
         )
-    return _curves({"": law}, instants, width)
+    return _curves({"": law} if isinstance(law, Law) else law, instants, width)
 
 
 def curve_times(end: float, first: float = np.inf) -> NDArray[np.float64]:

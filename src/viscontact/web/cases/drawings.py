@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from viscontact.case import Case, CaseError, Parts
-from viscontact.materials.layers import Layered
+from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
 from viscontact.notebook.shapes import natural_size
@@ -37,7 +37,7 @@ def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> Fi
             return _indenter(*cases.forecast(text), width)
         if what == "load":
             return draw_load(case.load, case.end)
-        return _curves(_material(case, what), case.end, width)
+        return _curves(_body(case, what), case.end, width)
     except CaseError as error:
         raise case_problems(error, case.document.path) from error
     except ValueError as error:
@@ -54,7 +54,7 @@ def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
             return draw_load(parts.load, end)
         material = parts.indenter_material if what == "indenter_material" else parts.material
         if what.endswith("material") and material is not None:
-            return _curves(material, parts.end or law_span(material.law)[1], width)
+            return _curves(material, parts.end, width)
     except ValueError:  # such as a step without an end
         return None
     return None
@@ -68,14 +68,15 @@ def _indenter(found: PreparedRun, expected: Forecast, width: Width | None) -> Fi
     return draw_indenter(case.indenter, drawn_size(found.run), contact=contact, width=width)
 
 
-def _material(case: Case, what: str) -> Material:
+def _body(case: Case, what: str) -> Material | Layered:
     material = case.indenter_material if what == "indenter_material" else case.material
     if material is None:
         raise RequestError(422, "the indenter is rigid: there are no curves of its material")
-    if isinstance(material, Layered):
-        raise RequestError(422, "a body of layers has no curves of its own; each material has")
     return material
 
 
-def _curves(material: Material, end: float, width: Width | None) -> Figure:
-    return creep_curve(material.law, curve_times(end), width=width)
+def _curves(body: Material | Layered, end: float | None, width: Width | None) -> Figure:
+    """Curves of the parts that creep, up to the end of the run, else over their own times."""
+    laws = creeping_laws(body)
+    last = end or max(law_span(law)[1] for law in laws.values())
+    return creep_curve(laws, curve_times(last), width=width)

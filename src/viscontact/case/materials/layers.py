@@ -1,0 +1,174 @@
+"""Material section of a body of layers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
+
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    model_validator,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from viscontact.case.materials.base import Medium
+from viscontact.case.materials.material import AnyMaterial, Laws, OrName, from_library
+from viscontact.case.quantities import Length, Section
+from viscontact.materials import library
+from viscontact.materials.layers import Layer as BuiltLayer
+from viscontact.materials.layers import Layered
+
+#: Word for a base that does not yield.
+RIGID: Literal["rigid"] = "rigid"
+
+
+def _deep(base: Medium | Literal["rigid"]) -> Medium | Literal["rigid"]:
+    if not isinstance(base, str) and base.thickness is not None:
+        raise ValueError(
+            "thickness: the base is as deep as a half-space; leave it out, or make it a layer on a "
+            "base of its own"
+        )
+    return base
+
+
+def _without_thickness(material: Medium) -> Medium:
+    if material.thickness is not None:
+        raise ValueError("thickness: is that of the layer, beside material; leave it out here")
+    return material
+
+
+class _OrRigid:
+    """Annotation that accepts the word `rigid` in place of a material."""
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        def read(given: Any, material: Any) -> Any:
+            if isinstance(given, str) and given not in (RIGID, *library.names()):
+                why = f"{library.unknown_name(given)}; or write '{RIGID}'"
+                raise PydanticCustomError("library", "{why}", {"why": why})
+            return RIGID if given == RIGID else material(given)
+
+        return core_schema.no_info_wrap_validator_function(read, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"anyOf": [{"enum": [RIGID]}, handler(schema)]}
+
+
+class Layer(Section):
+    """A layer: its thickness and its material."""
+
+    thickness: Length = Field(description="of the layer")
+    material: Annotated[AnyMaterial, AfterValidator(_without_thickness)] = Field(
+        description="material of the layer; its keys may be written beside thickness as well"
+    )
+
+
+#: Keys of materials that may be written beside the thickness of a layer.
+_BESIDE = {key for law in get_args(Laws) for key in law.model_fields} - {"thickness"}
+
+
+def _nested(given: Any) -> Any:
+    """Put keys of a material that are written beside the thickness under `material`."""
+    if not isinstance(given, dict) or not _BESIDE & set(given):
+        return given
+    keys = dict(given)
+    thickness = {"thickness": keys.pop("thickness")} if "thickness" in keys else {}
+    return {**thickness, "material": keys}
+
+
+class _OrBeside:
+    """Schema annotation that allows the keys of the material beside the thickness."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        layer = handler(schema)
+        laws = handler.resolve_ref_schema(layer)["properties"]["material"]["anyOf"][-1]
+        beside = {"required": ["thickness", "law"], **laws, "x-shorthand": True}
+        return {"anyOf": [layer, beside]}
+
+
+def _one_or_each(given: Any) -> Any:
+    each = given if isinstance(given, list) else [given]
+    if not all(isinstance(value, bool) for value in each):
+        raise ValueError(f"must be true or false, or a list of one for each layer, got {given!r}")
+    return given
+
+
+class Layers(Section):
+    """Layers on a base: a cover on a core, a coating, a film; `law` may be left out."""
+
+    # A tag that is no key: both occur in the location of an error.
+    law: Literal["layered"] = "layered"
+    layers: list[Annotated[Layer, BeforeValidator(_nested), _OrBeside()]] = Field(
+        min_length=1, description="from the surface down"
+    )
+    base: Annotated[AnyMaterial, _OrRigid(), AfterValidator(_deep)] = Field(
+        description="material beneath the layers, infinitely deep, or rigid"
+    )
+    bonded: Annotated[bool | list[bool], BeforeValidator(_one_or_each)] = Field(
+        default=True,
+        description="whether each layer is bonded to what is beneath it, or slides there without "
+        "friction; one for all, or one for each",
+    )
+
+    @cached_property
+    def built(self) -> Layered:
+        """The body."""
+        return Layered(
+            [BuiltLayer(each.thickness, each.material.built) for each in self.layers],
+            RIGID if isinstance(self.base, str) else self.base.built,
+            self.bonded,
+        )
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on the laws, after the layer that they belong to."""
+        return tuple(
+            f"{'.'.join(map(str, at))}: {note}" if at else note
+            for at, part in self._parts()
+            for note in part.notes
+        )
+
+    @property
+    def files(self) -> Mapping[tuple[str | int, ...], Path]:
+        """Files of the layers and of the base, by their keys."""
+        return {(*at, *key): path for at, part in self._parts() for key, path in part.files.items()}
+
+    def _parts(self) -> Iterator[tuple[tuple[str | int, ...], Medium]]:
+        for place, layer in enumerate(self.layers):
+            yield ("layers", place, "material"), layer.material
+        if not isinstance(self.base, str):
+            yield ("base",), self.base
+
+    @model_validator(mode="after")
+    def _accepted(self) -> Layers:
+        if isinstance(self.bonded, list) and len(self.bonded) != len(self.layers):
+            raise ValueError(
+                "bonded: must be true or false, or one of them for each of the "
+                f"{len(self.layers)} layers, got {len(self.bonded)}"
+            )
+        _ = self.built
+        return self
+
+
+def _with_law(given: Any) -> Any:
+    if isinstance(given, dict) and "layers" in given and "law" not in given:
+        return {**given, "law": "layered"}
+    return from_library(given)
+
+
+#: A material, or a body of layers.
+AnyBody = Annotated[
+    Annotated[Laws | Layers, Field(discriminator="law")], BeforeValidator(_with_law), OrName()
+]
