@@ -161,7 +161,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ("indenter.radius=[5 mm]", "indenter.radius: cannot read ['5 mm'] as a length"),
         ("indenter.radius=.nan", "indenter.radius: 'nan' is not a finite number"),
         ("indenter.profile=logarithmic", "indenter.profile.amplitude: is missing"),
-        ("indenter={shape: height-map}", "indenter.file: is missing; NPY, NPZ or CSV"),
+        ("indenter={shape: height-map}", "indenter.file: is missing; NPY, NPZ or a table"),
         ("indenter.shape=5", "indenter.shape: unknown value '5'"),
         ("indenter=[]", "indenter: has too few entries"),
         ("indenter=sphere", "indenter: must be a section with keys of its own, got 'sphere'"),
@@ -178,7 +178,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ),
         (
             "material.law=table",
-            "material.file: is missing; CSV with a header such as: time [s], creep",
+            "material.file: is missing; table with a header such as: time [s], creep",
         ),
         ("material.law=fractional-zener", "material.equilibrium_modulus: is missing"),
         ("material.times=[1 s]", "must have equal lengths"),

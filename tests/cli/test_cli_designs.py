@@ -144,7 +144,7 @@ def test_the_printed_command_names_all_options() -> None:
             "plan.csv: load.force: is given twice",
         ),
         (["--table", "none.csv"], "--table: no such file none.csv"),
-        (["--table", "plan.xlsx"], "plan.xlsx: tables of a spreadsheet cannot be read"),
+        (["--table", "none.xlsx#Runs"], "--table: no such file none.xlsx"),
         (["--vary", "indenter.file=*.x3p"], "--vary indenter.file=*.x3p: no file of that name in"),
         (["--table", "plan.csv"], "cannot read '2 mm' as a force"),
         (["--table", "plan.csv"], "plan.csv:3: column 'load.force': cannot read '2 mm'"),

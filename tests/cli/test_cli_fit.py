@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 
 from viscontact import reference
@@ -261,3 +262,24 @@ def test_headings_that_are_not_known_are_named_in_the_refusal(tmp_path, capsys):
         assert main([command, str(file), "--poisson-ratio", "0.4"]) == 2
         said = capsys.readouterr().err
         assert "there are time ('time [h]'); not known: 'stiffness [MPa]'" in said
+
+
+def test_a_sheet_of_a_workbook_is_fitted_and_shown_and_named(tmp_path, capsys):
+    book, path = openpyxl.Workbook(), tmp_path / "data.xlsx"
+    for name, factor in (("23 C", 1e-6), ("60 C", 5e-7)):
+        sheet = book.create_sheet(name)
+        sheet.append(["time [s]", "E [MPa]"])
+        for row in zip(T.tolist(), (factor * E.relaxation(T)).tolist(), strict=True):
+            sheet.append(row)
+    book.save(path)
+    for chosen, factor in (("", 1.0), ("#60 C", 0.5)):
+        out = tmp_path / "m.yaml"
+        command = [f"{path}{chosen}", "--poisson-ratio", "0.3"]
+        assert main(["fit", *command, "--yaml", str(out)]) == 0
+        assert main(["material", *command]) == 0
+        said = capsys.readouterr().err
+        assert ("the sheet '23 C' is read; choose another one as data.xlsx#SHEET" in said) is (
+            not chosen
+        )
+        law = read_material(out).law
+        np.testing.assert_allclose(law.relaxation(T), factor * E.relaxation(T) / 2.6, rtol=2e-3)

@@ -44,6 +44,7 @@ COMPUTES = ("simulation", "accuracy", "steady", "runs")
 OTHERS = {
     "numpy": "errors", "scipy": "errors", "ducc0": "fourier",
     "xarray": "results", "netCDF4": "results", "filelock": "results",
+    "python_calamine": "tables",
     "psutil": "runs", "threadpoolctl": "runs",
     "pydantic": "case", "pydantic_core": "case", "ruamel": "materials",
     "SurfaceTopography": "surfaces",

@@ -102,10 +102,10 @@ def test_a_missing_quantity_is_refused_with_the_headings_that_are_not_known(tmp_
 
 
 @pytest.mark.parametrize("start", [b"PK\x03\x04\x14\x00", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"])
-def test_a_workbook_is_refused_with_what_to_do(start: bytes, tmp_path: Path) -> None:
-    path = tmp_path / "creep.xlsx"
+def test_a_spreadsheet_named_as_a_text_is_refused_with_what_to_do(
+    start: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "creep.csv"
     path.write_bytes(start + bytes(100))
-    with pytest.raises(
-        ValueError, match=r"creep.xlsx: an Excel workbook .*; save the sheet as CSV"
-    ):
+    with pytest.raises(ValueError, match=r"creep.csv: a spreadsheet .*; the name of a spreadsheet"):
         read_table(path)

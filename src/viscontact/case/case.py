@@ -15,6 +15,7 @@ from viscontact.display import Displayable, DisplayableGroup
 from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.problem.problem import Problem
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.tables import split_sheet
 from viscontact.units.formatting import format_quantity
 
 #: Files of a run other than its case; names with a leading dot are reserved as well.
@@ -32,7 +33,7 @@ class Case(DisplayableGroup, Problem):
     errors : bool
         True if the errors of the scalars are estimated.
     load_file : Path or None
-        The CSV of the load history, if it has one.
+        The table of the load history, if it has one.
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
     title_block : mapping of str to str
@@ -84,8 +85,17 @@ class Case(DisplayableGroup, Problem):
             return self.document.text
         names = self.file_names
         return with_overrides(
-            self.document.text, {key: names[path] for key, path in self.files.items()}
+            self.document.text,
+            {key: names[path] + self._sheet(key) for key, path in self.files.items()},
         )
+
+    def _sheet(self, key: KeyPath) -> str:
+        """The chosen sheet of a spreadsheet with its ``#``; empty without one."""
+        named: Any = self.document.data
+        for step in key:
+            named = named[step]
+        sheet = split_sheet(Path(named))[1]
+        return "" if sheet is None else f"#{sheet}"
 
     @property
     def file_names(self) -> dict[Path, str]:

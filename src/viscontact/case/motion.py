@@ -24,8 +24,7 @@ from viscontact.case.quantities import (
 )
 from viscontact.loads.motion import Motion
 from viscontact.loads.steady_motion import SteadyMotion
-from viscontact.tables import read_table
-from viscontact.tables.text import read_rows
+from viscontact.tables import read_rows, read_table
 
 #: Columns of a table of the path.
 _AXES = ("x", "y")
@@ -74,7 +73,7 @@ class Travel(MotionSection):
     along: Literal["x", "y"] = Field(default="y", description="axis of the positions")
     file: DataFile | None = Field(
         default=None,
-        description="CSV in place of points, with a header such as: time [s], x [mm], y [mm]",
+        description="table in place of points, with a header such as: time [s], x [mm], y [mm]",
         examples=["path.csv"],
     )
 

@@ -20,6 +20,7 @@ from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
 from viscontact.case.time_grid_output import kept_fields, kept_speeds, with_instants
 from viscontact.loads.motion import Motion
+from viscontact.tables import split_sheet
 
 # Largest number of problems that are reported.
 _MOST_PROBLEMS = 200
@@ -188,4 +189,4 @@ def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
         if material is not None:
             found_there = {(section, *key): path for key, path in material.files.items()}
             files |= {as_written(document.data, key): path for key, path in found_there.items()}
-    return files
+    return {key: split_sheet(path)[0] for key, path in files.items()}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from os import PathLike
+from pathlib import Path
 
 from viscontact.surfaces.array_files import read_array
 from viscontact.surfaces.cropping import swept
@@ -11,7 +12,7 @@ from viscontact.surfaces.instrument_files import read_instrument
 from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.text_files import read_text_map
 from viscontact.surfaces.units import Units
-from viscontact.tables import require_file
+from viscontact.tables import is_spreadsheet, require_file, split_sheet
 from viscontact.units.numbers import as_real
 
 _READERS = {".npy": read_array, ".npz": read_array, ".csv": read_text_map}
@@ -31,8 +32,9 @@ def read_surface(
     Parameters
     ----------
     path : path-like
-        The file: NPY, NPZ or CSV; or any that SurfaceTopography reads, with the extra
-        ``surfaces``: X3P, SUR, GWY, OPD, AL3D, DI, netCDF and others.
+        The file: NPY, NPZ, CSV or a spreadsheet, with its sheet behind ``#``; or any that
+        SurfaceTopography reads, with the extra ``surfaces``: X3P, SUR, GWY, OPD, AL3D, DI, netCDF
+        and others.
     spacing : float or pair of float, optional
         Distance of the points along x and y, where the file does not state it [m].
     height_unit : str, optional
@@ -71,13 +73,18 @@ def read_surface(
     >>> surface.heights[:, 0].tolist(), surface.missing_share
     ([0.0, 1e-09, 2e-09], 0.16666666666666666)
     """
-    path = require_file(path)
-    if path.stat().st_size == 0:
+    path = Path(path)
+    file = require_file(split_sheet(path)[0])
+    if file.stat().st_size == 0:
         raise ValueError(f"{path.name}: cannot be read as a surface: the file is empty")
     factor = as_real(height_factor)
     if factor is None or factor == 0 or not math.isfinite(factor):
         raise ValueError(f"height_factor: must be a number other than 0, got {height_factor!r}")
-    read = _READERS.get(path.suffix.lower(), read_instrument)
+    read = (
+        read_text_map
+        if is_spreadsheet(path)
+        else _READERS.get(path.suffix.lower(), read_instrument)
+    )
     surface = read(path, Units(path.name, spacing, height_unit), channel)
     if factor != 1:
         surface = surface.with_heights(factor * surface.heights)

@@ -1,4 +1,4 @@
-"""Height maps from CSV files: bare numbers, or a row for each point."""
+"""Height maps from CSV files and spreadsheets: bare numbers, or a row for each point."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _CLOSE = 1e-3
 
 
 def read_text_map(path: Path, units: Units, channel: str | None) -> Surface:
-    """Read a map from a CSV file; points without a row are missing.
+    """Read a map from a CSV file or a spreadsheet; points without a row are missing.
 
     Rows of bare heights are scan lines along x; a header such as ``x [um], y [um], height [nm]`` is
     followed by a row for each point, in any order.

@@ -1,14 +1,15 @@
-"""Measured tables: CSV files whose header names columns and units."""
+"""Measured tables: CSV files and spreadsheets whose header names columns and units."""
 
 from viscontact.tables.lines import read_line
 from viscontact.tables.names import QUANTITIES
 from viscontact.tables.reader import read_table
+from viscontact.tables.rows import read_rows
+from viscontact.tables.sheets import is_spreadsheet, split_sheet
 from viscontact.tables.table import Table
 from viscontact.tables.text import (
     Row,
     decimal_number,
     looks_like_number,
-    read_rows,
     read_text,
     require_file,
 )
@@ -18,10 +19,12 @@ __all__ = [
     "Row",
     "Table",
     "decimal_number",
+    "is_spreadsheet",
     "looks_like_number",
     "read_line",
     "read_rows",
     "read_table",
     "read_text",
     "require_file",
+    "split_sheet",
 ]

@@ -1,4 +1,4 @@
-"""Reader of lines drawn by points: roller profiles and cross-sections in CSV files."""
+"""Reader of lines drawn by points: roller profiles and cross-sections in tables."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from os import PathLike
 from pathlib import Path
 
 from viscontact.tables.reader import read_table
-from viscontact.tables.text import read_rows
+from viscontact.tables.rows import read_rows
 
 #: Signs of the levels: a drop is positive downwards, a measured height upwards.
 _LEVELS = {"drop": 1.0, "height": -1.0}
 
 
 def read_line(path: str | PathLike[str], along: str) -> tuple[list[float], list[float]]:
-    r"""Read a line, positions and drops, from a CSV file.
+    r"""Read a line, positions and drops, from a CSV file or a spreadsheet.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Reader of measured tables from CSV files."""
+"""Reader of measured tables from CSV files and spreadsheets."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from viscontact.tables.creep_tests import with_creep_compliance
 from viscontact.tables.header import Column, Header, read_header
+from viscontact.tables.rows import read_source
 from viscontact.tables.table import Table, read_only
-from viscontact.tables.text import Row, decimal_number, read_rows
+from viscontact.tables.text import Row, decimal_number
 
 
 def read_table(
@@ -22,13 +23,14 @@ def read_table(
     *,
     stress: float | None = None,
 ) -> Table:
-    r"""Read a measured table from a CSV file.
+    r"""Read a measured table from a CSV file or a spreadsheet.
 
     Parameters
     ----------
     path : path-like
-        The file. Its header names columns and units in one row (``time [s], E' (MPa)``) or two
-        (names, then units).
+        The file: text, or a spreadsheet (XLSX, XLSM, XLS, ODS), with its sheet behind
+        ``#`` (``creep.xlsx#Sheet2``) or the first sheet that holds a table. The header names
+        columns and units in one row (``time [s], E' (MPa)``) or two (names, then units).
     columns : mapping, optional
         Meaning of columns with unknown names: heading to a quantity (a key of
         `viscontact.tables.names.QUANTITIES`, or ``"frequency"``), or to None to leave the
@@ -58,7 +60,9 @@ def read_table(
     a_T. A creep modulus E_c arrives as the creep compliance 1/E_c. The strain of a creep test
     arrives as strain over stress; its stress is in its heading (``strain at 5 MPa [%]``), in a
     column ``stress [MPa]``, or given. Stress and strain in other tables are left out. Files are
-    bounded at 50 MB and a million rows.
+    bounded at 50 MB and a million rows. Numbers of a spreadsheet are read as they are stored, not
+    as they are shown; titles above the table and empty rows and columns around it are left out;
+    dates are refused.
 
     Examples
     --------
@@ -69,8 +73,7 @@ def read_table(
     >>> table.data, [round(float(values[0]), 6) for values in table.columns.values()]
     ('uniaxial', [0.628319, 8097200000.0, 223.15])
     """
-    path = Path(path)
-    rows = read_rows(path)
+    path, rows = read_source(Path(path))
     header = read_header(path.name, rows[:2], columns or {}, stress)
     body = rows[header.rows :]
     if not body:
@@ -107,7 +110,8 @@ def _require_width(source: str, width: int, row: Row) -> None:
     if len(row.cells) < width or any(row.cells[width:]):
         raise ValueError(
             f"{source}:{row.line} has {len(row.cells)} entries, the header {width}; decimal commas "
-            "need semicolons or tabs between the columns"
+            "need semicolons or tabs between the columns; in a spreadsheet, clear the cells beside "
+            "the table"
         )
 
 

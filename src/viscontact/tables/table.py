@@ -28,7 +28,7 @@ class Table:
     Attributes
     ----------
     source : Path
-        The file.
+        The file; with the sheet behind ``#`` if a spreadsheet has several tables.
     columns : mapping of str to ndarray, each of shape (rows,)
         By quantity, in the file's order, in SI units: a key of
         `viscontact.tables.names.QUANTITIES`.
@@ -38,7 +38,7 @@ class Table:
     headings : mapping of str to str
         Names of the columns in the file, by quantity.
     lines : ndarray of int, shape (rows,)
-        Line of the file of each row, from 1.
+        Line of the file or sheet of each row, from 1.
     left_out : tuple of str
         Headings of columns that are not known and not read.
 

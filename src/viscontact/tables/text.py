@@ -16,9 +16,10 @@ _LARGEST_FILE, _MOST_ROWS = 50_000_000, 1_000_000
 
 _COMMENTS = ("#", "%", "//")
 _BYTE_ORDER_MARKS = ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"", "utf-8-sig"))
-# Files of Excel: packed (xlsx, also those of other programs) and older (xls).
+# Spreadsheets under another name: packed (xlsx, also those of other programs) and older (xls).
 _WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 _NUMBER = re.compile(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?")
+_DATE = re.compile(r"\d{4}-\d\d-\d\d.*|(?:\d+ days?, )?\d+:\d\d(?::[\d.]+)?")
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 
 
@@ -30,28 +31,8 @@ class Row:
     cells: tuple[str, ...]
 
 
-def read_rows(path: Path, example: str = "time [s], force [kN]") -> list[Row]:
-    """Read the rows of a file that are neither empty nor comments.
-
-    Parameters
-    ----------
-    path : Path
-        A text file in UTF-8, UTF-16 with a byte-order mark, Windows-1252 or Latin-1; cells are
-        separated by tabs, semicolons or commas, whichever its first row has. Comments begin with
-        ``#``, ``%`` or ``//``.
-    example : str
-        First row of such a table, for messages.
-
-    Returns
-    -------
-    list of Row
-        Rows, which may have different numbers of cells.
-
-    Raises
-    ------
-    ValueError
-        If the file cannot be read, is no text, or is beyond bounds.
-    """
+def rows_of_text(path: Path, example: str) -> list[Row]:
+    """Rows of a text file that are neither empty nor comments; `example` is for messages."""
     text = read_text(path)
     lines = [line for line in text.splitlines() if line.strip()]
     first = next((line for line in lines if not _is_comment(line)), "")
@@ -133,7 +114,8 @@ def read_text(path: Path) -> str:
         )
     if data.startswith(_WORKBOOKS):
         raise ValueError(
-            f"{path.name}: an Excel workbook or another packed file; save the sheet as CSV"
+            f"{path.name}: a spreadsheet or another packed file, not a text; the name of a "
+            "spreadsheet ends in .xlsx, .xlsm, .xls or .ods"
         )
     text = _decoded(data)
     if text is None or any(ord(c) < 32 and c not in "\t\n\r\f\v" for c in text):
@@ -187,6 +169,11 @@ def decimal_number(cell: str, mark: str) -> str:
         raise ValueError(
             f"got {cell!r} in a file of decimal commas; write one decimal mark and no thousands "
             "separators"
+        )
+    if _DATE.fullmatch(cell):
+        raise ValueError(
+            f"{cell!r} is a date or a time of day, not a number; write times as numbers, such as "
+            "seconds since the start (spreadsheets turn entries such as 1.2 or 3/4 into dates)"
         )
     if not _NUMBER.fullmatch(cell):
         raise ValueError(f"{cell[:40]!r} is not a number")

@@ -66,7 +66,7 @@ class HeightMap(Shape):
 
     shape: Literal["height-map"]
     file: DataFile = Field(
-        description="NPY, NPZ or CSV; with viscontact[surfaces] also X3P, SUR, GWY, OPD, AL3D, "
+        description="NPY, NPZ or a table; with viscontact[surfaces] also X3P, SUR, GWY, OPD, AL3D, "
         "netCDF and others",
         examples=["ground.x3p"],
     )

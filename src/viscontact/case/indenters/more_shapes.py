@@ -169,7 +169,7 @@ class Revolved(_Drawn):
     shape: Literal["revolved"]
     file: DataFile | None = Field(
         default=None,
-        description="CSV with a header such as: r [mm], drop [um]; or height in place of the drop",
+        description="table with a header such as: r [mm], drop [um]; or height instead of drop",
         examples=["section.csv"],
     )
 
@@ -187,7 +187,7 @@ class Swept(_Drawn):
     )
     file: DataFile | None = Field(
         default=None,
-        description="CSV with a header such as: y [mm], drop [um]; or height in place of the drop",
+        description="table with a header such as: y [mm], drop [um]; or height instead of drop",
         examples=["section.csv"],
     )
 

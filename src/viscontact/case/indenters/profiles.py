@@ -157,7 +157,7 @@ class TabulatedLine(Line):
     kind: Literal["table"]
     file: DataFile | None = Field(
         default=None,
-        description="CSV with a header such as: x [mm], drop [um]; or height in place of the drop",
+        description="table with a header such as: x [mm], drop [um]; or height instead of drop",
         examples=["profile.csv"],
     )
     points: list[Annotated[tuple[Offset, Offset], Field(strict=False)]] | None = Field(

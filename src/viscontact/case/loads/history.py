@@ -41,7 +41,7 @@ class History(Load):
     )
     file: DataFile | None = Field(
         default=None,
-        description="CSV with a header such as: time [s], force [kN], eccentricity_x [mm]; or "
+        description="table with a header such as: time [s], force [kN], eccentricity_x [mm]; or "
         "approach [um] in place of the force",
         examples=["load.csv"],
     )

@@ -49,7 +49,7 @@ class TableLaw(FromFile):
 
     law: Literal["table"]
     file: DataFile = Field(
-        description="CSV with a header such as: time [s], creep_compliance [1/MPa]; a series is "
+        description="table with a header such as: time [s], creep_compliance [1/MPa]; a series is "
         "fitted to: f [Hz], E' [MPa], E'' [MPa]",
         examples=["pmma.csv"],
     )
@@ -155,8 +155,10 @@ class TableLaw(FromFile):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Note on the fit to an oscillation."""
-        return () if self.fit is None else (fit_note(self.table, self.fit),)
+        """Notes on the sheet that is read of several, and on the fit to an oscillation."""
+        source = self.table.source
+        chosen = () if source == Path(self.file) else (f"{source.name}: this sheet is read",)
+        return chosen if self.fit is None else (*chosen, fit_note(self.table, self.fit))
 
     @property
     def measured(self) -> dict[str, Any]:

@@ -52,7 +52,7 @@ class Factors(Rule):
 
     kind: Literal["factors"]
     file: DataFile = Field(
-        description="CSV with a header such as: T [degC], log_aT", examples=["factors.csv"]
+        description="table with a header such as: T [degC], log_aT", examples=["factors.csv"]
     )
 
     def build(self) -> laws.Shift:

@@ -12,7 +12,9 @@ from viscontact.cli.commands.drawing import Width
 Table = Annotated[
     Path,
     typer.Argument(
-        metavar="FILE.csv", help="Measured values; the headings name the quantities and units."
+        metavar="FILE.csv",
+        help="Measured values, CSV or spreadsheet (as tests.xlsx#Sheet2); the headings name the "
+        "quantities and units.",
     ),
 ]
 Test = Annotated[

@@ -56,7 +56,8 @@ PlanTable = Annotated[
     typer.Option(
         "--table",
         metavar="FILE.csv",
-        help="One run for each row; the headings are keys with units, e.g. 'load.force [N]'.",
+        help="One run for each row, CSV or spreadsheet; the headings are keys with units, e.g. "
+        "'load.force [N]'.",
     ),
 ]
 Sample = Annotated[

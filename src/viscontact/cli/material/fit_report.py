@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
+from viscontact.cli.material.table_choice import say_chosen
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.errors import AccuracyWarning
@@ -44,8 +45,7 @@ def report_fit(
 ) -> None:
     """Fit a law to a table; print it, and draw and write it where files are named."""
     table = _read(file, arguments.stress)
-    if table.left_out:
-        say(f"{file.name}: columns left out: {', '.join(table.left_out)}")
+    say_chosen(file, table)
     try:
         text, draw = _fitted(table, arguments)
     except ValueError as error:

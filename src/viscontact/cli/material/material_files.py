@@ -10,10 +10,11 @@ from typing import Any
 from viscontact.case import CaseError, read_material, read_section, shipped_material
 from viscontact.cli.material.fit_options import read_stress
 from viscontact.cli.material.named_material import MaterialDisplay
+from viscontact.cli.material.table_choice import say_chosen
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.materials import library as materials
 from viscontact.materials.cards import is_card
-from viscontact.tables import Table, read_table, read_text
+from viscontact.tables import Table, is_spreadsheet, read_table, read_text
 
 _CASE_SUFFIXES = (".yaml", ".yml", ".toml")
 _CARD_SUFFIXES = (".inp", ".mac", ".cdb", ".ans", ".apdl")
@@ -82,6 +83,8 @@ def _kind(path: Path) -> str:
     suffix = path.suffix.lower()
     if suffix in _CASE_SUFFIXES or path.is_dir():
         return "case"
+    if is_spreadsheet(path):
+        return "table"
     try:
         text = read_text(path)
     except ValueError as error:
@@ -99,8 +102,7 @@ def _from_table(path: Path, typed: MaterialOptions) -> MaterialDisplay:
         quantity = _quantity(table)
     except ValueError as error:
         refuse(str(error))
-    if table.left_out:
-        say(f"{path.name}: columns left out: {', '.join(table.left_out)}")
+    say_chosen(path, table)
     data = typed.data or table.data
     if data is None:
         refuse(

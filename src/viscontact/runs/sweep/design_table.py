@@ -1,4 +1,4 @@
-"""Table of runs: a CSV file whose headings are keys of the case, with a row for each run."""
+"""Table of runs, CSV or spreadsheet: headings are keys of the case, each row is a run."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ _HEADING = re.compile(
     r"(?:\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>.*)\)))?"
 )
 _NO_UNIT = ("", "-", "–", "—", "1", "none")
-_SPREADSHEETS = (".xlsx", ".xls", ".xlsm", ".ods")
 
 
 def read_design(path: Path) -> Design:
@@ -30,10 +29,6 @@ def read_design(path: Path) -> Design:
     >>> design.settings(0), design.lines
     (('load.force=0.5 kN', 'material.law=zener'), (2, 3))
     """
-    if path.suffix.lower() in _SPREADSHEETS:
-        raise ValueError(
-            f"{path}: tables of a spreadsheet cannot be read; save the sheet as CSV, one row a run"
-        )
     header, *rows = read_rows(path, example="load.force [N], time.end")
     columns = _columns(path, header)
     if not rows:

@@ -74,4 +74,4 @@ def lines_of(problems: Iterable[Problem]) -> list[str]:
 
 def _is_key(text: str, line: int | None) -> bool:
     """True if the text is a key, and not a file name."""
-    return line is not None or not re.search(r"\.(csv|npz|npy|ya?ml)$", text)
+    return line is not None or not re.search(r"\.(csv|npz|npy|ya?ml|xlsx|xlsm|xls|ods)$", text)
