@@ -121,6 +121,7 @@ BENCHMARKS = {
     "start-up": "start_up.py",
     "storing": "storing.py",
     "steady": "steady.py",
+    "layers": "layers.py",
 }
 
 TASKS = {

@@ -11,7 +11,7 @@ from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import trace_rim
 from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.halfspace.layered_influence import layered_influence_table
-from viscontact.halfspace.surface_response import HALF_SPACE
+from viscontact.halfspace.surface_response import HALF_SPACE, SummedResponse
 from viscontact.reference import layer_punch, layer_sphere
 
 RADIUS = 10.0  # of the sphere; all lengths over the contact radius, stresses over G
@@ -128,3 +128,35 @@ def test_a_period_of_waves_is_displaced_by_its_own_response():
     found = ContactDomain(grid, response=stack).convolution.apply(wave)
     swing = 2 / (2 * np.pi) * float(stack.ratio(np.array(2 * np.pi)))
     assert found == pytest.approx(2 * stack.mean_displacement + swing * (wave - 2), abs=1e-14)
+
+
+@pytest.mark.parametrize("periodic", [False, (True, False), True], ids=str)
+def test_a_sum_of_kept_parts_is_the_operator_of_the_sum(periodic):
+    parts = HALF_SPACE, layer(4.0, 0.45), layer(2.0, 0.3, bonded=False)
+    grid = vc.Grid((24, 20), (3.0, 2.0), periodic=periodic)
+    mirrored = (not grid.periodic[0], False)
+    domain = ContactDomain(grid, response=parts[0], mirrored=mirrored)
+    cells = np.zeros(domain.shape, dtype=bool)
+    cells[2:7, 5:9] = True
+    domain.patch_around(cells)
+    pressure = np.random.default_rng(5).standard_normal(domain.shape)
+    for weights in ((0.5, 0.7, -0.2), (0.1, 0.1, 0.8)):
+        domain.set_response(parts, weights)
+        whole = ContactDomain(grid, response=SummedResponse(parts, weights), mirrored=mirrored)
+        expected = whole.convolution.apply(pressure)
+        assert domain.convolution.apply(pressure) == pytest.approx(expected, abs=1e-12)
+        terms = zip(weights, parts, strict=True)
+        by_parts = sum(w * domain.unit_displacement(pressure, part) for w, part in terms)
+        # On a period a half-space has no datum: displacement counts from its mean.
+        datum = np.mean(by_parts) if all(grid.periodic) else 0.0
+        assert by_parts - datum == pytest.approx(expected, abs=1e-12)
+        patch, afresh = domain.patch_around(cells), whole.patch_around(cells)
+        block = patch.cut(pressure)
+        assert (patch.rows, patch.columns) == (afresh.rows, afresh.columns)
+        # In single precision.
+        for one, other in (
+            (patch.convolution, afresh.convolution),
+            (patch.preconditioner, afresh.preconditioner),
+        ):
+            found, same = one.apply(block), other.apply(block)
+            assert found == pytest.approx(same, abs=1e-5 * np.abs(same).max())

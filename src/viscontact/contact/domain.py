@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.contact.cell_fields import is_even
+from viscontact.contact.response_parts import Operator, PartOperators
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fastest_transforms, transforms_by
 from viscontact.grid import Grid
@@ -25,9 +26,6 @@ from viscontact.halfspace.surface_response import (
     SummedResponse,
     SurfaceResponse,
 )
-
-#: Maps pressure to unit displacement on cells.
-Operator = Convolution | PeriodicConvolution
 
 #: Margin around a contact in its patch, as a part of the contact's extent.
 PATCH_MARGIN = 0.06
@@ -101,9 +99,10 @@ class ContactDomain:
         if np.any(np.logical_and(mirrored, grid.periodic)):
             raise ValueError("along a period a grid is worked with as a whole, not mirrored")
         self.grid, self.response = grid, response
-        #: Influence tables, and operators on all cells, of the parts of responses that change.
+        #: Parts of a response that changes, with their weights; tables, and operators on blocks.
+        self._parts: dict[SurfaceResponse, float] = {}
         self._tables: dict[SurfaceResponse, NDArray[np.float64]] = {}
-        self._of_parts: dict[SurfaceResponse, Operator] = {}
+        self._of_blocks: dict[tuple[int, int], PartOperators] = {}
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
@@ -120,11 +119,11 @@ class ContactDomain:
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
 
     def set_response(self, parts: tuple[SurfaceResponse, ...], weights: tuple[float, ...]) -> None:
-        """Set the surface's response to a weighted sum of parts, whose tables are kept."""
+        """Set the surface's response to a weighted sum of parts, whose operators are kept."""
         response = SummedResponse(parts, weights)
         if response == self.response:
             return
-        self.response = response
+        self.response, self._parts = response, dict(zip(parts, weights, strict=True))
         last = self._last
         self._build_operators()
         is_whole = (last.rows, last.columns) == (self.whole.rows, self.whole.columns)
@@ -134,13 +133,7 @@ class ContactDomain:
         self, pressure: NDArray[np.float64], response: SurfaceResponse
     ) -> NDArray[np.float64]:
         """Displacement per unit compliance [Pa m] under a part of the response, of all cells."""
-        if response not in self._of_parts:
-            own = self.response, self._coefficients
-            self.response = response
-            self._coefficients = self._influence_table()
-            self._of_parts[response] = self._operator(self.shape, single=False)
-            self.response, self._coefficients = own
-        return self._of_parts[response].apply(pressure)
+        return self._on_block(self.shape).operator(response).apply(pressure)
 
     def coarser(self) -> ContactDomain | None:
         """Same region in cells twice as long and wide; None if their number is odd or too small."""
@@ -251,7 +244,7 @@ class ContactDomain:
 
     def _influence_table(self) -> NDArray[np.float64]:
         """Influence coefficients between all cells of the grid; none for a periodic one."""
-        if all(self.grid.periodic):
+        if all(self.grid.periodic) or self._parts:
             return np.empty((0, 0))
         if not isinstance(self.response, SummedResponse):
             return self._table_of(self.response)
@@ -266,8 +259,15 @@ class ContactDomain:
 
     def _preconditioner(self, shape: tuple[int, int]) -> Preconditioner:
         """Approximate inverse of the convolution over a block of cells."""
+        if self._parts:
+            return self._on_block(shape).preconditioner(self._parts)
+        return self._preconditioner_of(self.response, shape)
+
+    def _preconditioner_of(
+        self, response: SurfaceResponse, shape: tuple[int, int]
+    ) -> Preconditioner:
         options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
-        return Preconditioner(shape, self.grid.cell_size, response=self.response, **options)
+        return Preconditioner(shape, self.grid.cell_size, response=response, **options)
 
     def _plane(self, rows: slice, columns: slice) -> RigidPlane:
         """Rigid motions over rows and columns of the domain, about the body's axis."""
@@ -276,20 +276,50 @@ class ContactDomain:
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """Convolution over a block of cells, or over the whole period."""
+        if self._parts:
+            return self._on_block(shape).sum_of(self._parts, single=single)
+        return self._operator_of(self.response, self._coefficients, shape, single=single)
+
+    def _operator_of(
+        self,
+        response: SurfaceResponse,
+        coefficients: NDArray[np.float64],
+        shape: tuple[int, int],
+        *,
+        single: bool,
+    ) -> Operator:
         transforms = self._transforms
         if all(self.grid.periodic):
             cell_size = self.grid.cell_size
             return PeriodicConvolution(
-                shape, cell_size, self.response, single=single, transforms=transforms
+                shape, cell_size, response, single=single, transforms=transforms
             )
         nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
         return Convolution(
-            self._coefficients[:nx, :ny],
+            coefficients[:nx, :ny],
             mirrored=self.mirrored,
             periodic=(self.grid.periodic[0], self.grid.periodic[1]),
             single=single,
             transforms=transforms,
         )
+
+    def _on_block(self, shape: tuple[int, int]) -> PartOperators:
+        """Operators of parts of the response over a block of cells; the last blocks' are kept."""
+        if shape not in self._of_blocks:
+            last = self._last.convolution.shape
+            self._of_blocks = {
+                each: kept for each, kept in self._of_blocks.items() if each in (self.shape, last)
+            }
+            self._of_blocks[shape] = PartOperators(
+                lambda part, single: self._operator_of(
+                    part,
+                    np.empty((0, 0)) if all(self.grid.periodic) else self._table_of(part),
+                    shape,
+                    single=single,
+                ),
+                lambda: self._preconditioner_of(HALF_SPACE, shape),
+            )
+        return self._of_blocks[shape]
 
 
 def _coefficients(grid: Grid, response: SurfaceResponse) -> NDArray[np.float64]:

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.domain import ContactDomain, Operator
+from viscontact.contact.domain import ContactDomain
+from viscontact.contact.response_parts import Operator
 from viscontact.fourier import Transforms
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from copy import copy
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,6 +82,14 @@ class Convolution:
         self._block = np.zeros(_put(self.shape, self._first, padded[self._first]), number)
         kind = number if mirrored[self._first] else complex_number
         self._spectrum = np.zeros(self._symbol.shape, kind)
+
+    def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
+        """Weighted sum of operators on the same block, in the precision of this one."""
+        total = copy(self)
+        pairs = zip(weights, parts, strict=True)
+        symbol = np.asarray(sum(weight * part._symbol for weight, part in pairs))
+        total._symbol = symbol.astype(self._symbol.dtype)
+        return total
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None

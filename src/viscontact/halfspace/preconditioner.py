@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from copy import copy
+from functools import cached_property
+from typing import Self
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,25 +36,45 @@ class Preconditioner:
         transforms: Transforms | None = None,
     ) -> None:
         self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms)
-        symbol = self._spectra.half_wave_numbers
+        self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
         if response is not HALF_SPACE:
-            symbol = symbol / _ratios(response, 2 * symbol)
-            # The mean of a block is a wave of about the longest length in it, not of none.
-            symbol[0, 0] = min([*symbol[0, 1:2], *symbol[1:2, 0]])
+            self._set_ratios(response.ratio(self.waves))
+
+    def with_ratios(self, ratios: NDArray[np.float64]) -> Self:
+        """The same block of another surface, of the ratios L at `waves`."""
+        other = copy(self)
+        other._set_ratios(ratios)
+        return other
+
+    @property
+    def waves(self) -> NDArray[np.float64]:
+        """Wave numbers between which the response of layers is interpolated [1/m]."""
+        return self._interpolation[0]
+
+    @cached_property
+    def _interpolation(self) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.float64]]:
+        """Wave numbers, the one before each entry of a spectrum, and its place behind that."""
+        q = 2 * self._spectra.half_wave_numbers
+        least, largest = q[q > 0].min(), q.max()
+        count = 1 + int(WAVES_PER_DECADE * np.log10(largest / least))
+        place = np.log(np.maximum(q, least) / least) * (count / np.log(largest / least))
+        before = np.minimum(place.astype(np.intp), count - 1)
+        return np.geomspace(least, largest, count + 1), before, place - before
+
+    def _set_ratios(self, ratios: NDArray[np.float64]) -> None:
+        """Divide |q|/2 by L, whose logarithm is linear in that of the wave number."""
+        _, before, part = self._interpolation
+        # Of a sum of several terms, rounding may be negative where nothing is left.
+        known = np.log(np.maximum(np.abs(ratios), np.finfo(float).tiny))
+        slopes = np.diff(known)
+        symbol = self._spectra.half_wave_numbers / np.exp(known[before] + slopes[before] * part)
+        # The mean of a block is a wave of about the longest length in it, not of none.
+        symbol[0, 0] = min([*symbol[0, 1:2], *symbol[1:2, 0]])
         self._symbol = symbol.astype(np.float32)
 
     def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
         return self._spectra.filtered(displacement, self._symbol)
-
-
-def _ratios(response: SurfaceResponse, q: NDArray[np.float64]) -> NDArray[np.float64]:
-    """L at all wave numbers [1/m], interpolated between enough of them; 1 where it is q = 0."""
-    least, largest = q[q > 0].min(), q.max()
-    waves = np.geomspace(least, largest, 2 + int(WAVES_PER_DECADE * np.log10(largest / least)))
-    # Of a sum of several terms, rounding may be negative where nothing is left.
-    known = np.log(np.maximum(np.abs(response.ratio(waves)), np.finfo(float).tiny))
-    return np.asarray(np.exp(np.interp(np.log(np.maximum(q, least)), np.log(waves), known)))
 
 
 class MovingPreconditioner(Preconditioner):

@@ -11,8 +11,9 @@ Tribol. 119 (1997) 481.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from copy import copy
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,8 +67,20 @@ class PeriodicConvolution:
             symbol *= response.ratio(2 * waves)[places].reshape(half.shape)
         # On a half-space the mean pressure leaves the mean plane where it is.
         mean = response.mean_displacement
-        symbol[0, 0] = mean if np.isfinite(mean) else 0.0
+        self._has_datum = bool(np.isfinite(mean))
+        symbol[0, 0] = mean if self._has_datum else 0.0
         self._symbol: NDArray[Any] = symbol.astype(number)
+
+    def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
+        """Weighted sum of operators on the same block, in the precision of this one."""
+        total = copy(self)
+        pairs = zip(weights, parts, strict=True)
+        symbol = np.asarray(sum(weight * part._symbol for weight, part in pairs))
+        total._has_datum = all(part._has_datum for part in parts)
+        if not total._has_datum:
+            symbol[0, 0] = 0.0
+        total._symbol = symbol.astype(self._symbol.dtype)
+        return total
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
