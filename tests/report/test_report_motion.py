@@ -9,9 +9,9 @@ import xarray as xr
 import viscontact as vc
 from viscontact.loads.motion import Motion
 from viscontact.report.histories import load_panels, response_panels
+from viscontact.report.loops import loops_data
 from viscontact.report.map_data import curves_data, map_data, section_csv, section_place
 from viscontact.report.page import report_page
-from viscontact.report.resistance_loops import loops_data
 from viscontact.report.shown_fields import shown_fields
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -81,7 +81,7 @@ def test_elastic_body_has_no_panels_of_resistance() -> None:
 def test_area_of_the_last_loop_is_the_motion_work_of_a_cycle() -> None:
     ds = _run(vc.reciprocating(3e-4, 1.0, cycles=2), np.linspace(0, 2, 49).tolist(), middle=0.0)
     (loop,) = loops_data(ds)
-    assert (loop["along"], loop["last"]) == ("y", 24)
+    assert (loop["name"], loop["last"], loop["end"]) == ("loop-y", 24, 48)
     position = np.array(loop["position"][loop["last"] :]) * loop["lengthFactor"]
     force = np.array(loop["values"][loop["last"] :]) * loop["valueFactor"]
     work = float(ds.motion_work[-1] - ds.motion_work[24])

@@ -22,6 +22,7 @@ import xarray as xr
 from fastapi.testclient import TestClient
 
 from viscontact.cli import main
+from viscontact.units.formatting import format_quantity
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
 
 
@@ -92,6 +93,10 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
         whole = strict(client.get(f"/api/runs/{run}/grown").text)
         assert whole["scalars"]["peak_pressure"] == pressures
         assert whole["time"] == ds["time"].values.tolist()
+        # The numbers in words are those of the last line, and named with its instant.
+        at, area = float(ds["time"][-1]), float(ds["contact_area"][-1])
+        assert whole["reached"] == f"t = {format_quantity(at, 's', 6)}"
+        assert whole["texts"]["contact_area"] == format_quantity(area, "m2", 4)
     lines = (tmp_path / "page" / "runs" / run / "run" / "progress.jsonl").read_bytes()
     after = lines.index(b"\n") + 1
     rest = client.get(f"/api/runs/{run}/grown", params={"after": after}).json()

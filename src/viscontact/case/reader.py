@@ -18,7 +18,7 @@ from viscontact.case.indenters.shapes import combined
 from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
-from viscontact.case.time_grid_output import kept_fields, kept_speeds, with_instants
+from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
 from viscontact.loads.motion import Motion
 from viscontact.tables import split_sheet
 
@@ -129,12 +129,13 @@ def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
 
 
 def _case(document: Document, found: CaseFile) -> Case:
-    steady, times = found.steady, None
+    steady, times, early = found.steady, None, None
     try:
         if steady is not None:
             fields = kept_speeds(found.output, steady.speeds)
         else:
             times = found.instants()
+            early = early_fields(found.output, times)
             fields = kept_fields(found.output, times)
             times = with_instants(times, fields)
     except ValueError as error:
@@ -159,7 +160,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         files=files,
         digests={path: digest(path) for path in (document.path, *files.values())},
         measured=_measured(found),
-        notes=_notes(found),
+        notes=(*_notes(found), *([early] if early else [])),
         document=document,
     )
 

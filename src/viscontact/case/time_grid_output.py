@@ -223,8 +223,9 @@ class Output(Section):
 
     fields: _Fields | None = Field(
         default=None,
-        description="instants whose pressure, gap and displacement are kept, or all, or none; "
-        "ten of the run's instants when left out; in steady motion speeds in place of instants",
+        description="instants whose pressure, gap and displacement are kept, with the end of the "
+        "run in any case; or all, or none; ten of the run's instants when left out; in steady "
+        "motion speeds in place of instants",
     )
     errors: bool = Field(
         default=True,
@@ -234,12 +235,12 @@ class Output(Section):
 
 
 def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
-    """Return the instants whose fields are kept.
+    """Return the instants whose fields are kept: the requested ones, and the end of the run.
 
     Examples
     --------
     >>> kept_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 60.0]))
-    (0.0, 30.0)
+    (0.0, 30.0, 60.0)
     >>> kept_fields(Output(), adaptive_times(10.0, tolerance=1e-3))[:3]
     (0.0, 0.01, 0.023713737056616554)
     """
@@ -247,7 +248,7 @@ def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
         return output.fields
     if isinstance(output.fields, Speeds):
         raise ValueError("speeds go with a steady motion; give instants, such as '30 s'")
-    end = times.end if isinstance(times, AdaptiveTimes | CellTimes) else float(times[-1])
+    end = end_of(times)
     if output.fields is None:
         return _default_fields(times)
     late = [instant for instant in output.fields if instant > end * (1 + 1e-9)]
@@ -256,7 +257,31 @@ def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
             f"the instant {format_quantity(late[0], 's', 6)} lies after the end of the run, "
             f"{format_quantity(end, 's', 6)}"
         )
-    return tuple(sorted({min(instant, end) for instant in output.fields}))
+    if not output.fields:
+        return ()
+    return tuple(sorted({min(instant, end) for instant in output.fields} | {end}))
+
+
+def early_fields(output: Output, times: Times) -> str | None:
+    """Note on requested fields that end before the run; None if the end is among them.
+
+    >>> early_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 45.0]))
+    'output.fields ends at 30 s, before the run at 45 s; the fields of its end are kept as well'
+    """
+    if not output.fields or isinstance(output.fields, str | Speeds):
+        return None
+    latest, end = max(output.fields), end_of(times)
+    if latest >= end * (1 - 1e-9):
+        return None
+    return (
+        f"output.fields ends at {format_quantity(latest, 's', 6)}, before the run at "
+        f"{format_quantity(end, 's', 6)}; the fields of its end are kept as well"
+    )
+
+
+def end_of(times: Times) -> float:
+    """Last instant of the run [s]."""
+    return times.end if isinstance(times, AdaptiveTimes | CellTimes) else float(times[-1])
 
 
 def kept_speeds(output: Output, speeds: Sequence[float]) -> str | tuple[float, ...]:

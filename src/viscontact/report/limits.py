@@ -11,7 +11,7 @@ import xarray as xr
 
 from viscontact.materials.layers import named_parts
 from viscontact.results.recorded_case import case_of, is_layered, recorded_object
-from viscontact.results.run_axis import SPEED, law_times, run_axis
+from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_number, format_quantity
 
@@ -64,8 +64,11 @@ def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
             f"{_approach(ds)}"
         ),
     )
-    yield "No friction", "the bodies slide on each other freely: pressure alone is passed on."
-    yield "No adhesion", "the bodies pull on each other nowhere; contact ends where pressure does."
+    yield "No friction", "the contact transmits pressure only."
+    yield (
+        "No adhesion",
+        "the surfaces do not attract each other; contact ends where the pressure is zero.",
+    )
     yield (
         "Linear viscoelasticity",
         (
@@ -103,23 +106,50 @@ def _approach(ds: xr.Dataset) -> str:
     )
 
 
-def _when(ds: xr.Dataset) -> str:
-    return "after the slowest passage" if run_axis(ds) is SPEED else "at the end"
+_EXTENTS = {"x": "length", "y": "width"}
+
+#: Representative strain of a ball, in units of contact radius over radius of the ball.
+_TABOR = 0.2
 
 
 def _strain(ds: xr.Dataset) -> str:
-    """Pressure over stiffness, which is of the order of the strain."""
+    """Strain of the contact, with its definition; empty if it is not known."""
     try:
-        uppermost = next(iter(named_parts(recorded_object(ds, "material", "limits")).values()))
-        creep = uppermost.law
+        found = (None if is_layered(ds) else _strain_of_shape(ds)) or _strain_of_stress(ds)
     except (ValueError, AttributeError, json.JSONDecodeError):
         return ""
-    compliance = float(creep(float(law_times(ds).max())))
-    strain = float(ds["mean_pressure"].max()) * compliance
-    if not math.isfinite(strain) or strain <= 0:
+    if found is None:
         return ""
+    index, strain, definition = found
+    axis = run_axis(ds)
     return (
-        f"Largest mean pressure times creep compliance {_when(ds)}, which is of the order of the "
-        f"strain: {format_number(strain, 2)}. Whether the material is still linear at that, its "
-        "tests must say."
+        f"Largest strain, as {definition}: {format_number(strain, 2)}, at "
+        f"{axis.place(float(ds[axis.name][index]))}. Check with your material data whether it is "
+        "still linear at this strain."
     )
+
+
+def _strain_of_shape(ds: xr.Dataset) -> tuple[int, float, str] | None:
+    """Largest 0.2 a/R, half the contact over the radius of curvature (Tabor 1951), of x and y."""
+    shape = recorded_object(ds, "indenter", "limits")
+    if not hasattr(shape, "curvatures"):
+        return None
+    halves = np.stack([ds["contact_length"].values, ds["contact_width"].values]) / 2
+    strains = _TABOR * halves * np.asarray(shape.curvatures)[:, None]
+    index = int(np.nanmax(strains, axis=0).argmax())
+    strain = float(np.nanmax(strains[:, index]))
+    definition = "0.2 a/R with half the contact a and the radius of curvature R of the body"
+    return (index, strain, definition) if math.isfinite(strain) and strain > 0 else None
+
+
+def _strain_of_stress(ds: xr.Dataset) -> tuple[int, float, str] | None:
+    """Largest product of mean pressure and creep compliance, of the top layer, at one instant."""
+    uppermost = next(iter(named_parts(recorded_object(ds, "material", "limits")).values()))
+    creep, times = uppermost.law, ds[run_axis(ds).name].values
+    if run_axis(ds) is SPEED:  # in the time of a passage
+        times = ds[f"contact_{_EXTENTS[str(ds.attrs.get('along', 'y'))]}"].values / times
+    strains = ds["mean_pressure"].values * np.asarray(creep(times))
+    index = int(np.nan_to_num(strains).argmax())
+    strain = float(strains[index])
+    definition = "mean pressure times creep compliance at the same instant"
+    return (index, strain, definition) if math.isfinite(strain) and strain > 0 else None

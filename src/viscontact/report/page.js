@@ -69,15 +69,16 @@
     }), quiet);
   }
 
-  // Resistance over position: earlier cycles thin, the last one bold.
+  // Force over approach, resistance over position: earlier cycles thin, the last one bold.
   function drawLoop(loop) {
+    const thin = { color: "#9aa3ab", width: 1 };
     const part = (from, to, look) => ({
       x: loop.position.slice(from, to), y: loop.values.slice(from, to), mode: "lines", text: loop.hover.slice(from, to),
-      hovertemplate: `${loop.along} %{x:.4g} ${loop.unit}, %{text}<extra></extra>`, line: look,
+      hovertemplate: `${loop.across} %{x:.4g} ${loop.unit}, %{text}<extra></extra>`, line: look,
     });
     return Plotly.newPlot(place(loop.name), [
-      part(0, loop.last + 1, { color: "#9aa3ab", width: 1 }), part(loop.last, undefined, { color: blue, width: 2.2 }),
-    ], layout({ xaxis: axis(`Position along ${loop.along} [${loop.unit}]`), yaxis: axis("", { zeroline: true, zerolinecolor: "#9aa3ab" }) }), quiet);
+      part(0, loop.last + 1, thin), part(loop.last, loop.end + 1, { color: blue, width: 2.2 }), part(loop.end, undefined, thin),
+    ], layout({ xaxis: axis(`${loop.across} [${loop.unit}]`), yaxis: axis("", { zeroline: true, zerolinecolor: "#9aa3ab" }) }), quiet);
   }
 
   const panels = [...data.load, ...data.answers];

@@ -17,8 +17,8 @@ from viscontact import __version__
 from viscontact.notebook.html import as_script, element, written
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.histories import load_panels, response_panels, time_axis
+from viscontact.report.loops import loops_data
 from viscontact.report.map_data import curves_data, map_data
-from viscontact.report.resistance_loops import loops_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
 from viscontact.report.title_block import title_lines
 from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis

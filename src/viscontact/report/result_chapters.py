@@ -29,6 +29,7 @@ from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.shown_scalars import is_long, shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
+from viscontact.results.worst_values import worst_notes
 from viscontact.units.formatting import format_quantity
 
 _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))
@@ -99,7 +100,7 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
 
 
 def history_chapter(ds: xr.Dataset, data: dict[str, Any]) -> Iterator[Element]:
-    """Yield the panels of load and motion, of the contact's response, and loops of resistance."""
+    """Yield the panels of load and motion, of the contact's response, and loops."""
     axis, answers = data["time"], data["answers"]
     other = f"Show the other scale of {run_axis(ds).name}"
     button = element("button", other, type="button", id="time-scale")
@@ -120,7 +121,7 @@ def history_chapter(ds: xr.Dataset, data: dict[str, Any]) -> Iterator[Element]:
         legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
     yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
     if data["loops"]:
-        yield element("h3", "Resistance over position")
+        yield element("h3", "Loops")
         yield element("div", *map(_loop, data["loops"]), class_="panels")
 
 
@@ -131,7 +132,14 @@ def _facts(ds: xr.Dataset) -> Element:
             element(
                 "div",
                 element("dt", _unbroken(label + where)),
-                element("dd", _unbroken(format_scalar(ds, scalar, index))),
+                element(
+                    "dd",
+                    _unbroken(format_scalar(ds, scalar, index)),
+                    *(
+                        element("small", _unbroken(note), class_="worst")
+                        for note in worst_notes(ds, scalar, index)
+                    ),
+                ),
             )
             for scalar, label in shown_labels(ds, Place.FACTS).items()
             for index, where in (_fact(ds, scalar),)
@@ -241,13 +249,13 @@ def _panel(panel: dict[str, Any]) -> Element:
 
 
 def _loop(loop: dict[str, Any]) -> Element:
-    title = f"Resistance along {loop['along']} [{loop['valueUnit']}]"
+    title = f"{loop['title']} over {loop['across'].lower()} [{loop['valueUnit']}]"
     earlier = "Bold: the last cycle. " if loop["last"] else ""
     return element(
         "figure",
         element("p", title, class_="panel-title"),
         element("div", "", id=loop["name"], class_="plot"),
-        element("figcaption", f"{earlier}The area inside is the motion work of a cycle."),
+        element("figcaption", f"{earlier}The area inside is the {loop['area']} of a cycle."),
     )
 
 

@@ -12,8 +12,8 @@ from viscontact.plot.motion.friction import friction_limits, limit_speeds
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.histories import panel_labels, time_axis
 from viscontact.report.limits import notices, warnings_of
+from viscontact.report.loops import loops_data
 from viscontact.report.map_data import curves_data, finite_or_none, map_data, rounded
-from viscontact.report.resistance_loops import loops_data
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
 from viscontact.results.run_axis import TIME, in_order, run_axis
@@ -21,6 +21,7 @@ from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import drawn_values, errors_of
 from viscontact.results.summary import summary_scalars
 from viscontact.results.variables import SCALARS, Place
+from viscontact.results.worst_values import worst_places
 from viscontact.units.formatting import readable_unit
 
 
@@ -51,6 +52,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "given": given,
         "answers": answers,
         "facts": shown_labels(ds, Place.FACTS),
+        "worst": _worst(ds),
         "listed": summary_scalars(ds),
         "map": _map(ds),
         "loops": loops_data(ds),
@@ -59,6 +61,13 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "warnings": warnings_of(ds),
         "accuracy": list(accuracy_lines(ds)),
     }
+
+
+def _worst(ds: xr.Dataset) -> dict[str, Any]:
+    """Places of the worst values beside the end, or beside the largest contact if it is lost."""
+    area = ds["contact_area"].values
+    shown = len(area) - 1 if area[-1] > 0 else int(area.argmax())
+    return {name: worst_places(ds, name, shown) for name in shown_labels(ds, Place.FACTS)}
 
 
 def _axis(ds: xr.Dataset) -> dict[str, Any]:

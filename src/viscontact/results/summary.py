@@ -24,6 +24,7 @@ from viscontact.results.stated_errors import (
     largest_error,
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error
+from viscontact.results.worst_values import last_cycle, notable_largest
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: Legend of the columns, with the name of a row.
@@ -128,9 +129,11 @@ def _largest_error(
 
 
 def headline(ds: xr.Dataset) -> str:
-    """The result in a sentence: the contact at the end, or when largest if it is lost by then.
+    """The result in words: the contact at the end, or when largest if it is lost by then.
 
-    In steady motion the largest friction coefficient, and the contact at its speed.
+    Under a cyclic load the last whole cycle comes first. The largest peak pressure follows where it
+    exceeds that of the sentence. In steady motion the largest friction coefficient, and the contact
+    at its speed.
     """
     if run_axis(ds) is SPEED:
         return _headline_over_speed(ds)
@@ -139,13 +142,13 @@ def headline(ds: xr.Dataset) -> str:
     if not np.any(area > 0):
         return f"Until t = {end} the bodies do not touch."
     if area[-1] > 0:
-        return f"After {end} {_contact(ds, -1)}."
+        return f"{_cycle(ds)}After {end} {_contact(ds, -1)}.{_largest_peak(ds, -1)}"
     largest = int(area.argmax())
     lost = format_quantity(float(instants[int(np.flatnonzero(area > 0)[-1]) + 1]), "s")
     return (
-        f"At t = {format_quantity(float(instants[largest]), 's')}, when it is largest, "
-        f"{_contact(ds, largest)}. The bodies come apart: from t = {lost} to the end, t = {end}, "
-        "they do not touch."
+        f"{_cycle(ds)}At t = {format_quantity(float(instants[largest]), 's')}, when it is largest, "
+        f"{_contact(ds, largest)}.{_largest_peak(ds, largest)} The bodies come apart: from "
+        f"t = {lost} to the end, t = {end}, they do not touch."
     )
 
 
@@ -165,6 +168,29 @@ def _headline_over_speed(ds: xr.Dataset) -> str:
     if ds.sizes["speed"] == 1:
         return f"At {speed} the friction coefficient is {value}; {_contact(ds, index)}."
     return f"The friction coefficient is largest at {speed}, {value}. There {_contact(ds, index)}."
+
+
+def _largest_peak(ds: xr.Dataset, shown: int) -> str:
+    """Sentence about the largest peak pressure; empty if it hardly exceeds that at an index."""
+    at = notable_largest(ds, "peak_pressure", shown)
+    if at is None:
+        return ""
+    when = format_quantity(float(ds["time"][at]), "s")
+    return f" The peak pressure is largest at t = {when}: {format_scalar(ds, 'peak_pressure', at)}."
+
+
+def _cycle(ds: xr.Dataset) -> str:
+    """Sentence about the last whole cycle of a cyclic load; empty for any other load."""
+    cycle = last_cycle(ds)
+    if cycle is None:
+        return ""
+    begin, end = (format_quantity(time, "s") for time in (cycle.begin, cycle.end))
+    names = ["force", "peak_pressure", *(() if lacks_datum(ds) else ("approach",))]
+    ranges = [f"the {name.replace('_', ' ')} {cycle.range_of(ds, name)}" for name in names]
+    said = f"In the last cycle, t = {begin} to {end}: {', '.join(ranges)}"
+    if "loss_per_cycle" in ds and np.isfinite(ds["loss_per_cycle"].values[cycle.last]):
+        said += f"; the loss per cycle is {format_scalar(ds, 'loss_per_cycle', cycle.last)}"
+    return f"{said}. "
 
 
 def _contact(ds: xr.Dataset, index: int) -> str:

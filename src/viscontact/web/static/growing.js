@@ -11,7 +11,7 @@ const PAUSE = 400;
 let curves = null;
 let requested = 0;
 
-const none = (id) => ({ id, after: 0, step: -1, busy: false, places: [], scalars: {}, labels: {} });
+const none = (id) => ({ id, after: 0, step: -1, busy: false, places: [], scalars: {}, labels: {}, texts: {}, reached: "" });
 
 export function drawGrowing(status) {
   if (curves?.id !== status.id) curves = none(status.id);
@@ -44,7 +44,7 @@ function append(run, added) {
   const kept = again < 0 ? run.places.length : again;
   run.places.splice(kept, Infinity, ...places);
   for (const [name, values] of Object.entries(added.scalars)) (run.scalars[name] ??= []).splice(kept, Infinity, ...values);
-  if (places.length) run.labels = added.labels;
+  if (places.length) Object.assign(run, { labels: added.labels, texts: added.texts, reached: added.reached });
   run.after = added.after;
 }
 
@@ -55,8 +55,10 @@ function show(run, status) {
   const order = run.places.map((_, index) => index).sort((one, other) => run.places[one] - run.places[other]);
   const places = order.map((index) => run.places[index]), unit = over === "speed" ? "m/s" : "s";
   const start = begin ? amount(begin, unitFor(unit, begin)) : "0";
-  place("growing").replaceChildren(...Object.entries(run.labels).map(([name, label]) => {
-    const text = status.scalars[name]?.text ?? "";
+  // The numbers are those of the last line read, which may be behind the step of the status.
+  const when = make("p", { class: "faint", textContent: `Values at ${run.reached}` });
+  place("growing").replaceChildren(when, ...Object.entries(run.labels).map(([name, label]) => {
+    const text = run.texts[name] ?? "";
     return make("figure", {},
       make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(places, order.map((index) => run.scalars[name][index]), at, `${label} over ${over}`),
       make("div", { class: "ends", "aria-hidden": "true" },

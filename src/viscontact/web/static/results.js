@@ -84,8 +84,18 @@ function drawFacts(data) {
     return make("div", {}, make("dt", { textContent: label }),
       make("dd", {}, [number, half?.split(" ")[1]].filter(Boolean).join(" "),
         half && make("small", { textContent: `± ${half}` }),
-        where && make("small", { textContent: `at ${placeText(data.axis, data.axis.values[index])}` })));
+        where && make("small", { textContent: `at ${placeText(data.axis, data.axis.values[index])}` }),
+        worstTexts(data, name).map((textContent) => make("small", { textContent }))));
   }));
+}
+
+// The range of the last cycle, and the largest value of the run with its instant.
+function worstTexts(data, name) {
+  const { value, error, unit, mesh } = data.scalars[name], { cycle, largest } = data.worst[name];
+  const text = (index) => quantityText(value[index], error[index], unit, mesh[index]);
+  const texts = cycle ? [`last cycle: ${cycle.map(text).join(" to ")}`] : [];
+  if (largest !== null) texts.push(`largest: ${text(largest)} at ${placeText(data.axis, data.axis.values[largest])}`);
+  return texts;
 }
 
 function referenceText(reference, data) {

@@ -1,0 +1,100 @@
+"""Worst values of a run over time: the largest beside the end, and the range of the last cycle."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from viscontact.results.formatting import format_scalar
+from viscontact.results.recorded_case import recorded_object
+from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.units.formatting import format_quantity
+
+#: Least part by which the largest value exceeds another one to be worth stating [-].
+_NOTABLE = 1e-3
+
+
+def notable_largest(ds: xr.Dataset, name: str, shown: int) -> int | None:
+    """Index of the largest magnitude of a scalar; None if it hardly exceeds the one at `shown`.
+
+    >>> ds = xr.Dataset({"peak_pressure": ("time", [3.0, 2.0])}, {"time": [0.0, 1.0]})
+    >>> notable_largest(ds, "peak_pressure", shown=-1), notable_largest(ds, "peak_pressure", 0)
+    (0, None)
+    """
+    sizes = np.nan_to_num(np.abs(ds[name].values))
+    largest = int(sizes.argmax())
+    return largest if sizes[largest] > (1 + _NOTABLE) * sizes[shown] else None
+
+
+@dataclass(frozen=True)
+class LoadCycle:
+    """Cycle of the load: its times [s], and the indices of the first and last instant in it."""
+
+    begin: float
+    end: float
+    first: int
+    last: int
+
+    def extremes(self, ds: xr.Dataset, name: str) -> tuple[int, int] | None:
+        """Indices of the least and the largest value of a scalar; None if all are NaN."""
+        values = ds[name].values[self.first : self.last + 1]
+        if np.isnan(values).all():
+            return None
+        return self.first + int(np.nanargmin(values)), self.first + int(np.nanargmax(values))
+
+    def range_of(self, ds: xr.Dataset, name: str) -> str:
+        """Least and largest value of a scalar, as "2 ± 0.1 MPa to 3 MPa"."""
+        found = self.extremes(ds, name)
+        if found is None:
+            return "not known"
+        low, high = (float(ds[name][index]) for index in found)
+        texts = [format_scalar(ds, name, index) for index in found]
+        return texts[1] if high - low <= _NOTABLE * abs(high) else " to ".join(texts)
+
+
+def last_cycle(ds: xr.Dataset, *, least: int = 2) -> LoadCycle | None:
+    """Last whole cycle of the load; None if the load has fewer than `least` cycles."""
+    if run_axis(ds) is SPEED:
+        return None
+    try:
+        load = recorded_object(ds, "load", "summary")
+    except (ValueError, AttributeError, json.JSONDecodeError):  # no record, or only its digest
+        return None
+    times, cycles = ds["time"].values, load.load_cycles if load is not None else ()
+    whole = [(begin, end) for (begin, _), (end, _) in cycles if end <= times[-1] * (1 + 1e-9)]
+    if len(cycles) < least or not whole:
+        return None
+    first, last = (int(np.abs(times - moment).argmin()) for moment in whole[-1])
+    return LoadCycle(*whole[-1], first, last) if last - first > 1 else None
+
+
+def worst_places(ds: xr.Dataset, name: str, shown: int) -> dict[str, Any]:
+    """Indices of the extremes in the last `cycle`, and of the `largest` of the run; None if none.
+
+    The largest is left out if it hardly exceeds the value at `shown` or those of the cycle.
+    """
+    if run_axis(ds) is SPEED:
+        return {"cycle": None, "largest": None}
+    cycle = last_cycle(ds)
+    extremes = cycle.extremes(ds, name) if cycle else None
+    sizes = np.abs(ds[name].values)
+    known = [shown, *(extremes or ())]
+    return {
+        "cycle": extremes,
+        "largest": notable_largest(ds, name, max(known, key=lambda index: float(sizes[index]))),
+    }
+
+
+def worst_notes(ds: xr.Dataset, name: str, shown: int) -> list[str]:
+    """Notes beside a value at an index: the range of the last cycle, the largest of the run."""
+    places, notes = worst_places(ds, name, shown), []
+    if places["cycle"] is not None and (cycle := last_cycle(ds)) is not None:
+        notes.append(f"last cycle: {cycle.range_of(ds, name)}")
+    if (at := places["largest"]) is not None:
+        when = format_quantity(float(ds["time"][at]), "s")
+        notes.append(f"largest: {format_scalar(ds, name, at)} at t = {when}")
+    return notes
