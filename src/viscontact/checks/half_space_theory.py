@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.checks.covers import Cover, cover_warnings
 from viscontact.checks.sampling import Sampling, local_approach, sampling_warnings
 from viscontact.checks.singularities import DEPENDS_ON_MESH, is_sharp
 from viscontact.contact.body_edge import end_cells
@@ -50,6 +51,8 @@ class Geometry:
     grid: Grid
     thickness: float = math.inf  # of the thinner body, inf if not given [m]
     indenter_gives: bool = False  # the indenter is deformable, so a half-space as well
+    covers: tuple[Cover, ...] = ()
+    is_supported: bool = False  # the bodies lie on rigid bases, so that any approach has a datum
     predicted: bool = False  # the contact is an estimate made before the run
 
     @property
@@ -112,6 +115,7 @@ def geometry_warnings(
     return (
         strain_warnings(geometry, rim, motion)
         | body_warnings(geometry, rim, pressure)
+        | warnings_of_covers(geometry, rim, motion, geometry.grid.cell_size)
         | sampling_warnings(geometry._sampling, rim, motion, displacement)
     )
 
@@ -178,10 +182,20 @@ def body_warnings(
         warnings["thickness"] = (
             f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
             f"thickness of {format_quantity(geometry.thickness, 'm', 3)}; half-space theory is "
-            f"meant for less than {THIN_BODY:g}, beyond it the support of the body matters: "
-            "vc.Layered([vc.Layer(thickness, material)], base) computes it"
+            f"meant for less than {THIN_BODY:g}, beyond it the support of the body matters; "
+            "give its layers and their base ('layers:' in a case, vc.Layered in Python)"
         )
     return warnings
+
+
+def warnings_of_covers(
+    geometry: Geometry, rim: Rim, motion: NDArray[np.float64], cell_size: tuple[float, float]
+) -> dict[str, str]:
+    """Warn of large strains in covers, and of cells of a size (dx, dy) [m] too long for them."""
+    has_datum = geometry.grid.has_datum or geometry.is_supported
+    approach = local_approach(geometry.grid, motion) if has_datum else math.nan
+    be, _ = geometry._verbs
+    return cover_warnings(geometry.covers, _half_width(rim), approach, cell_size, be)
 
 
 def corner_warnings(

@@ -11,6 +11,7 @@ from viscontact.checks.half_space_theory import (
     body_warnings,
     corner_warnings,
     strain_warnings,
+    warnings_of_covers,
 )
 from viscontact.checks.material import (
     data_warnings,
@@ -55,6 +56,7 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
     return (
         strain_warnings(geometry, found.rim, found.motion)
         | body_warnings(geometry, found.rim, found.pressure, has_limit=has_limit)
+        | warnings_of_covers(geometry, found.rim, found.motion, run.grid.cell_size)
         | _corner_warnings(run, geometry, found, compliance)
         | map_warnings(missed, max(run.grid.cell_size), strain)
         | texture_warnings(geometry.indenter, run.grid)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.checks.covers import covers_of
 from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import (
     law_warnings,
@@ -68,6 +69,8 @@ def geometry_of(
         grid,
         thickness=problem.thickness,
         indenter_gives=problem.indenter_material is not None,
+        covers=covers_of(problem.bodies, problem.end),
+        is_supported=problem.surface.is_supported,
         predicted=predicted,
     )
 
