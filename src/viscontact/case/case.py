@@ -38,6 +38,8 @@ class Case(DisplayableGroup, Problem):
         Every file that the case is read from, by the key that names it.
     title_block : mapping of str to str
         Entries of the report's title block, by name.
+    allowable : mapping of str to float
+        Limits by the names of scalars or stresses, in SI units.
     steady : SteadyMotion or None
         Steady motion, whose speeds take the place of times; None for a run over time.
     digests : mapping of Path to bytes
@@ -55,6 +57,7 @@ class Case(DisplayableGroup, Problem):
     load_file: Path | None
     files: Mapping[KeyPath, Path]
     title_block: Mapping[str, str]
+    allowable: Mapping[str, float]
     steady: SteadyMotion | None
     digests: Mapping[Path, bytes] = field(repr=False)
     measured: Mapping[str, Mapping[str, Any]]

@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails
 
 from viscontact.case import time_grid_output
 from viscontact.case.aliases import aliases_of, known_aliases
+from viscontact.case.allowable import Allowable
 from viscontact.case.document import Document, as_written
 from viscontact.case.errors import KeyPath, dotted
 from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
@@ -32,6 +33,7 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
     "grid": time_grid_output.Cells,
     "output": time_grid_output.Output,
     "report": TitleBlock,
+    "allowable": Allowable,
 }
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)

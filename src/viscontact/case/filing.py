@@ -17,9 +17,11 @@ def case_attributes(case: Case) -> Mapping[str, Any]:
 
     `title_block` has the entries of the section `report`, if any; `input_files` name, key and
     SHA-256 of the files when they were read; `case_as_typed` all values as they were typed;
-    `measured` the tables of the laws, if any, in the quantities that were measured.
+    `measured` the tables of the laws, if any, in the quantities that were measured; `allowable`
+    the limits, if any, to which the verdicts are added when the run is finished.
     """
-    sometimes = {"title_block": case.title_block, "measured": case.measured}
+    limits = {name: {"limit": limit} for name, limit in case.allowable.items()}
+    sometimes = {"title_block": case.title_block, "measured": case.measured, "allowable": limits}
     return {
         **{name: json.dumps(value) for name, value in sometimes.items() if value},
         "input_files": json.dumps(_input_files(case)),

@@ -149,6 +149,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         load=found.history(),
         motion=motion if isinstance(motion, Motion) else None,
         title_block=found.report.entries,
+        allowable=found.allowable.limits,
         steady=steady,
         grid=found.grid.build() if found.grid else None,
         times=times,

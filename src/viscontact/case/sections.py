@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from viscontact.case.aliases import with_aliases
+from viscontact.case.allowable import Allowable
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.layers import AnyBody
@@ -47,6 +48,9 @@ class CaseFile(Section):
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
     output: Output = Field(default=Output(), description="results to keep")
     report: TitleBlock = Field(default=TitleBlock(), description="title block of the report")
+    allowable: Allowable = Field(
+        default=Allowable(), description="limits that the result is compared with"
+    )
     tolerance: Annotated[float, Field(ge=FINEST_TOLERANCE, le=COARSEST_TOLERANCE)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )
@@ -76,6 +80,12 @@ class CaseFile(Section):
                 "section out"
             )
         constant_load(self.history())
+        return self
+
+    @model_validator(mode="after")
+    def _has_what_is_limited(self) -> CaseFile:
+        moving, steady = self.motion is not None, self.steady is not None
+        self.allowable.require_known(moving=moving, steady=steady)
         return self
 
     @model_validator(mode="after")

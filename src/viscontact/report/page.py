@@ -20,7 +20,9 @@ from viscontact.report.histories import load_panels, response_panels, time_axis
 from viscontact.report.loops import loops_data
 from viscontact.report.map_data import curves_data, map_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
+from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
+from viscontact.report.verdict_chapter import verdict_chapter
 from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 
 _CHAPTERS = {
@@ -152,5 +154,8 @@ def _body(
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
     yield from title_lines(ds)
     yield result_chapters.opening(name, ds, titles)
+    yield element("section", *verdict_chapter(ds), id="allowable")
     for place, parts in chapters.items():
         yield element("section", element("h2", titles[place]), *parts, id=place)
+        if place == "pressure":
+            yield element("section", *stress_chapter(ds), id="stress")

@@ -62,21 +62,30 @@ _FACTORS: dict[str, dict[str, float]] = {
         "kg": 1.0,
     },
     "kilogram * meter ** 2 / second ** 3": {
+        "mW": 0.001,
         "W": 1.0,
+        "kW": 1000.0,
     },
     "kilogram * meter ** 2 / ampere / second ** 3": {
         "V": 1.0,
     },
     "kilogram * meter ** 2 / second ** 2": {
         "N m": 1.0,
+        "uJ": 1e-06,
+        "mJ": 0.001,
+        "J": 1.0,
+        "kJ": 1000.0,
     },
     "kilogram / second ** 2": {
         "N/m": 1.0,
         "N/mm": 1000.0,
+        "kN/m": 1000.0,
     },
     "meter ** 2": {
         "m^2": 1.0,
+        "um^2": 1e-12,
         "mm^2": 1e-06,
+        "cm^2": 0.0001,
     },
     "meter ** 3": {
         "m^3": 1.0,

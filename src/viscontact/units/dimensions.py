@@ -42,19 +42,21 @@ DIMENSIONS = {
     "speed": Dimension("a speed", "m/s", "0.5 m/s", ("um/s", "mm/s", "m/s", "km/h")),
     "temperature": Dimension("a temperature", "K", "25 degC", ("degC", "K", "degF")),
     "temperature difference": Dimension("a temperature difference", "K", "51.6 K", ("K",)),
+    "area": Dimension("an area", "m^2", "25 mm^2", ("um^2", "mm^2", "cm^2", "m^2")),
+    "line load": Dimension("a force per length", "N/m", "40 N/mm", ("N/m", "N/mm", "kN/m")),
+    "energy": Dimension("an energy", "J", "5 mJ", ("uJ", "mJ", "J", "kJ")),
+    "power": Dimension("a power", "W", "2 W", ("mW", "W", "kW")),
     "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 
 #: Other dimensions, to name what was given instead: "(got a mass)".
 OTHER_DIMENSIONS = {
     "kg": "a mass",
-    "m^2": "an area",
     "m^3": "a volume",
     "1/s": "a frequency or a rate",
     "1/m": "a curvature",
     "K": "a temperature",
     "N m": "an energy or a moment",
     "N/m": "a stiffness",
-    "W": "a power",
     "V": "a voltage",
 }

@@ -19,6 +19,7 @@ from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
+from viscontact.results.verdicts import overall, verdicts
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.sweep.states import state_at_end
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
@@ -41,6 +42,7 @@ class _Found:
     error: float
     seconds: float
     warnings: tuple[str, ...]
+    verdict: str  # the worst on the allowable values; empty without any
 
 
 def print_table(runs: Sequence[Ended]) -> None:
@@ -71,7 +73,8 @@ def _of(ds: xr.Dataset) -> _Found:
     error = max((part for part in known if not math.isnan(part)), default=math.nan)
     marked = frozenset(name for name in names if mesh_dependent(ds, name).any())
     over = run_axis(ds).name
-    return _Found(over, largest, marked, error, float(ds.attrs["wall_time"]), warnings)
+    seconds, verdict = float(ds.attrs["wall_time"]), overall(verdicts(ds)) or ""
+    return _Found(over, largest, marked, error, seconds, warnings, verdict)
 
 
 def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
@@ -97,6 +100,9 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     has_errors = any(each is not None and not math.isnan(each.error) for each in found)
     if has_errors:
         table.add_column("largest error", justify="right", vertical="bottom")
+    judged = any(each is not None and each.verdict for each in found)
+    if judged:
+        table.add_column("verdict", no_wrap=True, vertical="bottom")
     for ended, each in zip(runs, found, strict=True):
         cells = ["", *("" for _ in names)]
         if each is not None:
@@ -104,6 +110,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
             cells = [format_quantity(each.seconds, "s", 2), *values]
             if has_errors:
                 cells.append("" if math.isnan(each.error) else format_percent(each.error))
+            cells += [each.verdict] if judged else []
         table.add_row(escape(ended.job.name), state_at_end(ended).value, *cells)
     return table
 

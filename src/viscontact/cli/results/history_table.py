@@ -24,6 +24,7 @@ from viscontact.cli.results.accuracy import (
     unknown_lines,
 )
 from viscontact.cli.results.stored import early_end
+from viscontact.cli.results.verdict_lines import verdict_lines
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.history_csv import write_history
@@ -62,6 +63,8 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} {axis.row}s; --all shows every one")
     for line in _footers(ds, shown, errors=errors):
+        console.print(line, highlight=False)
+    for line in verdict_lines(ds):
         console.print(line, highlight=False)
     if ended := early_end(ds):
         console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)

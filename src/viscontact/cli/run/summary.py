@@ -15,6 +15,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
+from viscontact.cli.results.verdict_lines import verdict_lines
 from viscontact.results.netcdf import open_results
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.summary import SummaryRow, legend, summary_rows
@@ -49,6 +50,8 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
     for line in (*unknown_lines(ds, shown), *mesh_lines(ds, shown)):
         console.print(line, highlight=False)
     for line in accuracy_lines(ds):
+        console.print(line, highlight=False)
+    for line in verdict_lines(ds):
         console.print(line, highlight=False)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
         console.print(f"grid enlarged at {line}", highlight=False)

@@ -189,8 +189,15 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             self._write_waiting()
             return described_fields(self._file())
 
-    def finish(self, bars: ErrorBars | None = None) -> None:
-        """Publish the complete result, with the errors of its scalars, and close it."""
+    def finish(
+        self, bars: ErrorBars | None = None, attributes: Mapping[str, Any] | None = None
+    ) -> None:
+        """Publish the complete result, with the errors of its scalars, and close it.
+
+        The attributes replace those of the contents.
+        """
+        described = {**self._contents.attributes, **(attributes or {})}
+        self._contents = replace(self._contents, attributes=described)
         if bars is not None:
             with self._guard.writing():
                 write_errors(self._file(), bars.values)

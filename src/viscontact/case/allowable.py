@@ -1,0 +1,90 @@
+"""Section `allowable` of a case file."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from viscontact.case.quantities import POSITIVE, Quantity, Section
+
+_Force = Annotated[float, Quantity("force", POSITIVE)]
+_Length = Annotated[float, Quantity("length", POSITIVE)]
+_Angle = Annotated[float, Quantity("angle", POSITIVE)]
+_Area = Annotated[float, Quantity("area", POSITIVE)]
+_Stress = Annotated[float, Quantity("pressure", POSITIVE)]
+_LineLoad = Annotated[float, Quantity("line load", POSITIVE)]
+_Energy = Annotated[float, Quantity("energy", POSITIVE)]
+_Power = Annotated[float, Quantity("power", POSITIVE)]
+_Ratio = Annotated[float, Field(gt=0)]
+
+#: Quantities that only moving contacts have, and those that steady motion does not have.
+MOVING = (
+    *("resistance_x", "resistance_y", "friction_coefficient", "motion_work"),
+    *("dissipation", "heat"),
+)
+NOT_STEADY = ("work", "loss_per_cycle", "motion_work", "heat")
+
+
+class Allowable(Section):
+    """Largest allowable magnitudes; the result states whether each one passed or failed."""
+
+    peak_pressure: _Stress | None = Field(
+        default=None, description="largest pressure", examples=["65 MPa"]
+    )
+    von_mises: _Stress | None = Field(
+        default=None,
+        description="stress in the half-space below the largest pressure",
+        examples=["40 MPa"],
+    )
+    max_shear: _Stress | None = Field(
+        default=None, description="shear stress in the half-space below the largest pressure"
+    )
+    mean_pressure: _Stress | None = Field(default=None, description="force over contact area")
+    peak_line_load: _LineLoad | None = Field(default=None, description="line load along x")
+    approach: _Length | None = Field(default=None, description="of the bodies")
+    contact_area: _Area | None = Field(default=None, description="of the contact")
+    contact_length: _Length | None = Field(
+        default=None, description="extent of the contact along x"
+    )
+    contact_width: _Length | None = Field(default=None, description="extent of the contact along y")
+    force: _Force | None = Field(default=None, description="on the contact")
+    eccentricity_x: _Length | None = Field(
+        default=None, description="position of the resultant along x"
+    )
+    eccentricity_y: _Length | None = Field(
+        default=None, description="position of the resultant along y"
+    )
+    tilt_x: _Angle | None = Field(default=None, description="rigid slope along x")
+    tilt_y: _Angle | None = Field(default=None, description="rigid slope along y")
+    work: _Energy | None = Field(default=None, description="of the load since the start")
+    loss_per_cycle: _Energy | None = Field(
+        default=None, description="work lost in the last complete cycle"
+    )
+    resistance_x: _Force | None = Field(
+        default=None, description="of the half-space against a motion along x"
+    )
+    resistance_y: _Force | None = Field(
+        default=None, description="of the half-space against a motion along y"
+    )
+    friction_coefficient: _Ratio | None = Field(default=None, description="resistance over force")
+    motion_work: _Energy | None = Field(default=None, description="of the motion since the start")
+    dissipation: _Power | None = Field(default=None, description="power lost in the bodies")
+    heat: _Energy | None = Field(
+        default=None, description="energy lost in the bodies since the start"
+    )
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The given limits, by name, in SI units."""
+        return {name: limit for name, limit in self.model_dump().items() if limit is not None}
+
+    def require_known(self, *, moving: bool, steady: bool) -> None:
+        """Raise ValueError for a quantity that a run without motion, or a steady one, lacks."""
+        for name in self.limits:
+            if name in MOVING and not moving:
+                raise ValueError(
+                    f"allowable.{name}: only a moving contact has it; add a motion, or leave it out"
+                )
+            if name in NOT_STEADY and steady:
+                raise ValueError(f"allowable.{name}: steady motion does not have it; leave it out")

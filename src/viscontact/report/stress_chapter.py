@@ -1,0 +1,51 @@
+"""Chapter of a report on the stress below the largest pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from xml.etree.ElementTree import Element
+
+import xarray as xr
+
+from viscontact.notebook.html import element
+from viscontact.plot import stress_section
+from viscontact.report.drawings import drawn
+from viscontact.results.formatting import format_with_error
+from viscontact.results.peak_stress import PeakStress, peak_stress
+from viscontact.results.recorded_case import is_layered
+from viscontact.results.run_axis import run_axis
+from viscontact.units.formatting import format_quantity
+
+#: Most cells of a grid below which stresses are computed for a report: some seconds.
+MOST_CELLS = 100_000
+
+
+def stress_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the von Mises stress below the largest pressure; nothing where it cannot be shown."""
+    if found := stress_below(ds):
+        yield element("h2", "Stress below the surface")
+        yield element("p", stress_text(ds, found))
+        drawing = drawn(partial(stress_section, ds, times=[found.place]), "Von Mises stress")
+        yield element("figure", drawing, class_="single")
+
+
+def stress_below(ds: xr.Dataset) -> PeakStress | None:
+    """The von Mises stress; None without it, as without contact, fields or a half-space."""
+    if is_layered(ds) or ds.sizes.get("x", 0) * ds.sizes.get("y", 0) > MOST_CELLS:
+        return None
+    try:
+        found = peak_stress(ds, "von_mises")
+    except ValueError:
+        return None
+    return found if found.value > 0 else None
+
+
+def stress_text(ds: xr.Dataset, found: PeakStress) -> str:
+    """Describe the stress in a sentence."""
+    value = format_with_error(found.value, found.error, "Pa")
+    place, depth = run_axis(ds).place(found.place), format_quantity(found.depth, "m", 2)
+    return (
+        f"Below the largest pressure of the run, at {place}, the largest von Mises stress in the "
+        f"half-space is {value}, {depth} deep."
+    )

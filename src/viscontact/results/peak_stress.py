@@ -1,0 +1,159 @@
+"""Largest stress in the half-space below the largest pressure of a run, with its error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.run_axis import run_axis
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.stresses import REACH, section_stresses
+
+#: Stresses that are searched for, by name, and what they are.
+STRESSES = {"von_mises": "von Mises stress", "max_shear": "Largest shear stress"}
+#: Number of depths of the search, and of those around the deepest of them.
+_DEPTHS, _CLOSE = 14, 7
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PeakStress:
+    """The largest stress below the largest pressure."""
+
+    value: float  # [Pa]
+    error: float  # half width of its error bar [Pa]; inf if mesh-dependent, NaN if unknown
+    place: float  # instant [s] or speed [m/s]
+    depth: float  # [m]
+
+
+def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
+    """Return the largest stress on the two vertical planes through the largest pressure of a run.
+
+    ValueError, with the reason, where the fields of that instant or speed are not stored, or the
+    stresses are not known.
+
+    Notes
+    -----
+    Stresses are those of a pressure that is constant in each cell. The error is the sum of the
+    relative error of the peak pressure, to which stresses are proportional, the change of the
+    stress on cells of twice the size, and that between the depths of the search.
+
+    Examples
+    --------
+    Below a ball on a body of ν = 0.3 it is 0.62 of the peak pressure, at 0.48 radii of the contact:
+
+    >>> import viscontact as vc
+    >>> steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
+    >>> grid = vc.Grid((48, 48), (0.6e-3, 0.6e-3))
+    >>> ds = vc.simulate(vc.Paraboloid(0.01, 0.01), steel, vc.step(100.0), grid, [0.0])
+    >>> found = peak_stress(ds, "von_mises")
+    >>> round(found.value / float(ds.peak_pressure[0]), 2)
+    0.62
+    """
+    peaks = np.nan_to_num(ds["peak_pressure"].values)
+    row = int(peaks.argmax())
+    place = float(run_axis(ds).values(ds)[row])
+    if peaks[row] == 0:
+        return PeakStress(0.0, 0.0, place, 0.0)
+    field = _loaded(_field_at(ds, place))
+    found = _largest(field, _depths(field, ds, row), name)
+    relative = float(errors_of(ds, "peak_pressure")[row]) / float(peaks[row])
+    coarse = _coarser(field)
+    change = (
+        np.nan if coarse is None else abs(_over(coarse, found.around, name).max() - found.value)
+    )
+    return PeakStress(
+        found.value, found.value * relative + change + found.error, place, found.depth
+    )
+
+
+def _field_at(ds: xr.Dataset, place: float) -> xr.Dataset:
+    """Pressure of an instant or a speed; ValueError if it is not stored."""
+    axis = run_axis(ds)
+    if "pressure" not in ds:
+        raise ValueError("no fields are stored (output.fields)")
+    over = str(ds["pressure"].dims[0])
+    stored = np.flatnonzero(np.isclose(ds[over].values, place, rtol=1e-9, atol=0.0))
+    if not stored.size:
+        raise ValueError(
+            f"the largest pressure is at {axis.place(place)}, whose fields are not stored; add it "
+            "to output.fields"
+        )
+    return ds[["pressure"]].isel({over: stored[:1]}).load()
+
+
+def _loaded(field: xr.Dataset) -> xr.Dataset:
+    """Smallest part of the grid that contains all pressure; a period is kept."""
+    pressed = (field["pressure"] > 0).any(str(field["pressure"].dims[0]))
+    grid = recorded_grid(field)
+    for axis, periodic in zip("xy", grid.periodic, strict=True):
+        cells = np.flatnonzero(pressed.any("yx"["xy".index(axis)]).values)
+        if not periodic:
+            field = field.isel({axis: slice(max(cells[0] - 1, 0), cells[-1] + 2)})
+    return field
+
+
+def _depths(field: xr.Dataset, ds: xr.Dataset, row: int) -> Array:
+    """Depths deep enough for the whole contact, and close to the surface for its single spots."""
+    least = min(_cell(field, axis) for axis in "xy")
+    extents = [float(ds[f"contact_{each}"][row]) for each in ("length", "width")]
+    reach = REACH * min(extents) / 2
+    return np.append(0.0, np.geomspace(least / 2, max(reach, 2 * least), _DEPTHS))
+
+
+@dataclass(frozen=True)
+class _Found:
+    value: float  # [Pa]
+    depth: float  # [m]
+    error: float  # of the search in depth [Pa]
+    around: Array  # depths searched last [m]
+
+
+def _largest(field: xr.Dataset, depths: Array, name: str) -> _Found:
+    """Search for the largest of a stress over some depths [m], and then between two of them."""
+    at = int(_over(field, depths, name).argmax())
+    close = np.linspace(depths[max(at - 1, 0)], depths[min(at + 1, depths.size - 1)], _CLOSE)
+    finer = _over(field, close, name)
+    best = int(finer.argmax())
+    value, error = float(finer[best]), 0.0
+    if 0 < best < _CLOSE - 1:  # up to the vertex of the parabola through three depths
+        before, here, after = finer[best - 1 : best + 2].tolist()
+        bend = 2 * here - before - after
+        error = (after - before) ** 2 / (8 * bend) if bend > 0 else 0.0
+    return _Found(value + error, float(close[best]), error, close)
+
+
+def _over(field: xr.Dataset, depths: Array, name: str) -> Array:
+    """Largest stress at each depth on the planes of x and y through the largest pressure [Pa]."""
+    cells = field["pressure"].isel({str(field["pressure"].dims[0]): 0}).transpose("x", "y")
+    i, j = np.unravel_index(int(cells.values.argmax()), cells.shape)
+    along = section_stresses(field, depths, y=float(field["y"][j]))[name].values[0]
+    across = section_stresses(field, depths, x=float(field["x"][i]))[name].values[0]
+    return np.asarray(np.maximum(along.max(axis=1), across.max(axis=1)))
+
+
+def _coarser(field: xr.Dataset) -> xr.Dataset | None:
+    """Pressure on cells of twice the size; None where a period has an odd number of cells."""
+    grid = recorded_grid(field)
+    for axis, periodic, count in zip("xy", grid.periodic, grid.shape, strict=True):
+        if count == 1:
+            continue
+        if count % 2:
+            if periodic:
+                return None
+            beyond = float(field[axis][-1]) + _cell(field, axis)
+            field = field.pad({axis: (0, 1)}, constant_values=0.0)
+            field = field.assign_coords({axis: [*field[axis].values[:-1], beyond]})
+        field = field.coarsen({axis: 2}).mean()
+    return field
+
+
+def _cell(field: xr.Dataset, axis: str) -> float:
+    """Edge of a cell along an axis [m]; that of the other axis for a single cell."""
+    places = field[axis].values
+    return float(places[1] - places[0]) if places.size > 1 else _cell(field, "yx"["xy".index(axis)])

@@ -1,0 +1,117 @@
+"""The largest stress below the largest pressure, against closed forms, with its error."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact.results.peak_stress import peak_stress
+
+# Coarse grids and small fields are what is asked for here.
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+NU, MODULUS = 0.3, 80e9
+STEEL = vc.Material(vc.Elastic(MODULUS), NU)
+DEPTHS = np.linspace(0.01, 2.0, 20_001)  # in radii or half widths of the contact
+FORCE, RADIUS = 100.0, 0.01
+EFFECTIVE = 2 * MODULUS * (1 + NU) / (1 - NU**2)  # of a rigid indenter
+
+
+def below_ball() -> tuple[float, float]:
+    """Largest von Mises stress [Pa] and its depth [m] on the axis (Johnson 1985, eq. 3.45)."""
+    a = (3 * FORCE * RADIUS / (4 * EFFECTIVE)) ** (1 / 3)
+    peak = 3 * FORCE / (2 * np.pi * a**2)
+    along_z = -1 / (1 + DEPTHS**2)
+    radial = -(1 + NU) * (1 - DEPTHS * np.arctan(1 / DEPTHS)) - along_z / 2
+    found = np.abs(along_z - radial)
+    return peak * float(found.max()), a * float(DEPTHS[found.argmax()])
+
+
+def below_cylinder(line_load: float) -> tuple[float, float]:
+    """Likewise below a cylinder, in plane strain (Johnson 1985, eq. 4.46)."""
+    b = np.sqrt(4 * line_load * RADIUS / (np.pi * EFFECTIVE))
+    peak = 2 * line_load / (np.pi * b)
+    root = np.sqrt(1 + DEPTHS**2)
+    across = -((1 + 2 * DEPTHS**2) / root - 2 * DEPTHS)
+    down = -1 / root
+    along = NU * (across + down)
+    squares = (across - down) ** 2 + (down - along) ** 2 + (along - across) ** 2
+    found = np.sqrt(squares / 2)
+    return peak * float(found.max()), b * float(DEPTHS[found.argmax()])
+
+
+def ball(cells: int, **options: object) -> xr.Dataset:
+    """A ball whose contact has a radius of 0.21 of the grid."""
+    grid = vc.Grid((cells, cells), (0.6e-3, 0.6e-3))
+    body, load = vc.Paraboloid(RADIUS, RADIUS), vc.step(FORCE)
+    return vc.simulate(body, STEEL, load, grid, [0.0], **options)  # type: ignore[arg-type]
+
+
+def test_stress_below_a_ball_is_the_closed_form_within_its_bar() -> None:
+    exact, depth = below_ball()
+    found = [peak_stress(ball(cells), "von_mises") for cells in (25, 50, 100)]
+    errors = [abs(each.value - exact) for each in found]
+    assert all(error <= each.error for error, each in zip(errors, found, strict=True))
+    # Whether a cell lies at the centre changes from grid to grid: the bars fall, at first order.
+    assert max(errors) < 2e-3 * exact
+    assert found[2].error < found[0].error / 4 < 0.02 * exact
+    assert found[2].depth == pytest.approx(depth, rel=0.05)
+
+
+def test_stress_below_a_cylinder_converges_to_the_closed_form_within_its_bar() -> None:
+    exact, depth = below_cylinder(30.0 / 1e-3)
+    found = []
+    for cells in (48, 96, 192):
+        grid = vc.Grid((1, cells), (1e-3, 0.4e-3), periodic=(True, False))
+        ds = vc.simulate(vc.Paraboloid(np.inf, RADIUS), STEEL, vc.step(30.0), grid, [0.0])
+        found.append(peak_stress(ds, "von_mises"))
+    errors = [abs(each.value - exact) for each in found]
+    assert all(error <= each.error for error, each in zip(errors, found, strict=True))
+    # Of order 1.5, as the pressure at a rim: 2.8 in each step.
+    assert errors[0] > 2.8 * errors[1] > 2.8**2 * errors[2]
+    assert found[0].error > 2.8 * found[1].error > 2.8**2 * found[2].error
+    assert found[2].error < 0.003 * exact
+    assert found[2].depth == pytest.approx(depth, rel=0.05)
+
+
+def test_largest_shear_below_a_ball_is_half_of_the_von_mises_stress() -> None:
+    # On the axis two principal stresses are equal.
+    ds = ball(50)
+    shear, mises = peak_stress(ds, "max_shear"), peak_stress(ds, "von_mises")
+    assert shear.value == pytest.approx(mises.value / 2, rel=2e-3)
+
+
+def test_the_stress_is_that_of_the_instant_of_the_largest_pressure() -> None:
+    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5)
+    grid, load = vc.Grid((24, 24), (6e-3, 6e-3)), vc.triangle(1.0, 1.0)
+    some = vc.simulate(
+        vc.Sphere(0.01), rubber, load, grid, [0.5, 1.0, 1.5], fields=[0.5, 1.0], errors=False
+    )
+    assert peak_stress(some, "von_mises").place == 1.0
+    with pytest.raises(ValueError, match=r"largest pressure is at t = 1 s, whose fields are not"):
+        peak_stress(some.isel(field_time=[0]), "von_mises")
+
+
+def test_without_errors_of_the_pressure_that_of_the_stress_is_unknown() -> None:
+    assert np.isnan(peak_stress(ball(25, errors=False), "von_mises").error)
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        ({"fields": "none"}, "no fields are stored"),
+        ({"bulk": True}, "Poisson's ratio varies in time"),
+    ],
+)
+def test_an_unknown_stress_is_refused_with_the_reason(change: dict[str, object], why: str) -> None:
+    material = vc.Material(vc.Elastic(1e9), bulk_modulus=4e9) if "bulk" in change else STEEL
+    size = 1.8e-3 if "bulk" in change else 0.6e-3
+    grid = vc.Grid((24, 24), (size, size))
+    fields = change.get("fields", "all")
+    ds = vc.simulate(
+        vc.Sphere(RADIUS), material, vc.step(FORCE), grid, [0.0], fields=fields, errors=False
+    )
+    with pytest.raises(ValueError, match=why):
+        peak_stress(ds, "von_mises")

@@ -1,0 +1,201 @@
+"""Verdicts on allowable values: within the errors, over the whole run, with reasons."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact.case import CaseError, read_case
+from viscontact.case.allowable import MOVING, NOT_STEADY, Allowable
+from viscontact.cli import main
+from viscontact.report import report_page
+from viscontact.results import variables
+from viscontact.results.peak_stress import STRESSES
+from viscontact.results.verdicts import overall, verdict_on, verdicts
+from viscontact.units.dimensions import DIMENSIONS
+
+CASE = """indenter: {shape: sphere, radius: 10 mm}
+material: {law: zener, shear_modulus: 1 GPa, delayed_modulus: 1 GPa, viscosity: 10 GPa s,
+  poisson_ratio: 0.4}
+load: {kind: step, force: 5 N}
+time: {end: 10 s, steps: 6, spacing: log}
+grid: {shape: [32, 32], size: [1.2 mm, 1.2 mm]}
+"""
+ALLOWABLE = "allowable: {peak_pressure: 1 MPa, approach: 1 mm, von_mises: 1 GPa}\n"
+
+
+def run(values: Any, errors: Any, **attributes: Any) -> xr.Dataset:
+    """A result of a peak pressure with its errors at 0 s, 1 s, ..."""
+    sizes = {"peak_pressure": ("time", values), "peak_pressure_error": ("time", errors)}
+    return xr.Dataset(sizes, {"time": np.arange(len(values), dtype=float)}, attributes)
+
+
+def found(values: Any, errors: Any) -> tuple[str, float, str]:
+    """Verdict on an allowable 10 Pa, its instant and its reason."""
+    verdict = verdict_on(run(values, errors), "peak_pressure", 10.0)
+    return verdict.verdict, verdict.at, verdict.reason
+
+
+# --- the rule ---------------------------------------------------------------------------------
+
+
+def test_passed_if_every_value_with_its_error_is_within() -> None:
+    assert found([8.0, 9.0, 7.0], [0.5, 0.9, 0.5]) == ("passed", 1.0, "")
+
+
+def test_failed_at_the_worst_instant_not_at_the_end() -> None:
+    assert found([12.0, 15.0, 7.0], [0.5, 0.9, 0.5]) == ("failed", 1.0, "")
+
+
+def test_undecided_where_the_limit_lies_within_the_error() -> None:
+    why = "the limit lies within the error"
+    assert found([8.0, 9.5], [0.5, 0.6]) == ("undecided", 1.0, why)
+    assert found([8.0, 10.5], [0.5, 0.6]) == ("undecided", 1.0, why)
+    # The largest value is clear, and a smaller one with a large error is not.
+    assert found([9.0, 9.5], [2.0, 0.1]) == ("undecided", 0.0, why)
+
+
+def test_a_magnitude_is_compared_whatever_its_sign() -> None:
+    assert found([-12.0, 3.0], [0.1, 0.1])[:2] == ("failed", 0.0)
+
+
+def test_undecided_where_the_value_depends_on_the_mesh_even_far_beyond() -> None:
+    assert found([5.0, 99.0], [0.1, math.inf]) == ("undecided", 1.0, "smaller cells give more")
+
+
+def test_a_certain_failure_at_another_instant_decides() -> None:
+    assert found([11.0, 99.0], [0.1, math.inf])[:2] == ("failed", 0.0)
+
+
+def test_undecided_without_an_error_or_a_value() -> None:
+    assert found([8.0, 2.0], [0.1, math.nan]) == ("undecided", 1.0, "its error is not known")
+    assert found([math.nan], [math.nan])[::2] == ("undecided", "it has no value in this run")
+    assert verdict_on(run([1.0], [0.0]), "heat", 1.0).reason == "the result does not have it"
+
+
+def test_instants_without_a_value_do_not_count() -> None:
+    # Such as an eccentricity without contact.
+    assert found([math.nan, 8.0], [math.nan, 0.1]) == ("passed", 1.0, "")
+
+
+def test_what_has_passed_so_far_is_undecided_until_the_run_ends() -> None:
+    limit = {"allowable": json.dumps({"peak_pressure": {"limit": 10.0}})}
+    [early] = verdicts(run([8.0], [0.1], complete=0, **limit))
+    [late] = verdicts(run([8.0], [0.1], complete=1, **limit))
+    assert (early.verdict, early.reason) == ("undecided", "the run has not ended")
+    assert late.verdict == "passed"
+
+
+def test_worst_verdict_of_several() -> None:
+    one = run([8.0], [0.1])
+    several = [verdict_on(one, "peak_pressure", limit) for limit in (9.0, 8.0, 7.0)]
+    assert [each.verdict for each in several] == ["passed", "undecided", "failed"]
+    assert (overall(several), overall(several[:2]), overall([])) == ("failed", "undecided", None)
+
+
+# --- the section of a case ----------------------------------------------------------------------
+
+
+def test_every_scalar_with_an_error_and_the_stresses_can_be_limited() -> None:
+    names = set(Allowable.model_fields)
+    assert names == set(variables.scalars_with_error()) | set(STRESSES)
+    assert {name for name, each in variables.SCALARS.items() if each.moving} & names == set(MOVING)
+    assert set(variables.NOT_STEADY) & names == set(NOT_STEADY)
+
+
+def test_limits_have_the_dimension_of_their_scalar() -> None:
+    for name, key in Allowable.model_fields.items():
+        annotation = str(key.annotation)
+        units = variables.SCALARS[name].units if name in variables.SCALARS else "Pa"
+        expected = [
+            key for key, known in DIMENSIONS.items() if known.unit.replace("^", "") == units
+        ]
+        assert units == "1" or any(f"dimension='{key}'" in annotation for key in expected), name
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        ("{peak_presure: 65 MPa}", "allowable.peak_presure: unknown key; did you mean 'peak_press"),
+        ("{peak_pressure: 65 N}", "allowable.peak_pressure: cannot read '65 N' as a pressure"),
+        ("{peak_pressure: 65}", "allowable.peak_pressure: 65 has no unit"),
+        ("{approach: -1 mm}", "allowable.approach: must be more than zero"),
+        ("{heat: 1 J}", "allowable.heat: only a moving contact has it; add a motion"),
+    ],
+)
+def test_errors_name_the_key(given: str, why: str, tmp_path: Path) -> None:
+    (tmp_path / "case.yaml").write_text(CASE + f"allowable: {given}\n", encoding="utf-8")
+    with pytest.raises(CaseError) as raised:
+        read_case(tmp_path / "case.yaml")
+    assert f"case.yaml:7: {why}" in str(raised.value)
+
+
+# --- from the case to the report ----------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished run with limits, and its summary."""
+    made = tmp_path_factory.mktemp("limits")
+    (made / "ball.yaml").write_text(CASE + ALLOWABLE, encoding="utf-8")
+    return made
+
+
+@pytest.fixture(scope="module")
+def directory(folder: Path) -> Path:
+    """Its directory; a failed limit is no failed run."""
+    assert main(["run", str(folder / "ball.yaml"), "--quiet"]) == 0
+    return folder / "ball"
+
+
+def test_verdicts_of_a_run_are_kept_in_its_attributes(directory: Path) -> None:
+    with vc.open_results(directory) as ds:
+        stated = json.loads(ds.attrs["allowable"])
+        assert {name: each["verdict"] for name, each in stated.items()} == {
+            "peak_pressure": "failed",
+            "approach": "passed",
+            "von_mises": "passed",
+        }
+        worst = int(ds.peak_pressure.values.argmax())
+        assert stated["peak_pressure"]["value"] == float(ds.peak_pressure[worst])
+        assert stated["peak_pressure"]["error"] == float(ds.peak_pressure_error[worst])
+        # Hertz: 0.58 to 0.62 of the peak pressure for ν of 0.5 to 0.3 (Johnson 1985, section 3.4).
+        assert 0.55 < stated["von_mises"]["value"] / float(ds.peak_pressure[worst]) < 0.65
+        assert [each.verdict for each in verdicts(ds)] == ["failed", "passed", "passed"]
+
+
+def test_show_prints_each_verdict(directory: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", str(directory)]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "failed: peak pressure" in printed
+    assert "allowable 1 MPa" in printed
+    assert "passed: approach" in printed
+
+
+def test_report_has_a_chapter_of_verdicts(directory: Path) -> None:
+    with vc.open_results(directory) as ds:
+        page = report_page(ds)
+        assert '<td class="failed">failed</td>' in page
+        without = report_page(ds.assign_attrs(allowable="{}"))
+    assert "Allowable values" in page
+    assert "Allowable values" not in without
+
+
+def test_table_of_a_sweep_has_the_worst_verdict_of_each_run(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    values = "load.force=1 mN,5 N"
+    case = [str(folder / "ball.yaml"), "--set", "grid={tolerance: 0.1}", "--set"]
+    limits = "allowable={peak_pressure: 20 MPa}"
+    out = ["-o", str(folder / "sweep")]
+    assert main(["run", *case, limits, "--vary", values, *out]) == 0
+    table = capsys.readouterr().out
+    rows = [line for line in table.splitlines() if line.startswith("ball_")]
+    assert [row.split()[-1] for row in rows] == ["passed", "failed"]
