@@ -72,7 +72,7 @@ def test_stresses_of_a_covered_roll_are_refused(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["plot", str(folder / "roll"), "stress-section"]) == 2
-    assert "this result is one of layers" in capsys.readouterr().err
+    assert "history of the pressure" in capsys.readouterr().err
 
 
 @pytest.mark.slow  # each run is a process

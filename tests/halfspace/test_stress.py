@@ -176,10 +176,10 @@ def test_turned_problem_gives_turned_stresses() -> None:
         ({"x": 0.0, "y": 0.0}, "give one of them"),
         ({"depths": [-1.0]}, "0 or positive"),
         ({"depths": [float("nan")]}, "0 or positive"),
-        ({"poisson_ratio": 0.6}, "between 0 and 0.5"),
+        ({"body": 0.6}, "between 0 and 0.5"),
     ],
 )
 def test_what_makes_no_section_is_refused(wrong: dict[str, object], words: str) -> None:
-    arguments: dict[str, object] = {"depths": [0.1], "poisson_ratio": 0.3, **wrong}
+    arguments: dict[str, object] = {"depths": [0.1], "body": 0.3, **wrong}
     with pytest.raises(ValueError, match=words):
         stress_on_section(np.ones((4, 4)), Grid((4, 4), (1.0, 1.0)), **arguments)

@@ -117,7 +117,7 @@ class ElasticStack(SurfaceResponse):
             waves = waves.above(layer, q)
         # Of the planes' vectors, the one without shear: S = -p, and p displaces by (1 - ν)/(μ q) L.
         top = self.layers[0]
-        return np.asarray(-waves.normal_compliance / (1 - top.poisson_ratio))
+        return np.asarray(-normal_compliance(waves.vectors) / (1 - top.poisson_ratio))
 
 
 def _softness(poisson_ratio: float) -> float:
@@ -125,7 +125,7 @@ def _softness(poisson_ratio: float) -> float:
     return (1 - 2 * poisson_ratio) / (2 - 2 * poisson_ratio)
 
 
-def _wave_matrix(poisson_ratio: float) -> Array:
+def wave_matrix(poisson_ratio: float) -> Array:
     """Matrix A of the waves in a material."""
     a, b = poisson_ratio / (1 - poisson_ratio), _softness(poisson_ratio)
     c = 2 / (1 - poisson_ratio)
@@ -148,52 +148,52 @@ class _Waves:
     def beneath(cls, base: ElasticBase | None, shape: tuple[int, ...]) -> _Waves:
         """Waves at the surface of the base: decaying ones, or tractions only."""
         if base is not None:
-            vectors = _decaying(base.poisson_ratio)
+            vectors = decaying(base.poisson_ratio)
             return cls(np.broadcast_to(vectors, (*shape, 4, 2)), base.shear_modulus)
         vectors = np.zeros((*shape, 4, 2))
         vectors[..., 2, 0] = vectors[..., 3, 1] = 1.0
         return cls(vectors, 1.0)
-
-    @property
-    def normal_compliance(self) -> Array:
-        """Normal displacement per normal traction without shear traction."""
-        (w1, w2), (t1, t2), (s1, s2) = (
-            (self.vectors[..., row, 0], self.vectors[..., row, 1]) for row in (1, 2, 3)
-        )
-        return np.asarray((w1 * t2 - w2 * t1) / (s1 * t2 - s2 * t1))
 
     def above(self, layer: ElasticLayer, q: Array) -> _Waves:
         """Waves at the upper side of a layer."""
         softer = np.array([1.0, 1.0, 0.0, 0.0]) * (layer.shear_modulus / self.shear_modulus - 1)
         vectors = self.vectors * (1 + softer)[:, None]
         if not layer.bonded:
-            vectors = _sliding(_Waves(vectors, layer.shear_modulus).normal_compliance)
+            vectors = sliding(normal_compliance(vectors))
         depth = q * layer.thickness
         deep = depth.real > DEEP
-        moved = _transfer(np.where(deep, DEEP, depth), layer.poisson_ratio) @ vectors
-        moved[deep] = _decaying(layer.poisson_ratio)
+        moved = transfer(np.where(deep, DEEP, depth), layer.poisson_ratio) @ vectors
+        moved[deep] = decaying(layer.poisson_ratio)
         # The second vector comes from the tractions: keep both of order one.
         moved /= np.abs(moved).max(axis=-2, keepdims=True)
         return _Waves(moved, layer.shear_modulus)
 
 
-def _decaying(poisson_ratio: float) -> Array:
+def decaying(poisson_ratio: float) -> Array:
     """Two waves that decay with depth: those of e^-ζ, the columns of (A - 1)²."""
-    grown = _wave_matrix(poisson_ratio) - np.eye(4)
+    grown = wave_matrix(poisson_ratio) - np.eye(4)
     return np.asarray((grown @ grown)[:, 2:])
 
 
-def _sliding(normal_compliance: Array) -> Array:
+def normal_compliance(vectors: Array) -> Array:
+    """Normal displacement per normal traction without shear traction, of a plane of vectors."""
+    (w1, w2), (t1, t2), (s1, s2) = (
+        (vectors[..., row, 0], vectors[..., row, 1]) for row in (1, 2, 3)
+    )
+    return np.asarray((w1 * t2 - w2 * t1) / (s1 * t2 - s2 * t1))
+
+
+def sliding(compliance: Array) -> Array:
     """Waves above an interface without friction: it slides, and yields to normal traction."""
-    vectors = np.zeros((*normal_compliance.shape, 4, 2), normal_compliance.dtype)
+    vectors = np.zeros((*compliance.shape, 4, 2), compliance.dtype)
     vectors[..., 0, 0] = vectors[..., 3, 1] = 1.0
-    vectors[..., 1, 1] = normal_compliance
+    vectors[..., 1, 1] = compliance
     return vectors
 
 
-def _transfer(depth: Array, poisson_ratio: float) -> Array:
+def transfer(depth: Array, poisson_ratio: float) -> Array:
     """The matrix exp(-A ζ) e^-ζ that carries a wave up through a layer of ζ = q h; (..., 4, 4)."""
-    a = _wave_matrix(poisson_ratio)
+    a = wave_matrix(poisson_ratio)
     n = a @ a - np.eye(4)
     grown, decayed = 0.5, np.exp(-2 * depth) / 2  # of e^ζ/2 and e^-ζ/2, times e^-ζ
     cosh, sinh = grown + decayed, -np.expm1(-2 * depth) / 2

@@ -21,7 +21,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.stress_influence import stress_coefficients
+from viscontact.halfspace.stress_response import StressResponse
 
 #: Images on either side that are summed one by one.
 IMAGES = 4
@@ -36,25 +36,27 @@ def periodic_stress_coefficients(
     edge: float,
     y_edges: NDArray[np.float64],
     depth: float,
-    poisson_ratio: float,
+    response: StressResponse,
 ) -> NDArray[np.float64]:
     """Stress per unit pressure on cells that repeat along x with a period of `cells` edges [-].
 
     At points at x = first, first + edge, ... from a cell's centre [m], within half a period or so.
     Components xx, yy, zz, yz, xz, xy, shape (6, cells, ny); the other arguments are those of
-    `stress_coefficients`.
+    `stress_coefficients`, and the body.
 
     Under the middle of a strip of half width a, at the depth a, σyy is the stress across,
     -(1/π) (π/2 - 1) p (Johnson 1985, eqs. 2.32):
 
-    >>> stress = periodic_stress_coefficients(0.0, 1, 5.0, np.array([1.0, -1.0]), 1.0, 0.3)
+    >>> from viscontact.halfspace.stress_response import HalfSpaceStress
+    >>> body = HalfSpaceStress(0.3)
+    >>> stress = periodic_stress_coefficients(0.0, 1, 5.0, np.array([1.0, -1.0]), 1.0, body)
     >>> round(float(stress[1, 0, 0] * np.pi), 6)
     -0.570796
     """
 
     def at(x_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         # The edges rise along x, so that the first difference has the other sign.
-        return -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
+        return -response.coefficients(x_edges, y_edges, depth)
 
     period, places = cells * edge, np.arange(cells, dtype=np.float64) * edge + first
     # 1. The images nearby, and those that the correction takes.

@@ -82,7 +82,7 @@ def smooth_kernel(response: SurfaceResponse, reach: float) -> SmoothKernel:
     # Over r/length: Δ is even, its moment's integrand odd in t.
     moments = values * r * np.cosh(t)
     value, moment = (
-        scipy.interpolate.make_interp_spline(*_extended(t, each, sign), k=DEGREE)
+        scipy.interpolate.make_interp_spline(*extended(t, each, sign), k=DEGREE)
         for each, sign in ((values, 1), (moments, -1))
     )
     integral = moment.antiderivative()
@@ -101,7 +101,7 @@ def _ray_integral(response: SurfaceResponse, length: float, r: Array) -> Array:
     )
 
 
-def _extended(t: Array, values: Array, sign: int) -> tuple[Array, Array]:
+def extended(t: Array, values: Array, sign: int) -> tuple[Array, Array]:
     """Even (1) or odd (-1) function with some of its entries at negative arguments."""
     before = slice(MIRRORED - 1, None, -1)
-    return np.append(-t[before], t), np.append(sign * values[before], values)
+    return np.append(-t[before], t), np.concatenate([sign * values[before], values])

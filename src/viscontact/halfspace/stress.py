@@ -1,4 +1,4 @@
-"""Subsurface stresses of the half-space under a pressure on its surface.
+"""Subsurface stresses of a half-space or of layers under a pressure on the surface.
 
 With a constant Poisson's ratio the stresses of a viscoelastic half-space under pressure alone are
 the elastic ones: they do not depend on the modulus, hence on the current pressure only (Lee 1955,
@@ -8,6 +8,7 @@ correspondence principle).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +16,8 @@ from scipy import fft
 
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
-from viscontact.halfspace.stress_influence import COMPONENTS, stress_coefficients
+from viscontact.halfspace.stress_influence import COMPONENTS
+from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
 
 #: Depth, as a part of a cell's edge, at which the surface is evaluated: only on the surface itself
 #: the stress jumps with the pressure from cell to cell; just below, it takes the mean value.
@@ -67,7 +69,7 @@ def stress_on_section(
     pressure: NDArray[np.float64],
     grid: Grid,
     depths: ArrayLike,
-    poisson_ratio: float,
+    body: float | StressResponse,
     *,
     x: float | None = None,
     y: float | None = None,
@@ -76,36 +78,36 @@ def stress_on_section(
 
     Parameters
     ----------
-    pressure : ndarray, shape (nx, ny)
+    pressure : ndarray, shape (..., nx, ny)
         Pressure on the surface, positive in compression [Pa].
     grid : Grid
         The cells.
     depths : array_like, shape (nz,)
         Depths below the surface, 0 or positive [m].
-    poisson_ratio : float
-        Of the half-space [-].
+    body : float or StressResponse
+        Poisson's ratio of a half-space [-], or a body of layers.
     x, y : float, optional
         Position of the plane [m]; the other coordinate runs over the grid's cell centres.
 
     Returns
     -------
     Stress
-        Components of shape (nz, nx) on a plane of given y, (nz, ny) on one of given x.
+        Components of shape (..., nz, nx) on a plane of given y, (..., nz, ny) on one of given x.
 
     Raises
     ------
     ValueError
-        If both x and y are given, a depth is negative or no number, or Poisson's ratio is not
-        between 0 and 0.5.
+        If both x and y are given, a depth is negative, no number or in a rigid base, or Poisson's
+        ratio is not between 0 and 0.5.
 
     Notes
     -----
     Each line of cells acts on the section as a convolution with Love's closed form
-    (`stress_influence`), by zero-padded fast Fourier transforms; exact for pressure that is
-    constant within cells. On a grid that is periodic along one axis the images of a cell are
-    summed (`periodic_stress`). On one that is periodic along both, each wave of the pressure has
-    its own stresses (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and
-    the mean pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
+    (`stress_influence`, of layers `layered_stress`), by zero-padded fast Fourier transforms; exact
+    for pressure that is constant within cells. On a grid that is periodic along one axis the images
+    of a cell are summed (`periodic_stress`). On one that is periodic along both, each wave of the
+    pressure has its own stresses (Johnson 1985, Contact Mechanics, section 13.2, turned to its
+    direction), and the mean pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
 
     Examples
     --------
@@ -115,21 +117,70 @@ def stress_on_section(
     >>> round(float(stress["zz"][0, 2] / (-3 * 4 / (2 * np.pi * 20**2))), 2)
     1.0
     """
-    below = _checked(depths, poisson_ratio)
+    response = _response(body)
+    below = _checked(depths, response)
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
-        periodic = (grid.periodic[1], grid.periodic[0])
-        turned = Grid(grid.shape[::-1], grid.size[::-1], periodic, centre=grid.centre[::-1])
-        stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
+        turned = pressure.swapaxes(-1, -2)
+        stress = stress_on_section(turned, _turned(grid), below, response, y=x)
         # x and y are exchanged on the turned grid.
         return Stress(stress.components[EXCHANGED])
     y = grid.centre[1] if y is None else y
+    fields = pressure.reshape(-1, *grid.shape)
     if all(grid.periodic):
-        return _below_period(pressure, grid, below, poisson_ratio, y)
-    lines = np.flatnonzero(pressure.any(axis=0))
-    loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
-    return _along_x(pressure[:, loaded], grid, loaded, below, poisson_ratio, y)
+        found = np.stack([_below_period(each, grid, below, response, y) for each in fields], 1)
+    else:
+        lines = np.flatnonzero(fields.any(axis=(0, 1)))
+        loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
+        found = _along_x(fields[:, :, loaded], grid, loaded, below, response, y)
+    return Stress(found.reshape(6, *pressure.shape[:-2], *found.shape[2:]))
+
+
+def stress_on_plane(
+    pressure: NDArray[np.float64], grid: Grid, depth: float, body: float | StressResponse
+) -> Stress:
+    """Stress on a plane parallel to the surface, at the cell centres, of shape (..., nx, ny).
+
+    The arguments are those of `stress_on_section`. Under the middle of a wide load it is carried
+    as it is:
+
+    >>> stress = stress_on_plane(np.ones((9, 9)), Grid((9, 9), (9.0, 9.0)), 0.01, 0.3)
+    >>> round(float(stress["zz"][4, 4]), 6)
+    -1.0
+    """
+    response = _response(body)
+    below = float(_checked([depth], response)[0])
+    if all(grid.periodic):
+        fields = pressure.reshape(-1, *grid.shape)
+        found = np.stack([_waves_at(fft.fft2(own), grid, below, response) for own in fields], 1)
+        return Stress(fft.ifft2(found).real.reshape(6, *pressure.shape))
+    if grid.periodic[1]:
+        turned = stress_on_plane(pressure.swapaxes(-1, -2), _turned(grid), below, response)
+        return Stress(turned.components[EXCHANGED].swapaxes(-1, -2))
+    below = max(below, SURFACE * min(grid.cell_size))
+    (nx, ny), (dx, dy) = grid.shape, grid.cell_size
+    y_edges = (np.arange(-ny + 1, ny + 1, dtype=np.float64) - 0.5) * dy
+    if grid.periodic[0]:
+        # The edges rise along y, so that the second difference has the other sign.
+        first = -(nx // 2) * dx
+        kernel = -periodic_stress_coefficients(first, nx, dx, y_edges, below, response)
+        kernel, padded = fft.ifftshift(kernel, axes=1), nx
+    else:
+        x_edges = (np.arange(-nx + 1, nx + 1, dtype=np.float64) - 0.5) * dx
+        kernel = response.coefficients(x_edges, y_edges, below)
+        kernel, padded = np.roll(kernel, 1 - nx, axis=1), 2 * nx - 1
+    shape = (padded, 2 * ny - 1)
+    spectrum = fft.rfft2(np.roll(kernel, 1 - ny, axis=2), shape)
+    own = fft.rfft2(pressure, shape)
+    found = np.stack([fft.irfft2(each * own, shape)[..., :nx, :ny] for each in spectrum])
+    return Stress(found)
+
+
+def _turned(grid: Grid) -> Grid:
+    """Grid with x and y exchanged."""
+    periodic = (grid.periodic[1], grid.periodic[0])
+    return Grid(grid.shape[::-1], grid.size[::-1], periodic, centre=grid.centre[::-1])
 
 
 def _along_x(
@@ -137,42 +188,44 @@ def _along_x(
     grid: Grid,
     loaded: slice,
     depths: NDArray[np.float64],
-    poisson_ratio: float,
+    response: StressResponse,
     y: float,
-) -> Stress:
+) -> NDArray[np.float64]:
     """Stress by a convolution along the section, circular along a period, summed across it."""
     cells = len(grid.x)
     # Zero-padded where there are no periodic images.
     padded = cells if grid.periodic[0] else fft.next_fast_len(2 * cells - 1, real=True)
-    spectrum = fft.rfft(pressure, padded, axis=0)
-    found = np.empty((6, len(depths), cells))
+    spectra = fft.rfft(pressure, padded, axis=1)
+    found = np.empty((6, len(pressure), len(depths), cells))
     for index, depth in enumerate(np.maximum(depths, SURFACE * min(grid.cell_size)).tolist()):
         if grid.periodic[0]:
-            wrapped = _along_period(grid, loaded, depth, poisson_ratio, y)
+            wrapped = _along_period(grid, loaded, depth, response, y)
         else:
-            kernel = _of_offsets(grid, loaded, depth, poisson_ratio, y)
+            kernel = _of_offsets(grid, loaded, depth, response, y)
             wrapped = np.zeros((6, padded, kernel.shape[2]))
             wrapped[:, :cells] = kernel[:, cells - 1 :]
             wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
-        # Multiply along x, sum over the loaded lines of cells along y.
-        product = np.einsum("cky,ky->ck", fft.rfft(wrapped, axis=1), spectrum)
-        found[:, index] = fft.irfft(product, padded, axis=1)[:, :cells]
-    return Stress(found)
+        transformed = fft.rfft(wrapped, axis=1)
+        for place, spectrum in enumerate(spectra):
+            # Multiply along x, sum over the loaded lines of cells along y.
+            product = np.einsum("cky,ky->ck", transformed, spectrum)
+            found[:, place, index] = fft.irfft(product, padded, axis=1)[:, :cells]
+    return found
 
 
 def _along_period(
-    grid: Grid, loaded: slice, depth: float, poisson_ratio: float, y: float
+    grid: Grid, loaded: slice, depth: float, response: StressResponse, y: float
 ) -> NDArray[np.float64]:
     """Influence of the loaded lines at offsets along a period, the negative ones at the end."""
     cells, (dx, dy) = len(grid.x), grid.cell_size
     y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
     first = -(cells // 2) * dx
-    kernel = periodic_stress_coefficients(first, cells, dx, y_edges, depth, poisson_ratio)
+    kernel = periodic_stress_coefficients(first, cells, dx, y_edges, depth, response)
     return np.asarray(fft.ifftshift(kernel, axes=1))
 
 
 def _of_offsets(
-    grid: Grid, loaded: slice, depth: float, poisson_ratio: float, y: float
+    grid: Grid, loaded: slice, depth: float, response: StressResponse, y: float
 ) -> NDArray[np.float64]:
     """Influence of the loaded lines at all offsets along x, ascending; shape (6, 2 nx - 1, lines).
 
@@ -183,11 +236,11 @@ def _of_offsets(
     if not grid.periodic[1]:
         y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
         # The edges rise along x, so that the first difference has the other sign.
-        return -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
+        return -response.coefficients(x_edges, y_edges, depth)
     # Distances from the lines to the section, within half a period.
     beyond = (y - grid.y[0]) % dy
     first = beyond - (lines // 2) * dy
-    turned = -periodic_stress_coefficients(first, lines, dy, x_edges, depth, poisson_ratio)
+    turned = -periodic_stress_coefficients(first, lines, dy, x_edges, depth, response)
     places = np.rint((y - beyond - grid.y[loaded]) / dy).astype(int) + lines // 2
     return turned[EXCHANGED].swapaxes(1, 2)[:, :, places % lines]
 
@@ -196,42 +249,57 @@ def _below_period(
     pressure: NDArray[np.float64],
     grid: Grid,
     depths: NDArray[np.float64],
-    poisson_ratio: float,
+    response: StressResponse,
     y: float,
-) -> Stress:
+) -> NDArray[np.float64]:
     """Stress of each wave: waves along the section by a transform, waves across it by a sum."""
+    across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
+    spectrum = fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
+    found = np.empty((6, len(depths), grid.shape[0]))
+    for index, depth in enumerate(depths.tolist()):
+        components = _waves_at(spectrum, grid, depth, response)
+        found[:, index] = fft.ifft(components.sum(axis=2), axis=1).real
+    return found
+
+
+def _waves_at(
+    spectrum: NDArray[Any], grid: Grid, depth: float, response: StressResponse
+) -> NDArray[Any]:
+    """Fourier coefficients of all components at a depth, from those of the pressure."""
     along = 2 * np.pi * fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
     across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
     q = np.hypot(along, across)
     q[0, 0] = 1.0  # the mean has no direction; it is set below
     east, north = along / q, across / q
-    spectrum = fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
-    mean = spectrum[0, 0]
-    lateral = poisson_ratio / (1 - poisson_ratio)
-    found = np.empty((6, len(depths), grid.shape[0]))
-    for index, depth in enumerate(depths.tolist()):
-        # Johnson 1985, section 13.2: each wave decays as exp(-q z).
-        waves, qz = spectrum * np.exp(-q * depth), q * depth
-        ahead, aside = -(1 - qz) * waves, -2 * poisson_ratio * waves
-        components = np.stack(
-            [
-                east**2 * ahead + north**2 * aside,
-                north**2 * ahead + east**2 * aside,
-                -(1 + qz) * waves,
-                1j * north * qz * waves,
-                1j * east * qz * waves,
-                east * north * (ahead - aside),
-            ]
-        )
-        components[:, 0, 0] = -mean * np.array([lateral, lateral, 1.0, 0.0, 0.0, 0.0])
-        found[:, index] = fft.ifft(components.sum(axis=2), axis=1).real
-    return Stress(found)
+    own = response.waves(q, depth)
+    waves = spectrum * own.decay
+    ahead, aside = own.along * waves, own.across * waves
+    components = np.stack(
+        [
+            east**2 * ahead + north**2 * aside,
+            north**2 * ahead + east**2 * aside,
+            own.normal * waves,
+            -1j * north * own.shear * waves,
+            -1j * east * own.shear * waves,
+            east * north * (ahead - aside),
+        ]
+    )
+    nu = response.poisson_ratio_at(depth)
+    lateral = nu / (1 - nu)
+    components[:, 0, 0] = -spectrum[0, 0] * np.array([lateral, lateral, 1.0, 0.0, 0.0, 0.0])
+    return components
 
 
-def _checked(depths: ArrayLike, poisson_ratio: float) -> NDArray[np.float64]:
+def _response(body: float | StressResponse) -> StressResponse:
+    return body if isinstance(body, StressResponse) else HalfSpaceStress(body)
+
+
+def _checked(depths: ArrayLike, response: StressResponse) -> NDArray[np.float64]:
     below = np.atleast_1d(np.asarray(depths, dtype=float))
     if below.ndim != 1 or not (np.isfinite(below) & (below >= 0)).all():
         raise ValueError(f"depths must be numbers of metres, 0 or positive, got {depths!r}")
-    if not 0 <= poisson_ratio <= 0.5:
-        raise ValueError(f"poisson_ratio must lie between 0 and 0.5, got {poisson_ratio!r}")
+    for depth in below.tolist():
+        if not 0 <= response.poisson_ratio_at(depth) <= 0.5:
+            ratio = response.poisson_ratio_at(depth)
+            raise ValueError(f"poisson_ratio must lie between 0 and 0.5, got {ratio!r}")
     return below

@@ -128,7 +128,7 @@ def surface_of(bodies: Sequence[Material | Layered]) -> Surface:
         for new in _terms_of(body):
             terms = _with_term(terms, new)
     layered = [body for body in bodies if isinstance(body, Layered)]
-    separated = [separate(body) for body in layered if _as_elastic(body) is None]
+    separated = [separate(body) for body in layered if as_elastic(body) is None]
     error = max((each.error for each in separated), default=0.0)
     return Surface(tuple(terms), error)
 
@@ -152,14 +152,14 @@ def _terms_of(body: Material | Layered) -> list[SurfaceTerm]:
     """Terms of one body."""
     if isinstance(body, Material):
         return [SurfaceTerm(body.contact_compliance(), HALF_SPACE)]
-    creeps_alike = _as_elastic(body)
+    creeps_alike = as_elastic(body)
     if creeps_alike is not None:
         return [SurfaceTerm(body.layers[0].material.contact_compliance(), creeps_alike)]
     found = separate(body)
     return [SurfaceTerm(*pair) for pair in zip(found.compliances, found.responses, strict=True)]
 
 
-def _as_elastic(body: Layered) -> ElasticStack | None:
+def as_elastic(body: Layered) -> ElasticStack | None:
     """Elastic stack of the ratios of the moduli, None if they or Poisson's ratios vary in time."""
     top, *others = (contact_creep(material) for material in body.materials)
     ratios = [1.0]

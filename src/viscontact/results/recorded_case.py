@@ -24,24 +24,18 @@ def is_layered(results: xr.Dataset, part: str = "material") -> bool:
     return (case_of(results).get(part) or {}).get("type") == "Layered"
 
 
-def refuse_layers(results: xr.Dataset, what: str) -> None:
-    """Raise ValueError for a result of layers, to which the formulas of a half-space do not apply.
+def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float:
+    """Poisson's ratio [-] of a half-space that a result belongs to.
 
-    >>> refuse_layers(xr.Dataset(attrs={"case": '{"material": {"type": "Layered"}}'}), "stresses")
+    >>> ball = {"case": '{"indenter_material": null}'}
+    >>> recorded_poisson_ratio(xr.Dataset(attrs=ball), "indenter_material")
     Traceback (most recent call last):
     ...
-    ValueError: stresses: those of a half-space are known only, and this result is one of layers
+    ValueError: stresses: the indenter of this result is rigid
     """
-    if is_layered(results):
-        raise ValueError(
-            f"{what}: those of a half-space are known only, and this result is one of layers"
-        )
-
-
-def recorded_poisson_ratio(results: xr.Dataset) -> float:
-    """Poisson's ratio [-] of the half-space that a result belongs to."""
-    refuse_layers(results, "stresses")
-    material = case_of(results).get("material") or {}
+    if part == "indenter_material" and case_of(results).get(part) is None:
+        raise ValueError("stresses: the indenter of this result is rigid")
+    material = case_of(results).get(part) or {}
     ratio = material.get("poisson_ratio")
     if ratio is not None:
         return float(ratio)

@@ -7,20 +7,16 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from viscontact.grid import Grid
-from viscontact.halfspace.stress import Stress, stress_on_section
+from viscontact.halfspace.stress import Stress
 from viscontact.halfspace.stress_influence import COMPONENTS
-from viscontact.results.recorded_case import (
-    across_period,
-    recorded_grid,
-    recorded_poisson_ratio,
-    refuse_layers,
-)
+from viscontact.results.recorded_case import across_period
+from viscontact.results.stress_source import Body, stress_source
 
-#: Default depths: their number, and the largest in half widths of the contact.
-DEPTHS, REACH = 61, 2.0
+#: Largest default depth, in half widths of the contact.
+REACH = 2.0
 
 
 def section_stresses(
@@ -31,8 +27,9 @@ def section_stresses(
     y: float | None = None,
     times: Sequence[float] | None = None,
     poisson_ratio: float | None = None,
+    body: Body = "material",
 ) -> xr.Dataset:
-    """Stresses in the half-space on a plane below the contact, at the stored instants.
+    """Stresses in the half-space or the layers on a plane below the contact, at stored instants.
 
     Parameters
     ----------
@@ -40,14 +37,18 @@ def section_stresses(
         Result of `simulate` or `open_results`, with stored pressure.
     depths : array_like, shape (nz,), optional
         Depths below the surface, 0 or positive [m]; from 0 to two half widths of the largest
-        contact when left out.
+        contact when left out. At an interface the stresses are those of the layer above; the
+        depths that are chosen have a second one just below it.
     x, y : float, optional
         Position of the plane, one of them [m]; when both are left out, the plane of given y
         through the grid's middle, or that of given x across a grid that is periodic along x only.
     times : sequence of float, optional
         Instants [s], the nearest stored ones are taken; all when left out.
     poisson_ratio : float, optional
-        Of the half-space [-]; the result's own when left out.
+        Of the half-space [-]; the result's own when left out. Not for layers.
+    body : {"material", "indenter_material"}, optional
+        The pressed body or the indenter, which is treated as a half-space or as layers; z points
+        into it.
 
     Returns
     -------
@@ -58,13 +59,14 @@ def section_stresses(
     Raises
     ------
     ValueError
-        If no pressure is stored, Poisson's ratio is not known or varies in time, or an argument
-        is invalid.
+        If no pressure is stored, Poisson's ratio is not known or varies in time, layers creep
+        differently, a depth is in a rigid base, or an argument is invalid.
 
     Notes
     -----
     For a constant Poisson's ratio the stresses follow from the present pressure alone, whatever
-    the body remembers: see `viscontact.halfspace.stress`.
+    the body remembers: see `viscontact.halfspace.stress`. In layers this holds if they do not
+    creep, have one creep law, or are a single one on a rigid base.
 
     Examples
     --------
@@ -78,32 +80,27 @@ def section_stresses(
     >>> round(float(inside.von_mises.max() / ds.peak_pressure[0]), 2)
     0.62
     """
-    if "pressure" not in results:
-        raise ValueError(
-            "stresses need stored pressure; run again with fields stored ('output: fields: all' "
-            "or a list of instants in the case file, fields= in Python)"
-        )
-    refuse_layers(results, "stresses")
-    ratio = recorded_poisson_ratio(results) if poisson_ratio is None else poisson_ratio
-    grid = recorded_grid(results)
+    source = stress_source(results, body, poisson_ratio)
     if depths is None:
-        below = _usual_depths(results, grid)
+        below = source.depths(_usual_depth(results, source.grid))
     else:
         below = np.atleast_1d(np.asarray(depths, float))
     if x is None and y is None and across_period(results) == "y":
-        x = grid.centre[0]
-    pressure = _chosen(results["pressure"], times)
-    fields = (np.asarray(field, dtype=np.float64) for field in pressure.values)
-    found = [stress_on_section(field, grid, below, ratio, x=x, y=y) for field in fields]
-    return _labelled(results, pressure, found, below, "x" if x is None else "y")
+        x = source.grid.centre[0]
+    places = source.places(times)
+    found = source.on_section(places, below, x, y)
+    along = "x" if x is None else "y"
+    depth = {"units": "m", "long_name": "depth below the surface", "positive": "down"}
+    coordinates = {
+        "time": source.time(places),
+        "z": ("z", below, depth),
+        along: results[along],
+    }
+    return xr.Dataset(_labelled(found, along), coords=coordinates)
 
 
-def _chosen(pressure: xr.DataArray, times: Sequence[float] | None) -> xr.DataArray:
-    pressure = pressure.rename({pressure.dims[0]: "time"})
-    return pressure if times is None else pressure.sel(time=list(times), method="nearest")
-
-
-def _usual_depths(results: xr.Dataset, grid: Grid) -> NDArray[np.float64]:
+def _usual_depth(results: xr.Dataset, grid: Grid) -> float:
+    """Two half widths of the largest contact [m]."""
     extents = [results["contact_length"].values, results["contact_width"].values]
     for axis, size in enumerate(grid.size):
         if not grid.has_datum and grid.periodic[axis]:  # a strip through the period has no end
@@ -111,30 +108,17 @@ def _usual_depths(results: xr.Dataset, grid: Grid) -> NDArray[np.float64]:
     half_width = float(np.minimum(*extents).max()) / 2
     if not half_width > 0:
         raise ValueError("there is no contact at any instant; give depths=")
-    return np.linspace(0.0, REACH * half_width, DEPTHS)
+    return REACH * half_width
 
 
-def _labelled(
-    results: xr.Dataset,
-    pressure: xr.DataArray,
-    found: Sequence[Stress],
-    depths: NDArray[np.float64],
-    along: str,
-) -> xr.Dataset:
+def _labelled(found: Stress, along: str) -> dict[str, Any]:
+    """Variables over time, depth and the section."""
     fields: dict[str, Any] = {}
     for name in COMPONENTS:
-        meaning = f"stress component {name}, tension positive"
-        fields[f"stress_{name}"] = (meaning, [stress[name] for stress in found])
-    fields["von_mises"] = ("von Mises stress", [stress.von_mises for stress in found])
-    fields["max_shear"] = ("largest shear stress", [stress.max_shear for stress in found])
-    variables = {
-        name: (("time", "z", along), np.stack(values), {"units": "Pa", "long_name": meaning})
+        fields[f"stress_{name}"] = (f"stress component {name}, tension positive", found[name])
+    fields["von_mises"] = ("von Mises stress", found.von_mises)
+    fields["max_shear"] = ("largest shear stress", found.max_shear)
+    return {
+        name: (("time", "z", along), values, {"units": "Pa", "long_name": meaning})
         for name, (meaning, values) in fields.items()
     }
-    depth = (
-        "z",
-        depths,
-        {"units": "m", "long_name": "depth below the surface", "positive": "down"},
-    )
-    coordinates = {"time": pressure["time"], "z": depth, along: results[along]}
-    return xr.Dataset(variables, coords=coordinates)

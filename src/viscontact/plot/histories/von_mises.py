@@ -17,9 +17,9 @@ from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.pressure.stress_section import stress_sections
-from viscontact.results.recorded_case import recorded_poisson_ratio
 from viscontact.results.run_axis import require_time
 from viscontact.results.snapshots import field_times, take_snapshots
+from viscontact.results.stress_source import stress_source
 from viscontact.units.formatting import readable_unit
 
 _NAME = "von-mises"
@@ -144,9 +144,8 @@ _DRAWN = (("stress", "Pa", "Von Mises stress"), ("depth", "m", "Depth"))
 
 def _curve(results: xr.Dataset, times: ArrayLike | None) -> _StressHistory:
     require_time(results, _NAME)
-    ratio = recorded_poisson_ratio(results)
     chosen = field_times(results, _NAME) if times is None else times
     snapshots = take_snapshots(results, chosen, _NAME)
-    sections = stress_sections(snapshots, ratio)
+    sections = stress_sections(stress_source(results), snapshots)
     stress, depth, _ = np.array([section.largest for section in sections]).T
     return _StressHistory(np.array([section.time for section in sections]), stress, depth)

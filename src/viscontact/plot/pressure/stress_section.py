@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,20 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.halfspace.stress import stress_on_section
 from viscontact.plot.layout import style
 from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.results.recorded_case import recorded_poisson_ratio
 from viscontact.results.snapshots import Snapshot, headings_of, take_snapshots
+from viscontact.results.stress_source import StressSource, stress_source
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 _NAME = "stress-section"
 
 #: Depth of the section, and its extent to each side, in half widths of the contact.
 _DEEP, _ASIDE = 2.0, 2.0
-_DEPTHS = 61
 #: Height of a section that is as deep as wide, because the grid ends near the contact [inch].
 _HIGHEST = 2.2
 # Relative difference of equal pressures, from the tolerance of runs.
@@ -43,17 +40,18 @@ class Section:
     stress: NDArray[np.float64]  # [Pa], shape (m, n)
     axis: str  # of `across`, "x" or "y"
     half_width: float  # of the largest shown contact along that axis [m]
+    interfaces: tuple[float, ...] = ()  # depths of interfaces of layers [m]
 
     @property
     def largest(self) -> tuple[float, float, float]:
         """Largest stress [Pa], and its depth and position across [m]."""
         row, column = np.unravel_index(int(self.stress.argmax()), self.stress.shape)
         depth = float(self.depths[row])
-        if 0 < row < len(self.depths) - 1:
+        steps = np.diff(self.depths)[max(row - 1, 0) : row + 1]
+        if 0 < row < len(self.depths) - 1 and np.allclose(*steps):  # unequal at an interface
             # Vertex of a parabola: discrete depths would give steps over time.
             before, here, after = self.stress[row - 1 : row + 2, column]
-            step = self.depths[1] - self.depths[0]
-            depth += float(step * (before - after) / (2 * (before - 2 * here + after)))
+            depth += float(steps[0] * (before - after) / (2 * (before - 2 * here + after)))
         return float(self.stress.max()), depth, float(self.across[column])
 
 
@@ -76,12 +74,13 @@ def stress_section(
     -------
     matplotlib.figure.Figure
         Planes across the contact, along its shorter extent, through the largest pressure; a cross
-        where the stress is largest.
+        where the stress is largest, and lines at the interfaces of layers.
 
     Raises
     ------
     ValueError
-        If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
+        If no fields are stored, the bodies do not touch, Poisson's ratio is not known, or layers
+        creep differently.
 
     Examples
     --------
@@ -92,9 +91,8 @@ def stress_section(
     >>> [axes.get_ylabel() for axes in stress_section(ds).axes]
     ['Depth [mm]', 'Von Mises stress [kPa]']
     """
-    ratio = recorded_poisson_ratio(results)
     snapshots = take_snapshots(results, times, _NAME, count=2)
-    sections = stress_sections(snapshots, ratio)
+    sections = stress_sections(stress_source(results), snapshots)
     length = readable_unit("m", *(section.half_width * _ASIDE for section in sections))
     stress = readable_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
@@ -123,11 +121,11 @@ def stress_section(
     return figure
 
 
-def stress_sections(snapshots: list[Snapshot], poisson_ratio: float) -> list[Section]:
+def stress_sections(source: StressSource, snapshots: list[Snapshot]) -> list[Section]:
     """Sections at the given instants with contact."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
-    return [_section(snapshot, half_width, poisson_ratio) for snapshot in touching]
+    return [_section(source, snapshot, half_width) for snapshot in touching]
 
 
 def _extents(snapshot: Snapshot) -> tuple[float, float]:
@@ -148,15 +146,16 @@ def _half_width(snapshot: Snapshot) -> float:
     return min(*extents, *(period / _ASIDE for period in periods)) / 2
 
 
-def _section(snapshot: Snapshot, half_width: float, poisson_ratio: float) -> Section:
+def _section(source: StressSource, snapshot: Snapshot, half_width: float) -> Section:
     """Section at one instant, as deep as the largest shown contact requires."""
     left, right, front, back = snapshot.extent()
     length, width = _extents(snapshot)
     is_long = length >= width
     i, j = _place_of_peak(snapshot)
-    depths = np.linspace(0.0, _DEEP * half_width, _DEPTHS)
-    where: dict[str, Any] = {"x": float(snapshot.x[i])} if is_long else {"y": float(snapshot.y[j])}
-    stress = stress_on_section(snapshot.pressure, snapshot.grid, depths, poisson_ratio, **where)
+    depths = source.depths(_DEEP * half_width)
+    place = int(np.flatnonzero(source.stored == snapshot.time)[0])
+    x, y = (float(snapshot.x[i]), None) if is_long else (None, float(snapshot.y[j]))
+    stress = source.on_section([place], depths, x, y)
     across = snapshot.y if is_long else snapshot.x
     middle = (front + back) / 2 if is_long else (left + right) / 2
     near = np.abs(across - middle) <= _ASIDE * half_width
@@ -164,9 +163,10 @@ def _section(snapshot: Snapshot, half_width: float, poisson_ratio: float) -> Sec
         snapshot.time,
         across[near],
         depths,
-        stress.von_mises[:, near],
+        stress.von_mises[0][:, near],
         "y" if is_long else "x",
         half_width,
+        tuple(depth for depth in source.interfaces if depth < depths[-1]),
     )
 
 
@@ -200,6 +200,8 @@ def _draw(
     )
     _, depth, place = section.largest
     axes.plot(length(place), length(depth), "+", color=style.INK, markersize=8)
+    for depth in section.interfaces:
+        axes.axhline(float(length(depth)), color=style.INK, linewidth=1.0)
     axes.set(aspect="equal", ylim=(float(depths[-1]), 0.0), ylabel=length.label("Depth"))
     style.dress(axes)
     return filled, lines

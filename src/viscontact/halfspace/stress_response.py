@@ -1,0 +1,56 @@
+"""Stresses inside an elastic body under a pressure on its surface: of one cell, and of a wave."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.halfspace.stack_waves import WaveStresses
+from viscontact.halfspace.stress_influence import stress_coefficients
+
+Array = NDArray[np.float64]
+
+
+class StressResponse(ABC):
+    """Stresses per unit pressure in a body that is homogeneous along its surface."""
+
+    @abstractmethod
+    def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
+        """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
+
+    @abstractmethod
+    def waves(self, wave_number: Array, depth: float) -> WaveStresses:
+        """Stresses under a wave of pressure, of wave numbers > 0 [1/m], at a depth [m]."""
+
+    @abstractmethod
+    def poisson_ratio_at(self, depth: float) -> float:
+        """Poisson's ratio at a depth [m]; ValueError where there are no stresses."""
+
+
+@dataclass(frozen=True)
+class HalfSpaceStress(StressResponse):
+    """Stresses in a half-space: they depend on its Poisson's ratio only.
+
+    >>> found = HalfSpaceStress(0.3).waves(np.array([1.0]), 0.0)
+    >>> found.along.tolist(), found.normal.tolist()
+    ([-1.0], [-1.0])
+    """
+
+    poisson_ratio: float
+
+    def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
+        """Love's closed form [-]."""
+        return stress_coefficients(x_edges, y_edges, depth, self.poisson_ratio)
+
+    def waves(self, wave_number: Array, depth: float) -> WaveStresses:
+        """Johnson 1985, section 13.2: each wave decays as exp(-q z)."""
+        qz = wave_number * depth
+        decay = np.exp(-wave_number * depth)
+        return WaveStresses(-(1 - qz), -2 * self.poisson_ratio, -(1 + qz), -qz, decay)
+
+    def poisson_ratio_at(self, depth: float) -> float:
+        """That of the half-space."""
+        return self.poisson_ratio
