@@ -283,3 +283,56 @@ def test_a_sheet_of_a_workbook_is_fitted_and_shown_and_named(tmp_path, capsys):
         )
         law = read_material(out).law
         np.testing.assert_allclose(law.relaxation(T), factor * E.relaxation(T) / 2.6, rtol=2e-3)
+
+
+def force_curve(path: Path, heads: tuple[str, ...], *scales: float) -> Path:
+    """Exact Hertz curve of E/(1 - nu²) = 20 kPa, R = 5 µm and 0.1 N/m, contact at 3 µm."""
+    depth = np.linspace(0.0, 0.6e-6, 120)
+    bent = 4 / 3 * 2e4 * np.sqrt(5e-6) * depth**1.5 / 0.1
+    z = np.concatenate([np.linspace(0.0, 2.99e-6, 120), 3e-6 + depth + bent])
+    deflection = np.concatenate([np.zeros(120), bent]) + 0.002 * z + 1e-8
+    columns = zip((z / 1e-6, z, deflection), scales, strict=True)
+    return written(path, heads, *(scale * column for column, scale in columns))
+
+
+@pytest.mark.parametrize(
+    ("last", "scale", "more"),
+    [
+        ("deflection [nm]", 1e9, []),
+        ("deflection [mV]", 1e3 / 5e-8, ["--sensitivity", "50 nm/V"]),
+        ("force [pN]", 0.1e12, []),
+    ],
+)
+def test_a_force_curve_gives_its_contact_point_and_the_law(last, scale, more, tmp_path, capsys):
+    heads = ("time [s]", "position [um]", last)
+    path = force_curve(tmp_path / "curve.csv", heads, 1.0, 1e6, scale)
+    tip = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5", "--law", "elastic"]
+    command = ["fit", str(path), *tip, "--spring-constant", "0.1 N/m", *more]
+    assert main([*command, "-o", str(tmp_path / "fit.png")]) == 0
+    printed = capsys.readouterr().out
+    assert "ContactPoint: at 3 µm" in printed
+    assert "slope of 0.002" in printed
+    assert "shear_modulus: 0.005 MPa" in printed  # (1 - nu)/2 of 20 kPa
+    assert (tmp_path / "fit.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("last", "options", "why"),
+    [
+        ("deflection [nm]", [], "a force curve needs --spring-constant, such as '0.1 N/m'"),
+        ("deflection [V]", ["--spring-constant", "1 N/m"], "needs --sensitivity, such as '50 nm/"),
+        (
+            "deflection [nm]",
+            ["--spring-constant", "1 N/m", "--sensitivity", "50 nm/V"],
+            "--sensitivity goes with a deflection in volts",
+        ),
+        ("deflection [nm]", ["--spring-constant", "1 N"], "--spring-constant: cannot read '1 N'"),
+        ("approach [nm]", ["--spring-constant", "1 N/m"], "go with a force curve"),
+    ],
+)
+def test_a_force_curve_without_its_constants_is_refused(last, options, why, tmp_path, capsys):
+    heads = ("time [s]", "position [um]", last)
+    path = force_curve(tmp_path / "curve.csv", heads, 1.0, 1.0, 1.0)
+    tip = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5"]
+    assert main(["fit", str(path), *tip, *options]) == 2
+    assert why in capsys.readouterr().err

@@ -1,5 +1,7 @@
 """Identification of laws from creep, relaxation, oscillation and indentation measurements."""
 
+from viscontact.identification.contact_point import ContactPoint, find_contact
+from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.isotherm import Isotherm
@@ -16,7 +18,9 @@ from viscontact.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.series_fits.quality import Misfit, Reason
 
 __all__ = [
+    "ContactPoint",
     "Fit",
+    "ForceCurve",
     "IndentationFit",
     "IndentationRecord",
     "Isotherm",
@@ -25,6 +29,7 @@ __all__ = [
     "Reason",
     "ShiftFit",
     "build_master_curve",
+    "find_contact",
     "fit_arrhenius",
     "fit_creep",
     "fit_dynamic",

@@ -54,7 +54,7 @@ class IndentationRecord(Displayable):
 
     def __post_init__(self) -> None:
         columns = {
-            name: _finite(name, getattr(self, name), unit)
+            name: finite_column("IndentationRecord", name, getattr(self, name), unit)
             for name, unit in (("times", "s"), ("approach", "m"), ("force", "N"))
         }
         lengths = {name: column.size for name, column in columns.items()}
@@ -84,17 +84,7 @@ class IndentationRecord(Displayable):
     @property
     def profile(self) -> SphereProfile | ConeProfile | PunchProfile:
         """Indenter profile of the exact solution."""
-        match self.indenter:
-            case Sphere(radius=radius):
-                return SphereProfile(radius)
-            case Cone(half_angle=half_angle):
-                return ConeProfile(half_angle)
-            case FlatPunch(radius=radius) if radius is not None:
-                return PunchProfile(radius)
-        raise ValueError(
-            "IndentationRecord.indenter: must be a Sphere, a Cone or a round FlatPunch(radius), "
-            f"got {self.indenter!r}"
-        )
+        return indenter_profile(self.indenter)
 
     def elastic_force(self, approach: Array) -> Array:
         """Return the force on an elastic body of contact modulus E* = 1 Pa [N].
@@ -109,26 +99,45 @@ class IndentationRecord(Displayable):
         ndarray
             4/3 sqrt(R) d^1.5 (Hertz), 2/π tan(half angle) d² (Sneddon) or 2 a d (Boussinesq).
         """
-        match self.profile:
-            case SphereProfile(radius=radius):
-                return np.asarray(4 / 3 * math.sqrt(radius) * approach**1.5)
-            case ConeProfile(half_angle=half_angle):
-                return np.asarray(2 / math.pi * math.tan(half_angle) * approach**2)
-            case PunchProfile(radius=radius):
-                return np.asarray(2 * radius * approach)
+        return elastic_force(self.indenter, approach)
 
 
-def _finite(name: str, values: NDArray[np.float64], unit: str) -> Array:
+def indenter_profile(indenter: Indenter) -> SphereProfile | ConeProfile | PunchProfile:
+    """Profile of the exact solution for an indenter; ValueError for others than three."""
+    match indenter:
+        case Sphere(radius=radius):
+            return SphereProfile(radius)
+        case Cone(half_angle=half_angle):
+            return ConeProfile(half_angle)
+        case FlatPunch(radius=radius) if radius is not None:
+            return PunchProfile(radius)
+    raise ValueError(
+        "IndentationRecord.indenter: must be a Sphere, a Cone or a round FlatPunch(radius), "
+        f"got {indenter!r}"
+    )
+
+
+def elastic_force(indenter: Indenter, approach: Array) -> Array:
+    """Force on an elastic body of contact modulus 1 Pa under an approach >= 0 [N]."""
+    match indenter_profile(indenter):
+        case SphereProfile(radius=radius):
+            return np.asarray(4 / 3 * math.sqrt(radius) * approach**1.5)
+        case ConeProfile(half_angle=half_angle):
+            return np.asarray(2 / math.pi * math.tan(half_angle) * approach**2)
+        case PunchProfile(radius=radius):
+            return np.asarray(2 * radius * approach)
+
+
+def finite_column(owner: str, name: str, values: NDArray[np.float64], unit: str) -> Array:
+    """Column of finite numbers; ValueError with the name of its owner and the row."""
     try:
         column = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
         column = np.zeros((0, 0))
     if column.ndim != 1:
-        raise ValueError(f"IndentationRecord: {name} must be a column of numbers in {unit}")
+        raise ValueError(f"{owner}: {name} must be a column of numbers in {unit}")
     wrong = ~np.isfinite(column)
     if wrong.any():
         row = int(np.argmax(wrong))
-        raise ValueError(
-            f"IndentationRecord: {name}, row {row}: must be finite, got {float(column[row])!r}"
-        )
+        raise ValueError(f"{owner}: {name}, row {row}: must be finite, got {float(column[row])!r}")
     return column

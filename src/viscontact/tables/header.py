@@ -105,7 +105,10 @@ def read_header(
             _Heading(h.text, h.name, unit.strip("[]() "), rows[1].line, h.stress)
             for h, unit in zip(headings, units, strict=False)
         ]
-    meanings = _meanings(source, headings, columns)
+    meanings = [
+        _by_unit(heading, stated)
+        for heading, stated in zip(headings, _meanings(source, headings, columns), strict=True)
+    ]
     found = tuple(
         Column(place, heading.text, stated, _scale(source, heading, stated), heading.stress)
         for place, (heading, stated) in enumerate(zip(headings, meanings, strict=True))
@@ -191,6 +194,12 @@ def _meanings(
         stated if named & {heading.text, heading.name} or not _is_of_creep_test(stated) else None
         for heading, stated in zip(headings, meant, strict=True)
     ]
+
+
+def _by_unit(heading: _Heading, stated: Meaning | None) -> Meaning | None:
+    """Meaning of a heading; a deflection in volts is the signal of a photodiode."""
+    is_signal = stated is not None and stated.quantity == "deflection"
+    return Meaning("signal") if is_signal and heading.unit in ("V", "mV") else stated
 
 
 def _is_of_creep_test(stated: Meaning | None) -> bool:

@@ -25,6 +25,9 @@ QUANTITIES: dict[str, str | None] = {
     "shift_factor": None,
     "force": "force",
     "approach": "length",
+    "position": "length",
+    "deflection": "length",
+    "signal": "voltage",
     "eccentricity_x": "length",
     "eccentricity_y": "length",
     "tilt_x": "angle",
@@ -137,6 +140,12 @@ _WORDS = {
         ("approach", "depth", "indentation", "indentation_depth", "eindringtiefe"),
         Meaning("approach"),
     ),
+    **dict.fromkeys(
+        ("position", "piezo_position", "piezo", "z_position", "z_piezo", "z_sensor"),
+        Meaning("position"),
+    ),
+    **dict.fromkeys(("deflection", "cantilever_deflection"), Meaning("deflection")),
+    **dict.fromkeys(("signal", "deflection_signal", "photodiode_signal"), Meaning("signal")),
     **{
         name: Meaning(name) for name in ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
     },

@@ -68,6 +68,12 @@ _FACTORS: dict[str, dict[str, float]] = {
     },
     "kilogram * meter ** 2 / ampere / second ** 3": {
         "V": 1.0,
+        "mV": 0.001,
+    },
+    "ampere * second ** 3 / kilogram / meter": {
+        "nm/V": 1e-09,
+        "um/V": 1e-06,
+        "m/V": 1.0,
     },
     "kilogram * meter ** 2 / second ** 2": {
         "N m": 1.0,
@@ -79,6 +85,7 @@ _FACTORS: dict[str, dict[str, float]] = {
     "kilogram / second ** 2": {
         "N/m": 1.0,
         "N/mm": 1000.0,
+        "mN/m": 0.001,
         "kN/m": 1000.0,
     },
     "meter ** 2": {

@@ -46,6 +46,9 @@ DIMENSIONS = {
     "line load": Dimension("a force per length", "N/m", "40 N/mm", ("N/m", "N/mm", "kN/m")),
     "energy": Dimension("an energy", "J", "5 mJ", ("uJ", "mJ", "J", "kJ")),
     "power": Dimension("a power", "W", "2 W", ("mW", "W", "kW")),
+    "stiffness": Dimension("a stiffness", "N/m", "0.1 N/m", ("N/m", "mN/m", "kN/m")),
+    "voltage": Dimension("a voltage", "V", "1 V", ("mV", "V")),
+    "sensitivity": Dimension("a length per voltage", "m/V", "50 nm/V", ("nm/V", "um/V")),
     "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 
@@ -58,5 +61,4 @@ OTHER_DIMENSIONS = {
     "K": "a temperature",
     "N m": "an energy or a moment",
     "N/m": "a stiffness",
-    "V": "a voltage",
 }

@@ -82,6 +82,23 @@ Body = Annotated[
         "angle) or 'punch 2 um' (radius).",
     ),
 ]
+SpringConstant = Annotated[
+    str | None,
+    typer.Option(
+        "--spring-constant",
+        metavar="K",
+        help="Spring constant of the cantilever, e.g. '0.1 N/m', for a force curve: columns time, "
+        "position, and deflection or force.",
+    ),
+]
+Sensitivity = Annotated[
+    str | None,
+    typer.Option(
+        "--sensitivity",
+        metavar="S",
+        help="Deflection per signal of a force curve in volts, e.g. '50 nm/V'.",
+    ),
+]
 LawName = Annotated[
     str,
     typer.Option(
@@ -115,6 +132,8 @@ def fit(
     reference: Reference = None,
     temperature: Temperature = None,
     indenter: Body = None,
+    spring_constant: SpringConstant = None,
+    sensitivity: Sensitivity = None,
     law: LawName = "zener",
     output: Figure = None,
     width: Width = None,
@@ -123,7 +142,8 @@ def fit(
     """Fit a law to measured creep, relaxation, oscillation or indentation.
 
     Measurements at several temperatures are joined to a master curve, and the shift factors are
-    printed.
+    printed. In a force curve, the contact point is found and the bending of the cantilever
+    subtracted first.
     """
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
@@ -139,6 +159,8 @@ def fit(
         temperature=temperature,
         indenter=indenter,
         law=law,
+        spring_constant=spring_constant,
+        sensitivity=sensitivity,
         weight=weight or (),
         stress=stress,
     )

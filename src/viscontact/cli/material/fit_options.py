@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from viscontact.identification import ForceCurve
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.series_fits.prony import FitOptions
 from viscontact.tables import Table
@@ -26,6 +27,8 @@ class FitArguments:
     law: str
     weight: Sequence[str] = ()
     stress: str | None = None
+    spring_constant: str | None = None
+    sensitivity: str | None = None
 
     @property
     def weights(self) -> dict[str, float] | None:
@@ -55,10 +58,7 @@ class FitArguments:
         """Return Poisson's ratio [-] and the bulk modulus [Pa], None where not given."""
         if self.bulk_modulus is None:
             return self.poisson_ratio, None
-        try:
-            return self.poisson_ratio, parse_quantity(self.bulk_modulus, "pressure")
-        except ValueError as error:
-            raise ValueError(f"--bulk-modulus: {error}") from None
+        return self.poisson_ratio, _read_option("--bulk-modulus", self.bulk_modulus, "pressure")
 
     def indenter_of(self, table: Table) -> Indenter:
         """Return the indenter of an indentation record."""
@@ -74,6 +74,30 @@ class FitArguments:
             )
         self._refuse_idle(table)
         return read_indenter(self.indenter)
+
+    def force_curve(self, table: Table) -> ForceCurve:
+        """Return the force curve of a table."""
+        if self.spring_constant is None:
+            raise ValueError(
+                f"{table.source.name}: a force curve needs --spring-constant, such as '0.1 N/m'"
+            )
+        stiffness = _read_option("--spring-constant", self.spring_constant, "stiffness")
+        if "signal" not in table and self.sensitivity is not None:
+            raise ValueError(
+                f"{table.source.name}: --sensitivity goes with a deflection in volts; leave it out"
+            )
+        if "deflection" in table:
+            deflection = table["deflection"]
+        elif "force" in table:
+            deflection = table["force"] / stiffness
+        elif self.sensitivity is None:
+            raise ValueError(
+                f"{table.source.name}: a deflection in volts needs --sensitivity, such as '50 nm/V'"
+            )
+        else:
+            sensitivity = _read_option("--sensitivity", self.sensitivity, "sensitivity")
+            deflection = sensitivity * table["signal"]
+        return ForceCurve(table["time"], table["position"], deflection, stiffness)
 
     def _refuse_idle(self, table: Table) -> None:
         """Refuse options that do not apply to an indentation record."""
@@ -115,10 +139,7 @@ def read_stress(text: str | None) -> float | None:
     >>> read_stress("5 MPa")
     5000000.0
     """
-    try:
-        return None if text is None else parse_quantity(text, "pressure")
-    except ValueError as error:
-        raise ValueError(f"--stress: {error}") from None
+    return None if text is None else _read_option("--stress", text, "pressure")
 
 
 def read_kelvin(option: str, text: str) -> float:
@@ -129,8 +150,12 @@ def read_kelvin(option: str, text: str) -> float:
     >>> read_kelvin("--reference", "20 degC")
     293.15
     """
+    return _read_option(option, text, "temperature")
+
+
+def _read_option(option: str, text: str, dimension: str) -> float:
     try:
-        return parse_quantity(text, "temperature")
+        return parse_quantity(text, dimension)
     except ValueError as error:
         raise ValueError(f"{option}: {error}") from None
 

@@ -22,6 +22,7 @@ from viscontact.identification import (
     MasterCurve,
     ShiftFit,
     build_master_curve,
+    find_contact,
     fit_indentation,
     fit_master_curve,
     material_section,
@@ -73,6 +74,13 @@ def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
     """Return the material section and the figure for a table."""
     if "force" in table and "approach" in table:
         return _from_indentation(table, arguments)
+    if "position" in table and any(c in table for c in ("deflection", "signal", "force")):
+        return _from_force_curve(table, arguments)
+    if arguments.spring_constant is not None or arguments.sensitivity is not None:
+        raise ValueError(
+            f"{table.source.name}: --spring-constant and --sensitivity go with a force curve, "
+            f"which has columns time, position, and deflection or force; {table.contents}"
+        )
     if arguments.indenter is not None:
         raise ValueError(
             f"{table.source.name}: --indenter goes with columns time, approach and force; there "
@@ -126,7 +134,24 @@ def _from_sets(
 
 def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
     indenter = arguments.indenter_of(table)
+    if arguments.spring_constant is not None or arguments.sensitivity is not None:
+        raise ValueError(
+            f"{table.source.name}: --spring-constant and --sensitivity do not go with an approach, "
+            "from which the bending is subtracted already; leave them out"
+        )
     record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
+    return _from_record(record, arguments)
+
+
+def _from_force_curve(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
+    """Find the contact point, print it, and fit a law to the indentation."""
+    indenter = arguments.indenter_of(table)
+    contact = find_contact(arguments.force_curve(table), indenter)
+    print(repr(contact))
+    return _from_record(contact.record(), arguments)
+
+
+def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[str, _Drawing]:
     poisson_ratio, bulk_modulus = arguments.volume()
     with _warnings_said():
         fit = fit_indentation(

@@ -1,0 +1,99 @@
+"""Force curve of an atomic force microscope: deflection of the cantilever over piezo position."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.identification.record import finite_column
+from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import as_real
+
+Array = NDArray[np.float64]
+
+_LEAST_ROWS = 20
+
+
+@dataclass(frozen=True, eq=False)
+class ForceCurve:
+    """Deflection of a cantilever over the position of its base, before and in contact.
+
+    Parameters
+    ----------
+    times : array_like, shape (n,)
+        Instants, never falling [s].
+    position : array_like, shape (n,)
+        Position of the base along its way to the sample [m], from any origin. A height above the
+        sample, which falls during the approach, is turned over.
+    deflection : array_like, shape (n,)
+        Deflection of the cantilever [m], positive when it is pushed away from the sample, from any
+        zero: signal in volts times sensitivity, or force over spring constant.
+    spring_constant : float
+        Spring constant of the cantilever [N/m].
+
+    Raises
+    ------
+    ValueError
+        If a value is not finite or a time falls, naming its row; if lengths differ, rows are fewer
+        than 20, or the spring constant is not positive.
+
+    Examples
+    --------
+    >>> times = np.linspace(0.0, 1.0, 21)
+    >>> bent = 1e-8 * np.maximum(times - 0.5, 0.0)
+    >>> curve = ForceCurve(times, -1e-6 * times, bent, spring_constant=0.1)  # a falling height
+    >>> float(curve.position[-1]), curve.loading_rows
+    (1e-06, 21)
+    """
+
+    times: Array
+    position: Array
+    deflection: Array
+    spring_constant: float
+
+    def __post_init__(self) -> None:
+        columns = {
+            name: finite_column("ForceCurve", name, getattr(self, name), unit)
+            for name, unit in (("times", "s"), ("position", "m"), ("deflection", "m"))
+        }
+        lengths = {name: column.size for name, column in columns.items()}
+        if len(set(lengths.values())) > 1 or min(lengths.values()) < _LEAST_ROWS:
+            found = ", ".join(f"{count} {name}" for name, count in lengths.items())
+            raise ValueError(
+                f"ForceCurve: needs {_LEAST_ROWS} rows or more with a value in each column, got "
+                f"{found}"
+            )
+        back = np.flatnonzero(np.diff(columns["times"]) < 0)
+        if back.size:
+            row = int(back[0]) + 1
+            raise ValueError(
+                f"ForceCurve: times, row {row}: must not be before the row above, got "
+                f"{format_quantity(columns['times'][row], 's', 6)}"
+            )
+        stiffness = as_real(self.spring_constant)
+        if stiffness is None or not 0 < stiffness < np.inf:
+            raise ValueError(
+                "ForceCurve: spring_constant must be a positive number in N/m, got "
+                f"{self.spring_constant!r}"
+            )
+        if _falls(columns["position"], columns["deflection"]):
+            columns["position"] = -columns["position"]
+        for name, column in columns.items():
+            object.__setattr__(self, name, column)
+        object.__setattr__(self, "spring_constant", stiffness)
+
+    @property
+    def loading_rows(self) -> int:
+        """Number of rows up to the first one at which the position is (nearly) largest."""
+        largest, extent = self.position.max(), np.ptp(self.position)
+        return int(np.argmax(self.position >= largest - 1e-3 * extent)) + 1
+
+
+def _falls(position: Array, deflection: Array) -> bool:
+    """True if the position falls on the way to the largest deflection."""
+    peak = int(
+        np.argmax(np.abs(deflection - np.median(deflection[: max(deflection.size // 10, 3)])))
+    )
+    return bool(position[peak] < position[0])
