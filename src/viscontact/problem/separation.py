@@ -1,68 +1,84 @@
 """Separation of the response of creeping layers into creep functions times frequency responses.
 
-By the correspondence principle the surface of layers under a wave of pressure p~(q, s), Laplace
-transformed in time, is displaced by (2/q) C(q, s) p~, where C is that of the elastic stack of the
-moduli G~(s) = 1/(2 s L[Phi]). The sum
+The compliance C(q, s) of layers (`creeping_stack`) is approximated by a short sum
 
-    C(q, s) ≈ Σ_m b_m(s) L_m(q),   b_m(s) = s L[J_m],
+    C(q, s) ≈ Σ_m b_m(s) L_m(q),   b_m(s) = s L[J_m].
 
-takes its creep functions J_m from the materials: the contact compliance of the uppermost layer,
+The creep functions J_m are those of the materials: the contact compliance of the uppermost layer,
 which short waves see, those of the other parts, and the compliances of uniaxial compression, which
-long waves see on a rigid base; after these, from C at single wave numbers, as Prony series with
-amplitudes >= 0. So each J_m is passive. The L_m follow by collocation at as many real s_j,
+long waves see on a rigid base; after these, those of the layers themselves at single wave numbers.
+Each is a Prony series with amplitudes >= 0. The L_m follow by collocation at as many real s_j,
 
     L_m(q) = Σ_j (B^-1)_mj C(q, s_j),   B_jm = b_m(s_j):
 
-sums of responses of elastic stacks. Functions and s_j are chosen one after the other for the least
-error of the harmonic response, max |Σ b_m L_m - C|/|C| over wave numbers and frequencies. Twice
-this error is stated.
+sums of responses of elastic stacks. The sum is exact at the wave numbers and at the s_j in use, as
+in cross approximation: the next wave number is that of the largest error, and all of them are moved
+while the error falls. The s_j are the pivots of a QR factorisation of the b_m. The error is that of
+the harmonic response, max |Σ b_m L_m - C|/|C| over wave numbers and frequencies.
+
+The sum is made passive (`passivity`), and its error is measured with that on finer grids. A larger
+error is stated, for what lies between them.
+
+References
+----------
+M. Bebendorf, Numer. Math. 86 (2000) 565: cross approximation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import combinations
 from typing import Any
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.halfspace.surface_response import SummedResponse
 from viscontact.laws import SeriesLaw
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material, uniaxial_compression
+from viscontact.problem.creeping_stack import CreepingStack, stack_of, transformed
+from viscontact.problem.passivity import passive_share
+from viscontact.problem.rational_creep import series_of_transform
+
+__all__ = ["Separation", "separate", "stack_of", "transformed"]
 
 Array = NDArray[Any]
 
 #: Error at which no term is added, and most terms.
-ENOUGH, MOST_TERMS = 1e-4, 5
+ENOUGH, MOST_TERMS = 6.5e-4, 12
 
-#: Stated error over the largest one found, for wave numbers and frequencies between those, and for
-#: creep in time.
-SAFETY = 2.0
+#: Stated error over the largest one found, for waves and frequencies between those looked at.
+SAFETY = 1.5
 
-#: Wave numbers, frequencies and real s at which the error is measured and collocation tried.
-WAVES, FREQUENCIES, COLLOCATION = 60, 40, 14
+#: Wave numbers at which the error is measured, and frequencies and real s a decade.
+WAVES, FREQUENCIES_PER_DECADE, COLLOCATION_PER_DECADE = 60, 7, 6
 
-#: Range of q h, of the thinnest layer and of all, and of ω τ of the longest and shortest times.
+#: As many times more of both are looked at in the end, for the error and for the loss.
+FINER, FINEST = 2, 4
+
+#: Range of q h, of all layers and of the thinnest one, and of ω τ of the longest and shortest
+#: times.
 LONG, SHORT, MARGIN = 0.01, 15.0, 30.0
 
-#: Largest sum of the absolute values of the terms, over that of the terms.
-MOST_CANCELLATION = 10.0
+#: The same for the loss.
+LONGEST, SHORTEST, WIDER = 1e-4, 40.0, 1e3
+
+#: Largest sum of the absolute values of the terms, and of all responses in them, over that of the
+#: terms.
+MOST_CANCELLATION, MOST_ROUNDING = 100.0, 1e7
+
+#: Singular values of b_m(s_j), over the largest, of functions that are not independent.
+DEPENDENT = 1e-14
 
 #: Relative difference of creep functions that count as proportional here.
 ALIKE = 1e-6
 
-#: Retardation times per decade of a creep function at one wave number.
-TIMES_PER_DECADE = 4
-
-#: Rounds in which the steps between them are halved around those in use.
-REFINEMENTS = 12
+#: Steps by which wave numbers are moved, rounds of this, and the factor of the error to do it for.
+MOVES, ROUNDS, WORTHWHILE = (-1, 1, -2, 2), 3, 0.98
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,137 +115,148 @@ def separate(body: Layered) -> Separation:
     return _Search(body).best()
 
 
+@dataclass(frozen=True, eq=False)
+class _Choice:
+    """Creep functions of materials and of single wave numbers, with collocation points."""
+
+    materials: tuple[SeriesCompliance, ...]
+    waves: tuple[int, ...] = ()  # indices of wave numbers
+    points: tuple[int, ...] = ()  # indices of s_j
+    error: float = np.inf
+    worst: int = 0  # index of the wave number of the largest error
+
+    @property
+    def count(self) -> int:
+        return len(self.materials) + len(self.waves)
+
+
 class _Search:
     """Choice of creep functions and collocation points for one body."""
 
     def __init__(self, body: Layered) -> None:
-        self._body = body
-        lengths = [layer.thickness for layer in body.layers]
-        self._q = np.geomspace(LONG / sum(lengths), SHORT / min(lengths), WAVES)
-        slow, fast = _rates(body.materials)
-        self._omega = np.geomspace(slow / MARGIN, fast * MARGIN, FREQUENCIES)
-        self._s = np.geomspace(slow / MARGIN, fast * MARGIN, COLLOCATION)
-        self._at_s = self._responses(self._s)
-        self._full = self._responses(1j * self._omega)
+        self._stack = CreepingStack(body)
+        whole, thinnest = body.thickness, min(layer.thickness for layer in body.layers)
+        slow, fast = self._stack.rates
+        decades = float(np.log10(fast / slow * MARGIN**2))
+        self._q = np.geomspace(LONG / whole, SHORT / thinnest, WAVES)
+        self._wide_q = np.geomspace(LONGEST / whole, SHORTEST / thinnest, FINEST * WAVES)
+        self._ends = slow / MARGIN, fast * MARGIN
+        self._omega = np.geomspace(*self._ends, int(decades * FREQUENCIES_PER_DECADE))
+        self._s = np.geomspace(*self._ends, int(decades * COLLOCATION_PER_DECADE))
+        self._at_s = self._stack.compliance(self._q, self._s)
+        self._full = self._stack.compliance(self._q, 1j * self._omega)
+        self._weights = np.exp(-np.log(self._at_s).mean(axis=1))
+        self._of_waves: dict[int, SeriesCompliance] = {}
+        self._parts = _of_parts(body.materials, self._s)
 
     def best(self) -> Separation:
         """Terms with an error that is small enough, or as small as it becomes."""
-        chosen = [_contact_compliance(self._body.layers[0].material)]
-        points, error = self._collocated(chosen)
-        while error > ENOUGH and len(chosen) < MOST_TERMS:
-            found = self._with_another(chosen, self._of_parts(chosen))
-            # Exact functions before fitted ones.
-            if found is None or found[2] > max(ENOUGH, error / 2):
-                waves = [self._at_wave(index) for index in range(2, WAVES, WAVES // 10)]
-                others = self._with_another(chosen, waves)
-                found = others if found is None or (others and others[2] < found[2]) else found
-            if found is None or not found[2] < error:
+        choice, best = self._collocated(_Choice(self._parts[:1])), None
+        while True:
+            done = choice.count >= MOST_TERMS or not np.isfinite(choice.error)
+            if choice.error <= ENOUGH or done:
+                found = self._finished(choice)
+                best = found if best is None or found.error < best.error else best
+                if best.error <= SAFETY * ENOUGH or done:
+                    return best
+            wave = self._moved(self._with_wave(choice))
+            parts = [self._with_part(choice, part) for part in self._unused(choice)]
+            part = min(parts, key=lambda each: each.error, default=wave)
+            # Exact functions, some of which are elastic, before those of waves.
+            choice = part if part.error < max(ENOUGH, wave.error) else wave
+
+    def _functions(self, choice: _Choice) -> tuple[SeriesCompliance, ...]:
+        return (*choice.materials, *(self._at_wave(index) for index in choice.waves))
+
+    def _unused(self, choice: _Choice) -> list[SeriesCompliance]:
+        return [part for part in self._parts if part not in choice.materials]
+
+    def _with_part(self, choice: _Choice, part: SeriesCompliance) -> _Choice:
+        return self._collocated(replace(choice, materials=(*choice.materials, part)))
+
+    def _with_wave(self, choice: _Choice) -> _Choice:
+        """Choice with the wave number of the largest error."""
+        return self._collocated(replace(choice, waves=(*choice.waves, choice.worst)))
+
+    def _moved(self, choice: _Choice) -> _Choice:
+        """Choice with each wave number moved to a neighbour while the error falls."""
+        for _ in range(ROUNDS):
+            before = choice.error
+            for place in range(len(choice.waves)):
+                for moved in _neighbours(choice.waves, place):
+                    tried = self._collocated(replace(choice, waves=moved))
+                    choice = tried if tried.error < WORTHWHILE * choice.error else choice
+            if choice.error == before:
                 break
-            chosen, points, error = found
-        return Separation(tuple(chosen), self._kernels(chosen, points), SAFETY * error)
+        return choice
 
-    def _responses(self, s: Array) -> Array:
-        """C(q, s) [1/Pa], shape (s, q)."""
-        return np.array([self._stack(each)[1] * self._stack(each)[0].ratio(self._q) for each in s])
+    def _collocated(self, choice: _Choice) -> _Choice:
+        """The choice with the best collocation points, and its error."""
+        functions = self._functions(choice)
+        at_s = _transforms(functions, self._s)
+        basis, _ = np.linalg.qr(at_s * self._weights[:, None])
+        points = scipy.linalg.qr(basis.T, mode="r", pivoting=True)[1][: len(functions)]
+        weights = np.linalg.pinv(at_s[points], rcond=DEPENDENT)
+        kernels = weights @ self._at_s[points]
+        terms = at_s @ np.abs(kernels) / self._at_s
+        summed = at_s @ np.abs(weights) @ self._at_s[points] / self._at_s
+        harmonic = _transforms(functions, 1j * self._omega)
+        error = np.abs(harmonic @ kernels / self._full - 1).max(axis=0)
+        excess = max(1.0, terms.max() / MOST_CANCELLATION, summed.max() / MOST_ROUNDING)
+        largest = float(error.max() * excess)
+        error[list(choice.waves)] = 0.0  # those in use are not taken twice
+        return replace(choice, points=tuple(points), error=largest, worst=int(error.argmax()))
 
-    def _stack(self, s: Any) -> tuple[ElasticStack, Any]:
-        """Elastic stack at one s, and the contact compliance of its uppermost layer [1/Pa]."""
-        constants = [_constants(material, s) for material in self._body.materials]
-        (shear, poisson_ratio), *_ = constants
-        return stack_of(self._body, constants), (1 - poisson_ratio) / (2 * shear)
-
-    def _collocated(self, chosen: Sequence[SeriesCompliance]) -> tuple[tuple[int, ...], float]:
-        """Best collocation points for some creep functions, and the error with them."""
-        at_s = np.array([transformed(each, self._s) for each in chosen])  # (m, s)
-        harmonic = np.array([transformed(each, 1j * self._omega) for each in chosen])
-        best: tuple[tuple[int, ...], float] = ((), np.inf)
-        for points in combinations(range(self._s.size), len(chosen)):
-            matrix = at_s[:, points].T
-            if np.linalg.cond(matrix / np.abs(matrix).max(axis=0)) > 1e8:
-                continue
-            kernels = np.linalg.solve(matrix, self._at_s[list(points)])
-            parts = np.abs(at_s[:, :, None] * kernels[:, None]).sum(axis=0)
-            if float((parts / self._at_s).max()) > MOST_CANCELLATION:
-                continue
-            error = float(np.abs(harmonic.T @ kernels / self._full - 1).max())
-            if error < best[1]:
-                best = points, error
-        return best
-
-    def _kernels(
-        self, chosen: Sequence[SeriesCompliance], points: tuple[int, ...]
-    ) -> tuple[SummedResponse, ...]:
-        stacks, tops = zip(*(self._stack(float(self._s[j])) for j in points), strict=True)
-        matrix = np.array([transformed(each, self._s[list(points)]) for each in chosen]).T
-        weights = np.linalg.inv(matrix) * np.array(tops)
-        return tuple(SummedResponse(tuple(stacks), tuple(row.tolist())) for row in weights)
-
-    def _with_another(
-        self, chosen: list[SeriesCompliance], candidates: list[SeriesCompliance]
-    ) -> tuple[list[SeriesCompliance], tuple[int, ...], float] | None:
-        """Creep functions with the best of some candidates, its points and error."""
-        tried = [([*chosen, new], *self._collocated([*chosen, new])) for new in candidates]
-        return min(tried, key=lambda each: each[2], default=None)
-
-    def _of_parts(self, chosen: Sequence[SeriesCompliance]) -> list[SeriesCompliance]:
-        """Creep functions of the materials that are not used yet."""
-        parts = [_contact_compliance(material) for material in self._body.materials[1:]]
-        parts += [
-            uniaxial_compression(material)
-            for material in self._body.materials
-            if material.bulk_modulus is not None
-        ]
-        return [part for part in parts if not any(_alike(part, old, self._s) for old in chosen)]
+    def _finished(self, choice: _Choice) -> Separation:
+        """Terms of a choice, made passive, with their error on finer grids."""
+        functions, s = self._functions(choice), self._s[list(choice.points)]
+        weights = np.linalg.inv(_transforms(functions, s))
+        (low, high), count = self._ends, self._omega.size
+        # Long waves on a fluid creep at any low frequency: only what is looked at is known.
+        lowest = low if self._stack.flows else low / WIDER
+        harmonic = _transforms(functions, 1j * np.geomspace(lowest, high * WIDER, FINEST * count))
+        weights += passive_share(harmonic, weights, self._stack.compliance(self._wide_q, s))
+        omega = np.geomspace(low, high, FINER * count)
+        q = np.geomspace(self._q[0], self._q[-1], FINER * WAVES)
+        found = _transforms(functions, 1j * omega) @ weights @ self._stack.compliance(q, s)
+        error = np.abs(found / self._stack.compliance(q, 1j * omega) - 1).max()
+        stacks, tops = zip(*(self._stack.elastic(float(each)) for each in s), strict=True)
+        rows = (weights * np.array(tops)).tolist()
+        kernels = tuple(SummedResponse(tuple(stacks), tuple(row)) for row in rows)
+        return Separation(functions, kernels, SAFETY * float(error))
 
     def _at_wave(self, index: int) -> SeriesCompliance:
-        """Creep function of one wave number, by non-negative least squares over ω."""
-        omega, wanted = self._omega, self._full[:, index]
-        decades = float(np.log10(omega[-1] / omega[0]))
-        spread = np.log(10) / TIMES_PER_DECADE
-        times = 1 / np.geomspace(omega[0], omega[-1], int(decades * TIMES_PER_DECADE) + 1)
-        # The sum has few terms: look more closely around the times that it uses.
-        for _ in range(REFINEMENTS):
-            found = _fitted(times, omega, wanted)
-            used = times[found[1:-1] > 0]
-            spread /= 2
-            times = np.unique(np.multiply.outer(used, np.exp(spread * np.linspace(-1, 1, 5))))
-        found = _fitted(times, omega, wanted)
-        return SeriesCompliance(found[0], found[1:-1], times, found[-1])
+        """Creep function of one wave number."""
+        if index not in self._of_waves:
+            stack, given = self._stack, (self._at_s[:, index], self._full[:, index])
+            self._of_waves[index] = series_of_transform(
+                self._s, self._omega, *given, stack.rates, flows=stack.flows
+            )
+        return self._of_waves[index]
 
 
-def _fitted(times: Array, omega: Array, wanted: Array) -> NDArray[np.float64]:
-    """Instant compliance, amplitudes and fluidity >= 0 of the least relative error over ω."""
-    parts = [np.ones_like(wanted), *(1 / (1 + 1j * omega * time) for time in times)]
-    scale, slowest = float(np.abs(wanted).max()), omega[0]
-    columns = np.stack([*parts, slowest / (1j * omega)], axis=1) * (scale / np.abs(wanted))[:, None]
-    relative = wanted / np.abs(wanted)
-    rows = np.concatenate([columns.real, columns.imag])
-    found, _ = scipy.optimize.nnls(rows, np.concatenate([relative.real, relative.imag]))
-    found *= scale
-    found[-1] *= slowest
-    return np.asarray(found)
+def _transforms(functions: Sequence[SeriesCompliance], s: Array) -> Array:
+    """b_m(s) = s L[J_m] of creep functions, shape (s, m) [1/Pa]."""
+    return np.stack([transformed(each, s) for each in functions], axis=1)
 
 
-def stack_of(body: Layered, constants: Sequence[tuple[Any, Any]]) -> ElasticStack:
-    """Stack of elastic layers: shear modulus [any unit] and Poisson's ratio of each material."""
-    assert not isinstance(body.bonded, bool)  # made a tuple
-    layers = tuple(
-        ElasticLayer(layer.thickness, *each, bonded=bonded)
-        for layer, each, bonded in zip(body.layers, constants, body.bonded, strict=False)
-    )
-    base = None if isinstance(body.base, str) else ElasticBase(*constants[-1])
-    return ElasticStack(layers, base)
+def _neighbours(waves: tuple[int, ...], place: int) -> Iterator[tuple[int, ...]]:
+    """Indices of wave numbers with one of them moved."""
+    for step in MOVES:
+        moved = waves[place] + step
+        if 0 <= moved < WAVES and moved not in waves:
+            yield (*waves[:place], moved, *waves[place + 1 :])
 
 
-def transformed(compliance: SeriesCompliance, s: Array) -> Array:
-    """Laplace transform s L[J] of a Prony series, J_0 + Σ J_i/(1 + s τ_i) + φ/s [1/Pa]."""
-    delayed = compliance.amplitudes / (1 + np.multiply.outer(s, compliance.times))
-    return np.asarray(compliance.instant + delayed.sum(axis=-1) + compliance.fluidity / s)
-
-
-def _creep(material: Material) -> SeriesCompliance:
-    assert isinstance(material.law, SeriesLaw)  # checked in `separate`
-    return SeriesCompliance(*material.law.creep_series().terms)
+def _of_parts(materials: Sequence[Material], s: Array) -> tuple[SeriesCompliance, ...]:
+    """Creep functions of the materials, none proportional to another; that of the top first."""
+    parts = [_contact_compliance(material) for material in materials]
+    parts += [uniaxial_compression(each) for each in materials if each.bulk_modulus is not None]
+    found: list[SeriesCompliance] = []
+    for part in parts:
+        if not any(_alike(part, old, s) for old in found):
+            found.append(part)
+    return tuple(found)
 
 
 def _contact_compliance(material: Material) -> SeriesCompliance:
@@ -238,28 +265,7 @@ def _contact_compliance(material: Material) -> SeriesCompliance:
     return found
 
 
-def _constants(material: Material, s: Any) -> tuple[Any, Any]:
-    """Shear modulus G~(s) [Pa] and Poisson's ratio of the elastic body that a material is at s."""
-    shear = 1 / (2 * transformed(_creep(material), np.asarray(s))[()])
-    if material.poisson_ratio is not None:
-        return shear, material.poisson_ratio
-    bulk = material.bulk_modulus
-    assert bulk is not None  # exactly one is given
-    return shear, (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
-
-
 def _alike(one: SeriesCompliance, other: SeriesCompliance, s: Array) -> bool:
     """True for two creep functions that are proportional to a few digits."""
     ratio = transformed(one, s) / transformed(other, s)
     return bool(ratio.max() < (1 + ALIKE) * ratio.min())
-
-
-def _rates(materials: Sequence[Material]) -> tuple[float, float]:
-    """Slowest and fastest rate of creep and of relaxation of all laws [1/s]."""
-    rates = []
-    for creep in map(_creep, materials):
-        rates += (1 / creep.times).tolist()
-        if creep.instant > 0:  # a body relaxes faster than it creeps
-            begun = float((creep.amplitudes / creep.times).sum()) + creep.fluidity
-            rates += [begun / creep.instant] if begun else []
-    return (min(rates), max(rates)) if rates else (1.0, 1.0)
