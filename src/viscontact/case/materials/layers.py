@@ -69,7 +69,8 @@ class Layer(Section):
 
     thickness: Length = Field(description="of the layer")
     material: Annotated[AnyMaterial, AfterValidator(_without_thickness)] = Field(
-        description="material of the layer; its keys may be written beside thickness as well"
+        description="material of the layer; its keys may be written beside thickness as well",
+        examples=["epdm-70-25c"],
     )
 
 
@@ -106,15 +107,15 @@ def _one_or_each(given: Any) -> Any:
 
 
 class Layers(Section):
-    """Layers on a base: a cover on a core, a coating, a film; `law` may be left out."""
+    """Layers on a base: a cover on a core, a coating, a film."""
 
     # A tag that is no key: both occur in the location of an error.
     law: Literal["layered"] = "layered"
     layers: list[Annotated[Layer, BeforeValidator(_nested), _OrBeside()]] = Field(
-        min_length=1, description="from the surface down"
+        min_length=1, description="from the surface down; where they are given, law may be left out"
     )
     base: Annotated[AnyMaterial, _OrRigid(), AfterValidator(_deep)] = Field(
-        description="material beneath the layers, infinitely deep, or rigid"
+        description="material beneath the layers, infinitely deep, or rigid", examples=[RIGID]
     )
     bonded: Annotated[bool | list[bool], BeforeValidator(_one_or_each)] = Field(
         default=True,
@@ -166,6 +167,34 @@ def _with_law(given: Any) -> Any:
     if isinstance(given, dict) and "layers" in given and "law" not in given:
         return {**given, "law": "layered"}
     return from_library(given)
+
+
+def spelled_out(given: Any) -> Any:
+    """Return a material section in its longest spelling: with its law, and with nested layers.
+
+    Names of the library that stand alone, and what is not valid, are returned unchanged.
+
+    >>> spelled_out({"layers": [{"thickness": "5 mm", "law": "elastic"}]})["layers"]
+    [{'thickness': '5 mm', 'material': {'law': 'elastic'}}]
+    """
+    if not isinstance(given, dict):
+        return given
+    try:
+        section = _with_law(given)
+    except ValueError:
+        return given
+    if isinstance(section.get("layers"), list):
+        nested = [_nested(layer) for layer in section["layers"]]
+        layers = [
+            {**layer, "material": spelled_out(layer.get("material"))}
+            if isinstance(layer, dict)
+            else layer
+            for layer in nested
+        ]
+        section = {**section, "layers": layers}
+    if "base" in section:
+        section = {**section, "base": spelled_out(section["base"])}
+    return section
 
 
 #: A material, or a body of layers.

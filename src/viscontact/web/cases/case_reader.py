@@ -11,6 +11,7 @@ from typing import Any
 
 from viscontact.case import Case, CaseError, Parts, read_case_text, read_parts
 from viscontact.case.document import document_of
+from viscontact.case.materials.layers import spelled_out
 from viscontact.runs.check_report import expectations, needs, verdict, warnings_of
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
@@ -50,9 +51,9 @@ class CaseReader:
         return found
 
     def values(self, text: str) -> Any:
-        """Return the values in the text of a case, unchanged."""
+        """Return the values in the text of a case, its materials in their longest spelling."""
         try:
-            return document_of(text, self.folder.case).data
+            return form_values(text, self.folder.case)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 
@@ -144,6 +145,13 @@ class CaseReader:
                 first = self.values(self.folder.given(alike[0][0]).read_text(encoding="utf-8"))
         taken = {entry.label or entry.title for _, entry in alike if entry.quality == quality}
         return label_of(title, self.values(text), first, taken)
+
+
+def form_values(text: str, path: Path) -> dict[str, Any]:
+    """Values in the text of a case as the form has them: materials in their longest spelling."""
+    values = document_of(text, path).data
+    bodies = [key for key in ("material", "indenter_material") if key in values]
+    return values | {key: spelled_out(values[key]) for key in bodies}
 
 
 def filled(value: Any) -> Any:

@@ -13,12 +13,12 @@ from pydantic import BaseModel
 
 from viscontact import __version__
 from viscontact.case import case_schema
-from viscontact.case.yaml_source import parse, rewritten
+from viscontact.case.yaml_source import rewritten
 from viscontact.materials import library
 from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.plot.layout.page import Width
 from viscontact.web.calculator import Calculator
-from viscontact.web.cases.case_reader import filled
+from viscontact.web.cases.case_reader import filled, form_values
 from viscontact.web.cases.drawings import drawing
 from viscontact.web.workspace.naming import suggested_title
 from viscontact.web.workspace.pictures import MEDIA_TYPES, FigureChoice, picture
@@ -99,7 +99,7 @@ def _examples() -> list[dict[str, Any]]:
         if path.suffix == ".yaml"
     }
     return [
-        {"name": name, "title": _title(text), "yaml": text, "case": parse(text)[0]}
+        {"name": name, "title": _title(text), "yaml": text, "case": form_values(text, Path(name))}
         for name, text in texts.items()
     ]
 

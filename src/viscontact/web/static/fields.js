@@ -143,7 +143,12 @@ function choice(path, node, required) {
 
 function toggle(path, node) {
   if (node.optional && node.default === null) return decision(path);
-  const usual = node.default ?? false;
+  const usual = node.default ?? false, given = valueAt(path);
+  // One for each entry of a list, such as the layers.
+  if (Array.isArray(given)) return given.map((checked, index) => make("input", {
+    type: "checkbox", checked, "aria-label": `${titleOf(path.at(-1))}, ${index + 1} of ${given.length}`,
+    onchange: (event) => setValue([...path, index], event.target.checked),
+  }));
   const box = make("input", {
     id: idOf(path), type: "checkbox", checked: valueAt(path) ?? usual, "aria-describedby": `${idOf(path)}-description`,
     onchange: () => setValue(path, box.checked === usual ? undefined : box.checked),

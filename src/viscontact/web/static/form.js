@@ -64,7 +64,7 @@ function body(path, node, required) {
 
 function part(path, { node, required }) {
   if (node.kind === "variants" || node.kind === "group") return nested(path, node, required);
-  if (node.kind === "list") return list(path, node);
+  if (node.kind === "list") return node.item.kind === "group" ? sections(path, node) : list(path, node);
   return field(path, node, required);
 }
 
@@ -74,6 +74,19 @@ function nested(path, node, required) {
     node.kind === "group" && make("span", { class: "label", textContent: titleOf(key) }),
     node.kind === "group" && node.description && make("p", { class: "description", textContent: node.description }),
     body(path, node, required), make("ul", { class: "problems" }));
+}
+
+// A list of groups, such as layers.
+function sections(path, node) {
+  const value = valueAt(path) ?? [], one = titleOf(path.at(-1)).replace(/s$/, "").toLowerCase();
+  const change = (entries) => () => { setValue(path, entries); changed("structure"); };
+  const parts = value.map((_, index) => make("div", { class: "summand", "data-path": dotted([...path, index]) },
+    make("span", { class: "label", textContent: `${titleOf(one)} ${index + 1} of ${value.length}` }),
+    group([...path, index], node.item), make("ul", { class: "problems" }),
+    value.length > 1 && adder(`Remove this ${one}`, change(value.filter((_, each) => each !== index)))));
+  return make("div", { class: "nested", "data-path": dotted(path), "data-key": path.at(-1) },
+    make("p", { class: "description", textContent: node.description }), parts,
+    adder(`Add a ${one}`, () => change([...value, startOf(node.item)])()), make("ul", { class: "problems" }));
 }
 
 // The keys of a group: related lists as one table, less common keys folded unless they are set.

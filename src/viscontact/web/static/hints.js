@@ -6,7 +6,7 @@ export const START = "roller-dogbone";
 
 // Sections and keys that come first, in this order; others follow in the order of the schema.
 export const FIRST = [
-  "title", "indenter", "material", "load", "time",
+  "title", "indenter", "thickness", "material", "load", "time",
   "file", "points", "sentences", "force", "approach", "mean", "amplitude",
   "radius", "half_length", "shear_modulus", "youngs_modulus",
 ];

@@ -22,7 +22,8 @@ function resolved(part) {
 // All alternatives of a part, nested unions flattened.
 function alternatives(part) {
   const union = part.anyOf ?? part.oneOf;
-  return union ? union.flatMap((each) => alternatives(resolved(each))) : [part];
+  // The server spells out what is written in short.
+  return union ? union.filter((each) => !each["x-shorthand"]).flatMap((each) => alternatives(resolved(each))) : [part];
 }
 
 const about = (part) => ({
@@ -91,6 +92,7 @@ function several(parts) {
   const texts = kinds.filter((each) => each.kind === "text");
   const lists = kinds.filter((each) => ["list", "tuple"].includes(each.kind));
   if (lists[0]?.kind === "list" && texts.length && !texts[0].dimension) return { kind: "lines" };
+  if (kinds.some(isSwitch) && lists[0]?.item && isSwitch(lists[0].item)) return { kind: "switch" };
   if (kinds.some(isSwitch) && lists[0]?.items?.every(isSwitch)) return { kind: "axes", many: true };
   const inner = texts[0] ?? lists[0]?.item ?? lists[0]?.items?.[0];
   const numeric = kinds.some((each) => each.kind === "number");

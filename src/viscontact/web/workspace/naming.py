@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import count
 from typing import Any
 
@@ -92,11 +92,24 @@ def _shape(given: Any) -> str:
 def _material(given: Any) -> str:
     if not isinstance(given, Mapping):
         return _text(given)  # a name of the library
+    if isinstance(given.get("layers"), list):
+        return _layers(given["layers"])
     law = _words(given.get("law"))
     for name in PEOPLE:
         law = re.sub(rf"\b{name}\b", name, law, flags=re.IGNORECASE)
     modulus = next((value for _, value in _sizes(given, _MODULI)), "")
     return f"{law} {modulus}".strip()
+
+
+def _layers(given: Sequence[Any]) -> str:
+    """The uppermost layer, and how many there are.
+
+    >>> _layers([{"thickness": "8 mm", "material": "epdm-70-25c"}])
+    '8 mm epdm-70-25c'
+    """
+    first = given[0] if given and isinstance(given[0], Mapping) else {}
+    of = f"{_text(first.get('thickness'))} {_material(first.get('material', first))}".strip()
+    return f"{len(given)} layers, {of}" if len(given) > 1 else of
 
 
 def _load(given: Any) -> str:
