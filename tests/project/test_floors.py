@@ -49,7 +49,7 @@ OTHERS = {
     "pydantic": "case", "pydantic_core": "case", "ruamel": "materials",
     "SurfaceTopography": "surfaces",
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
-    "contourpy": "plot", "plotly": "plot",
+    "contourpy": "plot", "plotly": "plot", "typst": "report",
     "typer": "cli", "click": "cli", "rich": "cli",
     "distributed": "cli",
     "fastapi": "web", "starlette": "web", "uvicorn": "web",

@@ -333,8 +333,8 @@ def test_report_writes_a_page_next_to_the_result(
     [
         (["no-run"], "no-run: no result there"),
         (
-            ["run.nc", "-o", "a.pdf"],
-            "a.pdf: a report is an HTML page; name it so, e.g. -o a.html",
+            ["run.nc", "-o", "a.docx"],
+            "a.docx: a report is a page or a PDF; name it a.html or a.pdf",
         ),
         (["run.nc", "-o", "nowhere/a.html"], "nowhere/a.html: there is no directory nowhere"),
     ],

@@ -25,7 +25,8 @@ from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
 from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 
-_CHAPTERS = {
+#: Titles of the chapters, by their places.
+CHAPTERS = {
     "pressure": "Pressure",
     "histories": "Over time",
     "inputs": "Inputs",
@@ -138,7 +139,7 @@ def _body(
     name: str, ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]
 ) -> Iterable[Element]:
     histories = result_chapters.history_chapter(ds, data)
-    titles = _CHAPTERS if run_axis(ds) is TIME else _CHAPTERS | {"histories": "Over speed"}
+    titles = CHAPTERS if run_axis(ds) is TIME else CHAPTERS | {"histories": "Over speed"}
     if run_axis(ds) is SPEED:
         histories = chain(input_chapters.speed_table(ds), histories)
     chapters: dict[str, Iterable[Element]] = {

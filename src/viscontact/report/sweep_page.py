@@ -54,11 +54,12 @@ def sweep_page(ds: xr.Dataset, *, title: str) -> str:
         generator=f"viscontact {__version__}",
         title=written(element("title", title)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, _body(ds, title))),
+        body="\n".join(map(written, sweep_chapters(ds, title))),
     )
 
 
-def _body(ds: xr.Dataset, title: str) -> Iterator[Element]:
+def sweep_chapters(ds: xr.Dataset, title: str) -> Iterator[Element]:
+    """Yield the states, the figure of the response, and the table of the runs."""
     yield element("header", element("h1", title), _states(ds), _reasons(ds), _changes(ds))
     if (ds["state"] == "done").any():
         yield element("section", element("h2", "Response"), *_figure(ds))

@@ -54,17 +54,21 @@ def report(
     output: Annotated[
         Path | None,
         typer.Option(
-            "-o", "--output", metavar="OUT.html", help="Page; by default report.html in DIR."
+            *("-o", "--output"),
+            metavar="OUT.html",
+            help="Page, or a PDF by its suffix; by default report.html in DIR.",
         ),
     ] = None,
 ) -> None:
-    """Write a report on a run, or on all runs of a sweep, as one HTML page."""
+    """Write a report on a run, or on all runs of a sweep, as one HTML page or as PDF."""
     from viscontact.cli.results.stored import early_end, opened
     from viscontact.cli.results.sweep_report import write_page
 
-    if output is not None and output.suffix.lower() not in (".html", ".htm"):
-        refuse(f"{output}: a report is an HTML page; name it so, e.g. -o {output.stem}.html")
-    package = _report_package()
+    if output is not None and output.suffix.lower() not in (".html", ".htm", ".pdf"):
+        stem = output.stem
+        refuse(f"{output}: a report is a page or a PDF; name it {stem}.html or {stem}.pdf")
+    as_pdf = output is not None and output.suffix.lower() == ".pdf"
+    package = _pdf_package() if as_pdf else _report_package()
     is_file = directory.suffix == ".nc" and not directory.is_dir()
     page = output or (directory.with_suffix(".html") if is_file else directory / "report.html")
     if output is not None and not page.parent.is_dir():
@@ -77,7 +81,8 @@ def report(
         if ended := early_end(ds):
             say(ended)
         try:
-            package.write_report(ds, page, label=_run_label(directory.resolve()))
+            write = package.write_pdf if as_pdf else package.write_report
+            write(ds, page, label=_run_label(directory.resolve()))
         except (ValueError, OSError) as error:
             refuse(f"{page}: {error}")
     print(page)
@@ -106,6 +111,18 @@ def _report_package() -> Any:
         if error.name not in ("matplotlib", "contourpy", "plotly"):
             raise
         refuse(f"a report needs {error.name}: pip install 'viscontact[plot]'")
+    return package
+
+
+def _pdf_package() -> Any:
+    """Return `viscontact.report.pdf`, or name the missing package."""
+    _report_package()
+    try:
+        from viscontact.report import pdf as package
+    except ModuleNotFoundError as error:
+        if error.name != "typst":
+            raise
+        refuse("a PDF needs typst: pip install 'viscontact[pdf]'")
     return package
 
 

@@ -10,8 +10,10 @@ from viscontact.runs.sweep.open_many import open_many
 
 
 def write_page(package: Any, directory: Path, page: Path) -> None:
-    """Write the page of a sweep by the package of reports, or refuse it with a message."""
+    """Write the page or PDF of a sweep by the package of reports; refuse it with a message."""
     try:
-        package.write_sweep_report(open_many(directory), page, title=directory.resolve().name)
+        as_pdf = page.suffix.lower() == ".pdf"
+        write = package.write_sweep_pdf if as_pdf else package.write_sweep_report
+        write(open_many(directory), page, title=directory.resolve().name)
     except (ValueError, OSError) as error:
         refuse(f"{page}: {error}")

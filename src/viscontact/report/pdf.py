@@ -1,0 +1,146 @@
+"""A run, or the runs of a sweep, as a PDF: the content of the page with still figures."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from importlib.resources import files
+from itertools import chain
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import typst
+import xarray as xr
+from matplotlib import get_data_path
+from matplotlib.figure import Figure
+
+from viscontact import __version__
+from viscontact.notebook.html import element
+from viscontact.plot import (
+    contact_outline,
+    history,
+    hysteresis,
+    line_load,
+    motion_profile,
+    pressure_map,
+    pressure_profile,
+)
+from viscontact.report import input_chapters, result_chapters
+from viscontact.report.drawings import drawn
+from viscontact.report.page import CHAPTERS
+from viscontact.report.pdf_blocks import blocks
+from viscontact.report.stress_chapter import stress_chapter
+from viscontact.report.sweep_page import sweep_chapters
+from viscontact.report.title_block import title_lines
+from viscontact.report.verdict_chapter import verdict_chapter
+from viscontact.results.filed_case import started_at, title_block
+from viscontact.results.run_axis import SPEED, in_order, run_axis
+from viscontact.results.shown_scalars import is_long
+
+
+def write_pdf(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
+    """Write a run as a PDF of A4 pages.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        Result of `viscontact.simulate` or `viscontact.open_results`.
+    path : path-like
+        The file, by custom ending in ``.pdf``; an existing one is replaced.
+    label : str, optional
+        Name of the run among others whose cases have the same title.
+
+    Raises
+    ------
+    ValueError
+        If the result holds no instant.
+    OSError
+        If the file cannot be written.
+    """
+    axis = run_axis(ds)
+    if not ds.sizes.get(axis.name):
+        raise ValueError(
+            f"a report needs one {axis.row} at least, got a result without any; run it"
+        )
+    ds = in_order(ds)
+    name = result_chapters.heading_of(ds, label)
+    author = title_block(ds).get("operator", "")
+    _write(path, name, _run(ds, name), author=author, made=started_at(ds))
+
+
+def write_sweep_pdf(ds: xr.Dataset, path: str | Path, *, title: str) -> None:
+    """Write the runs of a sweep, from `open_many`, as a PDF; OSError if it cannot be written."""
+    _write(path, title, sweep_chapters(ds, title))
+
+
+def _write(
+    path: str | Path, title: str, parts: Iterable[Element], *, author: str = "", made: str = ""
+) -> None:
+    footer = " · ".join(filter(None, (title, made, f"viscontact {__version__}")))
+    data = {
+        "title": title,
+        "author": author,
+        "footer": footer,
+        "blocks": [block for part in parts for block in blocks(part)],
+    }
+    template = (files("viscontact.report") / "report.typ").read_bytes()
+    # Matplotlib brings the fonts, so that a page is the same on every machine.
+    fonts: Any = [str(Path(get_data_path()) / "fonts" / "ttf")]
+    pdf = typst.compile(
+        template,
+        font_paths=fonts,
+        ignore_system_fonts=True,
+        sys_inputs={"data": json.dumps(data, ensure_ascii=False)},
+    )
+    Path(path).write_bytes(pdf)
+
+
+def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
+    over_speed = run_axis(ds) is SPEED
+    yield from title_lines(ds)
+    yield result_chapters.opening(name, ds, {})
+    yield from verdict_chapter(ds)
+    yield from _chapter("Pressure", _pressure(ds))
+    yield from stress_chapter(ds)
+    histories = chain(input_chapters.speed_table(ds), _motion(ds)) if over_speed else _history(ds)
+    yield from _chapter("Over speed" if over_speed else CHAPTERS["histories"], histories)
+    chapters: dict[str, Callable[[xr.Dataset], Iterable[Element]]] = {
+        "inputs": input_chapters.inputs_chapter,
+        "geometry": input_chapters.geometry_chapter,
+        "material": input_chapters.material_chapter,
+        "accuracy": input_chapters.accuracy_chapter,
+        "limits": input_chapters.limits_chapter,
+        "about": input_chapters.about_chapter,
+    }
+    for place, chapter in chapters.items():
+        yield from _chapter(CHAPTERS[place], chapter(ds))
+
+
+def _chapter(title: str, parts: Iterable[Element]) -> Iterator[Element]:
+    yield element("h2", title)
+    yield from parts
+
+
+def _pressure(ds: xr.Dataset) -> Iterator[Element]:
+    yield _figure(pressure_map, ds, "Pressure")
+    yield _figure(pressure_profile, ds, "Pressure along and across")
+    yield _figure(contact_outline, ds, "Outline of the contact")
+    if is_long(ds) and "line_load" in ds:
+        yield _figure(line_load, ds, "Line load")
+
+
+def _history(ds: xr.Dataset) -> Iterator[Element]:
+    yield _figure(history, ds, "History")
+    if "loss_per_cycle" in ds and np.isfinite(ds["loss_per_cycle"].values).any():
+        yield _figure(hysteresis, ds, "Force over approach")
+
+
+def _motion(ds: xr.Dataset) -> Iterator[Element]:
+    yield _figure(motion_profile, ds, "Pressure along the motion")
+
+
+def _figure(draw: Callable[..., Figure], ds: xr.Dataset, about: str) -> Element:
+    return drawn(partial(draw, ds), about)
