@@ -109,3 +109,65 @@ def test_a_spreadsheet_named_as_a_text_is_refused_with_what_to_do(
     path.write_bytes(start + bytes(100))
     with pytest.raises(ValueError, match=r"creep.csv: a spreadsheet .*; the name of a spreadsheet"):
         read_table(path)
+
+
+# Findley's law ε = σ (D_0 + D_1 t^n), linear in the stress: the compliance is known at each time.
+HOURS = np.array([1.0, 10.0, 100.0, 1000.0])
+FINDLEY = 1e-9 * (0.4 + 0.05 * (3600 * HOURS) ** 0.2)
+
+
+def isochronous(first: str, second: str, *, comma: bool = False) -> str:
+    """Curves of four times with points at 0, 2, 4 ... 10 MPa, or at 0, 0.5 ... 2.5 %."""
+    if first == "stress":
+        levels = np.arange(0.0, 11.0, 2.0)
+        rows = [[at, *(100 * at * 1e6 * FINDLEY)] for at in levels]
+        units = "MPa", "%"
+    else:
+        rows = [[strain, *(0.01 * strain / FINDLEY / 1e6)] for strain in np.arange(0, 3, 0.5)]
+        units = "%", "MPa"
+    heads = [f"{first} [{units[0]}]", *(f"{second}{h:g} h [{units[1]}]" for h in HOURS)]
+    lines = [";".join(heads), *(";".join(f"{cell:.12g}" for cell in row) for row in rows)]
+    return "\n".join(lines[:1] + [line.replace(".", "," if comma else ".") for line in lines[1:]])
+
+
+@pytest.mark.parametrize("comma", [False, True])
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("strain", "stress at "),
+        ("strain", ""),
+        ("stress", "strain at "),
+        ("stress", "Dehnung nach "),
+    ],
+)
+def test_isochronous_curves_give_the_compliance_at_a_stress(first, second, comma, tmp_path):
+    table = read(tmp_path, isochronous(first, second, comma=comma), stress=3e6)
+    assert table.data == "uniaxial"
+    np.testing.assert_allclose(table["time"], 3600 * HOURS, rtol=1e-14)
+    np.testing.assert_allclose(table["creep_compliance"], FINDLEY, rtol=1e-10)
+
+
+def test_isochronous_curves_of_a_nonlinear_material_give_the_secant_at_the_stress(tmp_path):
+    text = "strain [%],stress at 100 h [MPa],stress at 1 h [MPa]\n0.5,4,5\n1,7,9\n2,,15\n"
+    table = read(tmp_path, text, stress=6e6)  # 0.5 % + 1/4 of 0.5 % at 1 h, + 2/3 at 100 h
+    assert table["time"].tolist() == [3600.0, 360000.0]
+    np.testing.assert_allclose(
+        table["creep_compliance"], [0.00625 / 6e6, 0.005 * (1 + 2 / 3) / 6e6], rtol=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "stress", "why"),
+    [
+        ("strain [%],stress at 1 h [MPa]\n1,5\n", None, "need the stress at which the creep is"),
+        ("strain [%],stress at 1 h [MPa]\n1,5\n", 6e6, "ends at 5 MPa; 6 MPa lies outside"),
+        ("strain [%],stress at 1 h [MPa]\n1,5\n2,4\n", 3e6, "must increase from row to row"),
+        ("strain [mm],stress at 1 h [MPa]\n1,5\n", 3e6, "a strain has one of the units"),
+        ("strain [%],stress at 1 h [mm]\n1,5\n", 3e6, "cannot read 'mm' as a pressure"),
+        ("strain [%],stress at 1 h [MPa]\n1,x\n", 3e6, "creep.csv:2: column 'stress at 1 h [MPa]'"),
+    ],
+)
+def test_faulty_isochronous_curves_are_refused(text, stress, why, tmp_path):
+    with pytest.raises(ValueError, match=r"creep\.csv") as caught:
+        read(tmp_path, text, stress=stress)
+    assert why in str(caught.value)

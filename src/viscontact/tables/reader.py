@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.tables.creep_tests import with_creep_compliance
 from viscontact.tables.header import Column, Header, read_header
+from viscontact.tables.isochronous import isochronous_table
 from viscontact.tables.rows import read_source
 from viscontact.tables.table import Table, read_only
 from viscontact.tables.text import Row, decimal_number
@@ -59,7 +60,9 @@ def read_table(
     temperatures in K; logarithms of shift factors (``log_aT``, decimal, or ``ln_aT``) as
     a_T. A creep modulus E_c arrives as the creep compliance 1/E_c. The strain of a creep test
     arrives as strain over stress; its stress is in its heading (``strain at 5 MPa [%]``), in a
-    column ``stress [MPa]``, or given. Stress and strain in other tables are left out. Files are
+    column ``stress [MPa]``, or given. Isochronous curves (``strain [%], stress at 1 h [MPa],
+    stress at 10 h [MPa]``, or stress and strains) arrive as the creep compliance at the given
+    stress, with a row for each time. Stress and strain in other tables are left out. Files are
     bounded at 50 MB and a million rows. Numbers of a spreadsheet are read as they are stored, not
     as they are shown; titles above the table and empty rows and columns around it are left out;
     dates are refused.
@@ -74,6 +77,9 @@ def read_table(
     ('uniaxial', [0.628319, 8097200000.0, 223.15])
     """
     path, rows = read_source(Path(path))
+    isochronous = isochronous_table(path, rows, stress)
+    if isochronous is not None:
+        return isochronous
     header = read_header(path.name, rows[:2], columns or {}, stress)
     body = rows[header.rows :]
     if not body:
