@@ -11,6 +11,7 @@ from viscontact import plot
 from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.halfspace.layered_stress import LayeredStress
 from viscontact.halfspace.stress import stress_on_plane, stress_on_section
+from viscontact.problem.stress_history import stress_history
 
 GRID = vc.Grid((32, 32), (0.5e-3, 0.5e-3))
 STIFF = vc.Material(vc.Elastic(160e9), poisson_ratio=0.25)
@@ -90,6 +91,59 @@ def test_a_creeping_cover_on_a_rigid_base_is_stressed_by_the_present_pressure() 
     assert float(usual.z[-1]) == pytest.approx(100e-6)  # no deeper
     with pytest.raises(ValueError, match="rigid base"):
         vc.section_stresses(ds, [150e-6])
+
+
+def test_layers_that_creep_differently_need_the_pressure_of_all_instants() -> None:
+    polymer = vc.Material(vc.Zener(4e9, 2e9, 4e9), poisson_ratio=0.4)
+    body = vc.Layered([vc.Layer(60e-6, polymer)], base=vc.Material(vc.Elastic(8e9), 0.3))
+    times = (0.0, 0.5, 1.0, 2.0, 4.0)
+    ds = vc.simulate(vc.Paraboloid(0.01, 0.01), body, vc.step(2.0), GRID, list(times), errors=False)
+    inside = vc.section_stresses(ds, [30e-6, 60e-6])
+    assert 0 < inside.attrs["splitting_error"] < 1e-3
+    history = stress_history(body)
+    parts = history.pressures(np.array(times), ds.pressure.values, np.zeros(0))
+    for row in (0, 4):
+        wanted = sum(
+            stress_on_section(part[row], GRID, [30e-6, 60e-6], LayeredStress(stack)).components
+            for part, stack in zip(parts, history.stacks, strict=True)
+        )
+        assert inside.stress_xx.values[row] == pytest.approx(wanted[0], rel=1e-9, abs=1.0)
+    at_interface = vc.interface_stresses(ds, times=[4.0])
+    assert at_interface.attrs["splitting_error"] == inside.attrs["splitting_error"]
+    assert at_interface.sizes["time"] == 1
+    some = vc.simulate(
+        vc.Paraboloid(0.01, 0.01),
+        body,
+        vc.step(2.0),
+        GRID,
+        list(times),
+        fields=[1.0, 4.0],
+        errors=False,
+    )
+    for compute in (vc.section_stresses, vc.interface_stresses, plot.stress_section):
+        with pytest.raises(ValueError, match=r"history of the pressure.*all instants"):
+            compute(some)
+
+
+def test_a_rubber_cover_on_steel_is_stressed_by_the_present_pressure() -> None:
+    """The ratio of the moduli is so small that its change by creep does not matter."""
+    rubber = vc.Material(vc.Zener(2e6, 1e6, 1e6), poisson_ratio=0.45)
+    body = vc.Layered([vc.Layer(60e-6, rubber)], base=SOFT)
+    ds = vc.simulate(
+        vc.Paraboloid(0.01, 0.01),
+        body,
+        vc.step(2e-3),
+        GRID,
+        vc.uniform_times(1.0, 20),
+        fields=[1.0],
+        errors=False,
+    )
+    inside = vc.section_stresses(ds, [60e-6])
+    assert 0 < inside.attrs["splitting_error"] < 1e-4
+    stack = ElasticStack((ElasticLayer(60e-6, 1e6, 0.45),), ElasticBase(80e9, 0.3))
+    wanted = stress_on_section(ds.pressure.values[0], GRID, [60e-6], LayeredStress(stack))
+    found = inside.stress_zz.values[0]
+    assert found == pytest.approx(wanted["zz"], abs=1e-4 * np.abs(wanted["zz"]).max())
 
 
 def test_the_figure_draws_the_interfaces(coated: xr.Dataset) -> None:

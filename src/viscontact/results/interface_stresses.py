@@ -108,4 +108,5 @@ def interface_stresses(
         "x": results["x"],
         "y": results["y"],
     }
-    return xr.Dataset(variables, coords=coordinates)
+    attributes = {"splitting_error": source.splitting_error}
+    return xr.Dataset(variables, coords=coordinates, attrs=attributes)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -12,11 +12,13 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
+from viscontact.halfspace.elastic_stack import ElasticStack
 from viscontact.halfspace.layered_stress import LayeredStress
 from viscontact.halfspace.stack_waves import interface_depths
 from viscontact.halfspace.stress import Stress, stress_on_plane, stress_on_section
 from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
 from viscontact.materials.layers import Layered
+from viscontact.problem.stress_history import StressHistory, stress_history
 from viscontact.problem.surface import as_elastic
 from viscontact.results.recorded_case import (
     is_layered,
@@ -39,12 +41,22 @@ BENEATH = 2e-9
 
 @dataclass(frozen=True, eq=False)
 class StressSource:
-    """Body of a result, and its stored pressures."""
+    """Body of a result, and the stored pressures on its surface."""
 
     results: xr.Dataset
-    response: StressResponse
-    interfaces: tuple[float, ...]  # depths of the lower sides of the layers [m]
-    ends: bool  # True if there is a rigid base below the last interface
+    responses: tuple[StressResponse, ...]  # the stresses are the sum of theirs
+    stack: ElasticStack | None = None  # layers of a body, one of the stacks of `history`
+    history: StressHistory | None = None  # weights of the pressures of the responses
+
+    @property
+    def splitting_error(self) -> float:
+        """Bound of the relative error of the sum [-]; 0 if exact."""
+        return 0.0 if self.history is None else self.history.error
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """Depths of the lower sides of the layers [m]."""
+        return () if self.stack is None else tuple(interface_depths(self.stack))
 
     @cached_property
     def grid(self) -> Grid:
@@ -72,25 +84,34 @@ class StressSource:
         self, places: Sequence[int], depths: ArrayLike, x: float | None, y: float | None
     ) -> Stress:
         """Stresses on a vertical plane at stored instants by index; (instants, nz, nx or ny)."""
-        fields = self._pressure(places)
-        if isinstance(self.response, HalfSpaceStress):
+        pressures = self._pressures(places)
+        if self.stack is None:
             # One by one, each with its own loaded cells: a long run loads few of them at first.
             each = [
-                stress_on_section(field, self.grid, depths, self.response, x=x, y=y).components
-                for field in fields
+                stress_on_section(field, self.grid, depths, self.responses[0], x=x, y=y).components
+                for field in pressures[0]
             ]
             return Stress(np.stack(each, axis=1))
-        return stress_on_section(fields, self.grid, depths, self.response, x=x, y=y)
+        return self._summed(
+            stress_on_section(fields, self.grid, depths, body, x=x, y=y)
+            for fields, body in zip(pressures, self.responses, strict=True)
+        )
 
     def on_plane(self, places: Sequence[int], depth: float) -> Stress:
         """Stresses on a plane parallel to the surface; (instants, nx, ny)."""
-        return stress_on_plane(self._pressure(places), self.grid, depth, self.response)
+        return self._summed(
+            stress_on_plane(fields, self.grid, depth, body)
+            for fields, body in zip(self._pressures(places), self.responses, strict=True)
+        )
+
+    def _summed(self, parts: Iterable[Stress]) -> Stress:
+        return Stress(sum((part.components for part in parts), start=np.zeros(())))
 
     def depths(self, deepest: float) -> Array:
         """Usual depths of a section [m], on both sides of interfaces, to a rigid base at most."""
         if not self.interfaces:
             return np.linspace(0.0, deepest, DEPTHS)
-        if self.ends:
+        if self.stack is not None and self.stack.base is None:
             deepest = min(deepest, self.interfaces[-1])
         inside = [depth for depth in self.interfaces if depth < deepest]
         found = []
@@ -99,8 +120,27 @@ class StressSource:
             found.append(np.linspace(top * (1 + BENEATH), bottom, count))
         return np.concatenate(found)
 
-    def _pressure(self, places: Sequence[int]) -> Array:
-        return np.asarray(self.results["pressure"].values[list(places)], dtype=np.float64)
+    def _pressures(self, places: Sequence[int]) -> Array:
+        """Pressures of the responses at stored instants by index; (responses, instants, nx, ny)."""
+        stored = self.results["pressure"]
+        if self.history is None or not self.history.times.size:
+            return np.asarray(stored.values[list(places)], dtype=np.float64)[None]
+        if stored.dims[0] != "time" or self.stored[0] > 0:
+            raise ValueError(
+                "stresses: in these layers, which creep differently, they depend on the history of "
+                "the pressure; run again with the fields of all instants stored, from time 0 on "
+                "('output: fields: all' in the case file, fields='all' in Python)"
+            )
+        return self._of_history[:, list(places)]
+
+    @cached_property
+    def _of_history(self) -> Array:
+        """Pressures of the responses at all stored instants."""
+        assert self.history is not None  # asked for of creeping layers only
+        load = recorded_object(self.results, "load", "stresses")
+        jumps = np.zeros(0) if load is None else load.jumps
+        pressure = np.asarray(self.results["pressure"].values, dtype=np.float64)
+        return self.history.pressures(self.stored, pressure, jumps)
 
 
 def stress_source(
@@ -119,17 +159,15 @@ def stress_source(
         )
     if not is_layered(results, body):
         ratio = recorded_poisson_ratio(results, body) if poisson_ratio is None else poisson_ratio
-        return StressSource(results, HalfSpaceStress(ratio), (), False)
+        return StressSource(results, (HalfSpaceStress(ratio),))
     if poisson_ratio is not None:
         raise ValueError("poisson_ratio is for half-spaces; layers have their own, leave it out")
     layered = recorded_object(results, body, "stresses")
     assert isinstance(layered, Layered)
     stack = as_elastic(layered)
-    if stack is None:
-        raise ValueError(
-            "stresses: where layers creep differently, or Poisson's ratio varies in time, they "
-            "depend on the history of the pressure, which is not available yet; they are known "
-            "for layers that do not creep, of one creep law, or single ones on a rigid base"
-        )
-    depths = tuple(interface_depths(stack))
-    return StressSource(results, LayeredStress(stack), depths, stack.base is None)
+    if stack is not None:
+        return StressSource(results, (LayeredStress(stack),), stack)
+    history = stress_history(layered)
+    return StressSource(
+        results, tuple(map(LayeredStress, history.stacks)), history.stacks[0], history
+    )

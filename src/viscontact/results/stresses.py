@@ -60,13 +60,15 @@ def section_stresses(
     ------
     ValueError
         If no pressure is stored, Poisson's ratio is not known or varies in time, layers creep
-        differently, a depth is in a rigid base, or an argument is invalid.
+        differently and pressure is stored at some instants only, a depth is in a rigid base, or an
+        argument is invalid.
 
     Notes
     -----
     For a constant Poisson's ratio the stresses follow from the present pressure alone, whatever
-    the body remembers: see `viscontact.halfspace.stress`. In layers this holds if they do not
-    creep, have one creep law, or are a single one on a rigid base.
+    the body remembers: see `viscontact.halfspace.stress`. In layers that creep differently they
+    follow from its history, in terms whose relative error is the attribute ``splitting_error``:
+    the pressure of all instants from time 0 on has to be stored.
 
     Examples
     --------
@@ -96,7 +98,8 @@ def section_stresses(
         "z": ("z", below, depth),
         along: results[along],
     }
-    return xr.Dataset(_labelled(found, along), coords=coordinates)
+    attributes = {"splitting_error": source.splitting_error}
+    return xr.Dataset(_labelled(found, along), coords=coordinates, attrs=attributes)
 
 
 def _usual_depth(results: xr.Dataset, grid: Grid) -> float:

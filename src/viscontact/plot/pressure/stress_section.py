@@ -80,7 +80,7 @@ def stress_section(
     ------
     ValueError
         If no fields are stored, the bodies do not touch, Poisson's ratio is not known, or layers
-        creep differently.
+        creep differently and the fields of some instants only are stored.
 
     Examples
     --------
