@@ -80,6 +80,25 @@ def prescribes_approach(ds: xr.Dataset) -> bool:
     return bool(load.get("control", getattr(kind, "control", "force")) == "approach")
 
 
+def is_prescribed(ds: xr.Dataset, name: str) -> bool:
+    """True if the load of a run prescribes a scalar, so that it has no error.
+
+    >>> case = '{"load": {"type": "ForceHistory", "tilt_x": [0.0], "tilt_y": null}}'
+    >>> ds = xr.Dataset(attrs={"case": case})
+    >>> [is_prescribed(ds, name) for name in ("force", "approach", "tilt_x", "tilt_y")]
+    [True, False, True, False]
+    """
+    load = case_of(ds).get("load")
+    if not load:
+        return False
+    if name in ("force", "approach"):
+        return prescribes_approach(ds) == (name == "approach")
+    if name.startswith("eccentricity_"):
+        is_tilted = load.get(name.replace("eccentricity", "tilt")) is not None
+        return not prescribes_approach(ds) and not is_tilted
+    return name.startswith("tilt_") and load.get(name) is not None
+
+
 def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
     """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
 

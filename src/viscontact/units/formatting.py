@@ -186,20 +186,36 @@ def format_compact(value: float, digits: int = 3) -> str:
 
 
 def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
-    """Format instants [s] for a legend, all in one unit, with enough digits to differ.
+    """Format instants [s] for a legend, with enough digits to differ.
 
-    Speeds as well, with ``"m/s"`` as their SI unit.
+    All are in one unit; instants of runs over hours or days each in s, min, h or d. Speeds as well,
+    with ``"m/s"`` as their SI unit.
 
     Examples
     --------
     >>> time_labels([0.0, 30.0, 1000.0])
     ('0 s', '30 s', '1000 s')
+    >>> time_labels([0.0, 30.0, 2495.0, 12240.0, 604800.0])
+    ('0 s', '30 s', '41.6 min', '3.4 h', '7 d')
     """
     instants = [float(instant) for instant in times]
     unit = readable_unit(si, instants)
+    is_long = unit.symbol in [name for _, _, name in _LONG_TIMES]
+    units = [_clock_unit(each) if is_long else unit for each in instants]
     labels: tuple[str, ...] = ()
     for digits in range(3, 18):
-        labels = tuple(f"{format_compact(float(unit(t)), digits)} {unit.symbol}" for t in instants)
+        labels = tuple(
+            f"{format_compact(float(unit(each)), digits)} {unit.symbol}"
+            for each, unit in zip(instants, units, strict=True)
+        )
         if len(set(labels)) == len(set(instants)):
             break
     return labels
+
+
+def _clock_unit(instant: float) -> ReadableUnit:
+    """Unit of an instant [s] on its own: s, min, h or d, the largest that it has two of."""
+    for factor, name in ((86400.0, "d"), (3600.0, "h"), (60.0, "min")):
+        if abs(instant) >= 2 * factor:
+            return ReadableUnit(name, factor)
+    return ReadableUnit("s", 1.0)

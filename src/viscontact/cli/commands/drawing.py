@@ -49,6 +49,15 @@ At = Annotated[
         "--at", metavar="PLACE", help="Position of the line on the other axis, such as '2 mm'."
     ),
 ]
+Style = Annotated[
+    str | None,
+    typer.Option(
+        "--style",
+        metavar="contours|colours",
+        help="Pressure map with contour lines, or with a colour for each cell up to the peak; "
+        "by default colours for a contact of many spots.",
+    ),
+]
 
 
 def plot(
@@ -71,6 +80,7 @@ def plot(
     width: Width = None,
     along: Along = None,
     at: At = None,
+    style: Style = None,
     seconds: Annotated[
         float | None, typer.Option("--seconds", help="Duration of an animation [s]; 8 by default.")
     ] = None,
@@ -84,7 +94,10 @@ def plot(
     """
     from viscontact.cli.results.figures import draw
 
-    options = {"width": width, "along": along, "at": at, "seconds": seconds, "fps": fps}
+    options: dict[str, str | float | None] = {
+        **{"width": width, "along": along, "at": at, "style": style},
+        **{"seconds": seconds, "fps": fps},
+    }
     draw(directory, figure, times or [], output, options, speeds or [])
 
 
@@ -106,9 +119,10 @@ def compare(
     width: Width = None,
     along: Along = None,
     at: At = None,
+    style: Style = None,
 ) -> None:
     """Overlay several runs in one figure."""
     from viscontact.cli.results.figures import draw_comparison
 
-    options = {"width": width, "along": along, "at": at}
+    options = {"width": width, "along": along, "at": at, "style": style}
     draw_comparison(directories, figure, times or [], output, options, speeds or [])

@@ -113,7 +113,14 @@ def draw_comparison(
             _note(*(f"{label}: {note}" for note in notes if note))
         _refuse_mixed(labelled)
         times_of = None if wanted is None else wanted.values
-        save(plot, file, draw_it, labelled, times=times_of, **chosen)
+        save(
+            plot,
+            file,
+            draw_it,
+            plot.layout.ordered_names.in_order(labelled),
+            times=times_of,
+            **chosen,
+        )
     return file
 
 

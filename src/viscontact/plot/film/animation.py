@@ -31,6 +31,7 @@ from viscontact.plot.pressure.pressure_map import (
 from viscontact.results.recorded_case import across_period
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
+from viscontact.results.stated_errors import lacks_curve
 from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
 
@@ -90,6 +91,7 @@ class _Scene:
     unit: ReadableUnit
     along: Literal["x", "y"]
     note: str
+    top: float  # of the section, the largest pressure of all instants [Pa]
     mark: Callable[[Axes, float], list[Artist]]  # draws the moving body at an instant [s]
     edges: Callable[[Snapshot], tuple[float, float] | None]  # leading and trailing [m]
 
@@ -188,12 +190,15 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
     """Find the limits of all instants to be shown."""
     note, read = peak_note([results], shown), snapshot_reader(results)
     part, boxes, highest = ORDINARY if note else 1.0, [], 0.0
+    tops: dict[Literal["x", "y"], float] = {"x": 0.0, "y": 0.0}
     for index in np.flatnonzero(np.isin(stored, shown)):
         snapshot = read(int(index))
         if snapshot.touching:
             boxes.append(snapshot.extent())
             pressed = snapshot.pressure[snapshot.pressure > 0]
             highest = max(highest, float(np.quantile(pressed, part)))
+            for way in tops:
+                tops[way] = max(tops[way], float(snapshot.section(way)[1].max()))
     if not boxes:
         raise ValueError(
             f"{_NAME}: the bodies do not touch at any stored instant from "
@@ -212,12 +217,12 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
         direction = direction_at(results, snapshot.time) or (0.0, 0.0)
         return contact_edges(*snapshot.section(along), direction["xy".index(along)])
 
-    return _Scene(stored, read, window, levels, unit, along, note, mark, edges)
+    return _Scene(stored, read, window, levels, unit, along, note, tops[along], mark, edges)
 
 
 def _histories(run: xr.Dataset, width: float) -> list[str]:
     """Key scalars that fit on the page: the contact's response first, then the load."""
-    worthwhile = drawn_scalars({"": run})
+    worthwhile = [name for name in drawn_scalars({"": run}) if not lacks_curve(run, name)]
     names = [name for name in reversed(shown_in(Place.KEY)) if name in worthwhile]
     return names[: max(1, int(width / _HISTORY_WIDTH))]
 
@@ -292,7 +297,7 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
     fill_colour_bar(sheet.bar, scene.levels, unit, "max" if scene.note else "neither")
     limits = window.x if scene.along == "x" else window.y
     sheet.section.set(xlim=window.unit(limits), xlabel=window.unit.label(scene.along))
-    sheet.section.set(ylim=(0.0, float(unit(scene.levels[-1]))), ylabel=unit.label("Pressure"))
+    sheet.section.set(ylim=(0.0, float(unit(1.05 * scene.top))), ylabel=unit.label("Pressure"))
     across = "y" if scene.along == "x" else "x"
     middle = scene.read(0).middle[1 if scene.along == "x" else 0]
     style.add_heading(

@@ -21,8 +21,9 @@ from viscontact.plot.layout.error_band import (
     limit_axis_to_curves,
     peak_note,
 )
+from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.results.recorded_case import across_period
+from viscontact.results.recorded_case import across_period, is_prescribed
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import (
     NOT_DRAWN,
@@ -187,20 +188,22 @@ def _draw(
     bands = []
     variable = SCALARS[scalar]
     unit = readable_unit(variable.units, *(run[scalar].values for run in runs.values()))
-    for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
+    for (name, run), look in zip(runs.items(), styles_of(list(runs)), strict=True):
         values = drawn_values(run, scalar)
-        instants, error = time_unit(run["time"].values), stated_error(run, scalar)
+        instants = time_unit(run["time"].values)
+        error = None if is_prescribed(run, scalar) else stated_error(run, scalar)
         axes.plot(instants, unit(values), label=name, **look)
         bar = None if error is None else unit(error)
         bands.append(draw_band(axes, instants, unit(values), bar, look["color"]))
     axes.set_ylabel(unit.label(variable.label))
+    axes.ticklabel_format(axis="y", useOffset=False)
     missing = sum(lacks_curve(run, scalar) for run in runs.values())
     if missing == len(runs):
         _say_not_drawn(axes)
     elif scalar == "force":
         axes.set_ylim(0.0, 1.08 * axes.dataLim.y1)
-    elif np.ptp(axes.dataLim.intervaly) <= _ROUNDING * abs(axes.dataLim.y1):
-        axes.set_ylim(0.0, 1.15 * axes.dataLim.y1 or 1.0)
+    elif np.ptp(axes.dataLim.intervaly) <= _ROUNDING * abs(axes.dataLim.intervaly).max():
+        axes.set_ylim(*sorted((0.0, 1.15 * axes.dataLim.y1 or 1.0)))
     drawn = [band for band in bands if band is not None]
     if drawn:
         limit_axis_to_curves(axes, *(unit(drawn_values(run, scalar)) for run in runs.values()))
@@ -226,7 +229,7 @@ def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[B
     columns = style.columns_that_fit(figure, [label for _, label in entries], 4)
     style.add_height_of_legend(figure, -(-len(entries) // columns))
     figure.legend(
-        *zip(*entries, strict=True),
+        *zip(*style.by_rows(entries, columns), strict=True),
         loc="outside upper center" if len(names) > 1 else "outside upper right",
         ncols=columns,
         frameon=False,

@@ -15,7 +15,9 @@ from viscontact.plot.histories.time_axis import within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
+from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.recorded_case import is_prescribed
 from viscontact.results.run_axis import require_time
 from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import stated_error
@@ -126,11 +128,11 @@ def compare_hysteresis(
     x_unit = readable_unit("m", *(run["approach"].values for run in shown.values()))
     y_unit = readable_unit("N", *(run["force"].values for run in shown.values()))
     bands: list[Band] = []
-    for (name, run), look in zip(shown.items(), style.run_styles(len(shown)), strict=True):
+    for (name, run), look in zip(shown.items(), styles_of(list(shown)), strict=True):
         x, y = x_unit(run["approach"].values), y_unit(run["force"].values)
         axes.plot(x, y, label=name, **look)
         for quantity, unit in (("approach", x_unit), ("force", y_unit)):
-            error = stated_error(run, quantity)
+            error = None if is_prescribed(run, quantity) else stated_error(run, quantity)
             if error is not None:
                 bands += _draw_bands(
                     axes, x, y, unit(error), look["color"], sideways=unit is x_unit

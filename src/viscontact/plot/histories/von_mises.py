@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,6 +14,7 @@ from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.pressure.stress_section import stress_sections
 from viscontact.results.run_axis import require_time
@@ -107,7 +107,7 @@ def compare_von_mises(
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = list(figure.subplots(2, 1, sharex=True))
     time = readable_unit("s", *(history.instants for history in stresses))
-    looks: list[dict[str, Any]] = style.run_styles(len(runs))
+    looks = styles_of(list(runs))
     for axes, (part, si_unit, name) in zip(panels, _DRAWN, strict=True):
         curves = [getattr(history, part) for history in stresses]
         unit = readable_unit(si_unit, *curves)

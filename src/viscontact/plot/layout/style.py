@@ -8,7 +8,7 @@ user's own plots are not affected.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib import colormaps
@@ -29,6 +29,8 @@ THIN_LINE = 0.6
 _LETTER, _KEY = 0.062, 0.5
 # Height of a row of a legend [inch], and number of rows for which figures have room.
 _ROW, _FEW_ROWS = 0.18, 3
+_Entry = TypeVar("_Entry")
+
 INK = "#262626"
 FAINT = "#7a7a7a"
 LINE = "#0072B2"
@@ -86,8 +88,8 @@ def add_legend_below(
     columns = columns_that_fit(figure, labels, columns)
     add_height_of_legend(figure, -(-len(labels) // columns))
     figure.legend(
-        handles,
-        labels,
+        by_rows(handles, columns),
+        by_rows(labels, columns),
         title=title,
         title_fontsize=TICK_SIZE,
         loc="outside lower center",
@@ -98,6 +100,15 @@ def add_legend_below(
         columnspacing=1.2,
         labelcolor=INK,
     )
+
+
+def by_rows(entries: Sequence[_Entry], columns: int) -> list[_Entry]:
+    """Entries of a legend of some columns, which is filled by columns, so that rows are read.
+
+    >>> by_rows(["a", "b", "c", "d", "e"], columns=4)
+    ['a', 'e', 'b', 'c', 'd']
+    """
+    return [entry for column in range(columns) for entry in entries[column::columns]]
 
 
 def columns_that_fit(figure: Figure, labels: Sequence[str], most: int) -> int:

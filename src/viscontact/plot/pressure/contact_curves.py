@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
@@ -88,7 +89,7 @@ def compare_curves(
     everything = [snapshot for snapshots in drawn.values() for snapshot in snapshots]
     units = _units(everything, curve)
     for column, axes in enumerate(panels):
-        looks = style.run_styles(len(runs))
+        looks = styles_of(list(runs))
         for snapshots, look in zip(drawn.values(), looks, strict=True):
             _plot(axes, snapshots[column], curve, units, **look)
     # The panels share their limits, which the last curve may extend.

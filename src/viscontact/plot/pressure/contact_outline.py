@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
+from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
@@ -133,7 +134,7 @@ def compare_contact_outlines(
         raise ValueError(f"{_NAME}: runs are compared at one instant, got {times!r} s")
     window = window_around(snapshots)
     axes = _new_axes(window, len(snapshots), width, below=True)
-    looks = style.run_styles(len(snapshots))
+    looks = styles_of(list(runs))
     for snapshot, look in zip(snapshots, looks, strict=True):
         path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
         how = {"edgecolor" if key == "color" else key: value for key, value in look.items()}

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Literal, get_args
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
-from matplotlib.colors import BoundaryNorm
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import label
 
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
@@ -30,6 +33,12 @@ from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 _NAME = "pressure-map"
+#: Appearance of the pressure: labelled iso-contours, or a colour for each cell.
+MapStyle = Literal["contours", "colours"]
+#: Largest number of spots with contour lines, which would cover more of them.
+_MOST_SPOTS = 12
+#: Colours of cells: the palest one differs from the white without contact.
+_CELL_COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.18, 1.0, 256)))
 # Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
 #: Quantile of the pressure up to which levels go where the peak depends on the mesh: up to the peak
@@ -38,9 +47,13 @@ ORDINARY = 0.85
 
 
 def pressure_map(
-    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    style: MapStyle | None = None,
 ) -> Figure:
-    """Draw iso-contours of pressure, one panel per instant, with the outline of the contact.
+    """Draw the pressure, one panel per instant, with the outline of the contact.
 
     Parameters
     ----------
@@ -51,6 +64,9 @@ def pressure_map(
         first in contact to the last.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
+    style : {"contours", "colours"}, optional
+        Labelled iso-contours, or the mean pressure of each cell in colours up to the largest. By
+        default colours for a contact of more than a dozen spots, contours otherwise.
 
     Returns
     -------
@@ -75,11 +91,15 @@ def pressure_map(
     >>> panel.get_xlabel(), scale.get_ylabel()
     ('x [µm]', 'Pressure [kPa]')
     """
-    return _draw({"": results}, times, width, count=4)
+    return _draw({"": results}, times, width, style, count=4)
 
 
 def compare_pressure_maps(
-    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+    runs: Mapping[str, xr.Dataset],
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    style: MapStyle | None = None,
 ) -> Figure:
     """Draw the pressure maps of several runs in one figure.
 
@@ -91,6 +111,8 @@ def compare_pressure_maps(
         Instants [s]; of each run the nearest stored ones are drawn. By default the last of each.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
+    style : {"contours", "colours"}, optional
+        As in `pressure_map`.
 
     Returns
     -------
@@ -116,37 +138,79 @@ def compare_pressure_maps(
     >>> len(compare_pressure_maps(runs).axes)  # a panel for each, and the scale of both
     3
     """
-    return _draw(runs, times, width)
+    return _draw(runs, times, width, style)
 
 
 def _draw(
-    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, width: Width | None, count: int = 1
+    runs: Mapping[str, xr.Dataset],
+    times: ArrayLike | None,
+    width: Width | None,
+    chosen: MapStyle | None,
+    count: int = 1,
 ) -> Figure:
     snapshots, headings = headed_snapshots(runs, times, _NAME, count=count)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])
     window = window_around(snapshots)
-    pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
-    part = ORDINARY if note else 1.0
-    levels, unit = pressure_levels(max(float(np.quantile(each, part)) for each in pressed))
     figure, panels = _panels(len(snapshots), window, width)
-    lines = [
-        draw_contours(axes, snapshot, levels, window)
-        for axes, snapshot in zip(panels, snapshots, strict=True)
-    ]
+    if chosen not in (None, *get_args(MapStyle)):
+        raise ValueError(f"{_NAME}: style must be 'contours' or 'colours', got {chosen!r}")
+    in_colours = chosen == "colours" or (chosen is None and any(map(_has_many_spots, snapshots)))
+    drawn = zip(panels, snapshots, strict=True)
+    if in_colours:
+        top = max(float(snapshot.pressure.max()) for snapshot in snapshots)
+        for axes, snapshot in drawn:
+            _draw_cells(axes, snapshot, top, window)
+    else:
+        pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
+        part = ORDINARY if note else 1.0
+        levels, unit = pressure_levels(max(float(np.quantile(each, part)) for each in pressed))
+        lines = [draw_contours(axes, snapshot, levels, window) for axes, snapshot in drawn]
     for axes, heading in zip(panels, headings, strict=True):
         style.add_heading(axes, heading)
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
     if len(runs) == 1:
         for axes, snapshot in zip(panels, snapshots, strict=True):
             mark_body(axes, next(iter(runs.values())), snapshot.time, window)
-    _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
+    if in_colours:
+        _add_colour_scale(figure, panels, top)
+    else:
+        _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
     figure.draw_without_rendering()  # The layout gives the room for texts.
     style.arrange_headings(figure)
     figure.draw_without_rendering()
+    if in_colours:
+        return figure
     for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
         if contours is not None:
             _label_contours(axes, contours, snapshot, unit, window)
     return figure
+
+
+def _has_many_spots(snapshot: Snapshot) -> bool:
+    return bool(label(snapshot.pressure > 0)[1] > _MOST_SPOTS)
+
+
+def _draw_cells(axes: Axes, snapshot: Snapshot, top: float, window: Window) -> None:
+    """Draw the pressure of each cell in contact in a colour, from 0 to a largest one [Pa]."""
+    # With what lies beyond the border of a period.
+    wide = beyond_period(snapshot)
+    pressure = np.ma.masked_less_equal(wide.pressure.T, 0.0)
+    axes.pcolormesh(
+        window.unit(wide.x),
+        window.unit(wide.y),
+        pressure,
+        cmap=_CELL_COLOURS,
+        norm=Normalize(0.0, top),
+        shading="nearest",
+        rasterized=True,
+    )
+
+
+def _add_colour_scale(figure: Figure, panels: list[Axes], top: float) -> None:
+    unit = readable_unit("Pa", top)
+    shown = ScalarMappable(Normalize(0.0, float(unit(top))), _CELL_COLOURS)
+    bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02)
+    _dress_colour_bar(bar, unit)
 
 
 def pressure_levels(highest: float) -> tuple[NDArray[np.float64], ReadableUnit]:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from viscontact.plot.layout import style
+from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.plot.sweeps.key_axis import KeyAxis, is_number, key_labels, place_log_ticks
 from viscontact.results.largest_values import (
@@ -212,7 +213,7 @@ def _draw_curves(
     else:
         values, labels = _Values.of(ds, name, key, by), key_labels(ds, by)
         few = len(labels) <= _MOST_CURVES
-        looks = style.run_styles(len(labels)) if few else ()
+        looks = styles_of(labels) if few else ()
         colours = [look["color"] for look in looks] or style.time_colours(len(labels))
         for row, (label, colour) in enumerate(zip(labels, colours, strict=True)):
             label = label if few or row in (0, len(labels) - 1) else ""
