@@ -18,7 +18,7 @@ import numpy as np
 
 import viscontact as vc
 
-radius, force = 10e-3, 2.0
+radius, force = 10e-3, 0.5
 rubber = vc.Material(
     vc.Zener(shear_modulus=2e6, delayed_modulus=1e6, viscosity=1e6), bulk_modulus=2e9
 )
@@ -42,7 +42,7 @@ for (thickness, ds), colour in zip(runs.items(), ("#0072B2", "#D55E00", "#009E73
     label = f"{thickness * 1e3:g} mm"
     axes.plot(ds.x * 1e3, profile[0], color=colour, label=label)
     axes.plot(ds.x * 1e3, profile[-1], "--", color=colour)
-axes.set(xlabel="x [mm]", ylabel="pressure [MPa]", xlim=(-2.5, 2.5), ylim=(0, None))
+axes.set(xlabel="x [mm]", ylabel="pressure [MPa]", xlim=(-1.5, 1.5), ylim=(0, None))
 axes.legend(title="cover", frameon=False)
 
 # %%
