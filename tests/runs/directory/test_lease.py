@@ -21,7 +21,7 @@ import xarray as xr
 
 import leased_run
 from leased_run import COUNT, leased, opened
-from viscontact.run_files import LOCK_NAME, PROGRESS_NAME, RESULT_NAME
+from viscontact.run_files import LOCK_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory import lease, lease_file, lock_probe
 from viscontact.runs.directory.lease import Lease, LeaseHeld
 from viscontact.runs.directory.lease_file import LeaseFile, current_lease, header
@@ -492,7 +492,8 @@ def suspended_and_taken_over(runner: Runner, directory: Path, delay: float, at: 
     clock.sleep(delay)
     runner.process.send_signal(signal.SIGSTOP)
     os.waitpid(runner.process.pid, os.WUNTRACED)  # it is suspended now
-    has_ended, ends = runner.has_ended(), []
+    # Its restart state is removed last, and after that it only gives its lease back.
+    has_ended, ends = runner.has_ended() or not (directory / STATE_NAME).exists(), []
 
     def resume() -> None:
         if not ends:
