@@ -304,8 +304,9 @@ def test_a_slow_ball_over_a_layer_has_the_friction_of_its_curvature():
         ds = vc.simulate(BALL, body, load, grid, times, motion=motion, errors=False)
         # Measured: -1.5 %, at twice the speed -2.3 %.
         assert float(ds.friction_coefficient[-1]) == pytest.approx(speed * lag / RADIUS, rel=0.02)
-        assert bool(np.isnan(ds.dissipation[-1])) == (base is STEEL)
-        assert ("layers that creep differently" in ds.attrs["warnings"]) == (base is STEEL)
+        # The power of the dashpots is that of the resistance, of two terms as well: measured 0.3 %.
+        power = float(ds.friction_coefficient[-1]) * 2.0 * speed
+        assert float(ds.dissipation[-1]) == pytest.approx(power, rel=0.01)
 
 
 def test_a_layer_that_does_not_yield_at_once_is_carried_by_the_ball():
