@@ -15,6 +15,7 @@ from PIL import Image
 from synthetic_results import maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.plot import animation, save_film
+from viscontact.plot.film import saving
 from viscontact.results.variables import SCALARS
 
 
@@ -159,6 +160,17 @@ def test_a_film_that_cannot_be_written_leaves_nothing(sphere: xr.Dataset, tmp_pa
         with pytest.raises(OSError, match="no"):
             save_film(film, tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_missing_encoder_is_named_with_its_extra(
+    sphere: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(saving, "write_frames", None)
+    film = animation(sphere, seconds=1.0, fps=3.0)
+    with pytest.raises(ValueError, match=r"pip install 'viscontact\[animation\]'"):
+        save_film(film, tmp_path / "film.mp4")
+    save_film(film, tmp_path / "film.gif")
+    assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
 
 
 # --- the command -------------------------------------------------------------------------------

@@ -252,7 +252,7 @@ def test_ci_ends_with_the_readme_test_command() -> None:
 
 
 def test_the_extras_are_those_promised() -> None:
-    users = {"plot", "fast", "surfaces", "fit", "web", "cluster", "pdf", "all"}
+    users = {"plot", "animation", "fast", "surfaces", "fit", "web", "cluster", "pdf", "all"}
     assert set(PROJECT["optional-dependencies"]) == users | {"test", "docs", "dev"}
 
 

@@ -30,6 +30,7 @@ from viscontact.runs.recorded_many import Progress, record_many
 from viscontact.runs.resources import fitting
 from viscontact.runs.single import simulate
 from viscontact.runs.sweep.open_many import open_many
+from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.units.numbers import whole
 
 #: Longest time in which an interruption is not noticed on Windows [s].
@@ -47,7 +48,7 @@ def simulate_many(
     client: Any = None,
     directory: None = None,
     workers: int | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     return_exceptions: bool = False,
 ) -> list[Any]: ...
 @overload
@@ -58,7 +59,7 @@ def simulate_many(
     client: Any = None,
     directory: str | Path,
     workers: int | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     return_exceptions: bool = False,
 ) -> xr.Dataset: ...
 def simulate_many(
@@ -68,7 +69,7 @@ def simulate_many(
     client: Any = None,
     directory: str | Path | None = None,
     workers: int | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     return_exceptions: bool = False,
 ) -> list[Any] | xr.Dataset:
     """Simulate independent runs in several processes, and return their results in order.
@@ -97,6 +98,9 @@ def simulate_many(
         (its binding, control group and SLURM job), or fewer if the runs do not fit into the free
         memory. Each computes on one thread unless the run sets ``threads``. An executor or a
         client has its own number.
+    progress : bool or callable, optional
+        True: show a bar on stderr. A function is called with (number of the run, done, total) as
+        runs end.
     return_exceptions : bool, optional
         Return the exception of a failed run in place of its result, and keep the other results.
         With `directory` a failed run is NaN in the dataset, with its message.
@@ -147,10 +151,11 @@ def simulate_many(
     4.0
     """
     refuse_import_by_a_worker()
+    report = reported(progress, ProgressBar("run"))
     recipes = checked_recipes(runs)
     require_executor(executor, client, workers)
     if directory is not None:
-        place, shown = Path(directory), progress or _no_progress
+        place, shown = Path(directory), report or _no_progress
         if place.exists() and not place.is_dir():
             raise ValueError(f"directory: {place} is a file; name a directory for the runs")
         with _tasks(recipes, place, executor, client, workers) as tasks:
@@ -159,11 +164,11 @@ def simulate_many(
     if client is not None:
         executor = client.get_executor(pure=False)
     if executor is not None:
-        return _results(recipes, executor, progress, return_exceptions)
+        return _results(recipes, executor, report, return_exceptions)
     count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
     pool = LocalWorkers(count)
     try:
-        found = _results(recipes, pool, progress, return_exceptions)
+        found = _results(recipes, pool, report, return_exceptions)
     except BaseException:
         pool.kill()
         raise

@@ -23,6 +23,7 @@ from viscontact.problem.problem import Problem
 from viscontact.results.dataset import to_dataset
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.variables import field_axis
+from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time, run_attributes
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import Progress, march_run
@@ -41,7 +42,7 @@ def simulate(
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     errors: bool = True,
     motion: Motion | None = None,
 ) -> xr.Dataset:
@@ -71,8 +72,9 @@ def simulate(
         ``time``, some on ``field_time``.
     threads : int, optional
         Threads of one Fourier transform.
-    progress : callable, optional
-        Called with (state, done, total) after each instant.
+    progress : bool or callable, optional
+        True: show a bar on stderr, in a notebook below the cell. A function is called with (state,
+        done, total) after each instant.
     errors : bool, optional
         Estimate the errors of the scalars, ``peak_pressure_error`` and so on, from two
         coarser runs, which take about two thirds of the run's own time.
@@ -120,6 +122,7 @@ def simulate(
     >>> round(float(ds.approach[-1] / ds.approach[0]), 2)  # (J(5 s)/J(0))**(2/3)
     1.58
     """
+    report = reported(progress, ProgressBar("step", "errors" if errors else ""))
     problem = Problem(
         *(indenter, material, load, grid, times, indenter_material, tolerance, fields),
         motion=motion,
@@ -130,7 +133,7 @@ def simulate(
     keep = set(problem.field_instants.tolist())
     keeps_all = field_axis(fields) == "time"
     try:
-        for state in march_run(run, progress):
+        for state in march_run(run, report):
             kept = keeps_all or state.time in keep
             states.append(state if kept else state.without_fields())
     except (ConvergenceError, DomainError) as stop:

@@ -17,6 +17,7 @@ from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
+from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.state import ContactState
 from viscontact.time_integration.requested_times import AdaptiveTimes
@@ -37,7 +38,7 @@ def march(
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     motion: Motion | None = None,
 ) -> Iterator[ContactState]:
     """Simulate an indenter pressed on a creeping half-space, and yield its state at each instant.
@@ -66,8 +67,9 @@ def march(
         As in `simulate`, checked but not needed here: states carry their fields.
     threads : int, optional
         Threads of one Fourier transform.
-    progress : callable, optional
-        Called with (state, done, total) after each instant.
+    progress : bool or callable, optional
+        True: show a bar on stderr. A function is called with (state, done, total) after each
+        instant.
     motion : Travel or Reciprocation, optional
         Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
         out. The grid is fixed to the surface; an automatic one covers the whole path.
@@ -107,12 +109,13 @@ def march(
     >>> round(next(states).approach, 4)
     0.0133
     """
+    report = reported(progress, ProgressBar("step"))
     problem = Problem(
         *(indenter, material, load, grid, times, indenter_material, tolerance, fields),
         motion=motion,
     )
     run = prepare_run(problem, threads)
-    return march_run(run, progress)
+    return march_run(run, report)
 
 
 def march_run(run: RunSetup, progress: Progress | None = None) -> Iterator[ContactState]:

@@ -16,6 +16,7 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
+from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time
 from viscontact.state import ContactState
 from viscontact.steady.curve import SteadyCurve
@@ -40,7 +41,7 @@ def steady(
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     errors: bool = True,
 ) -> xr.Dataset:
     """Contact of a body that moves over a creeping half-space at constant speed.
@@ -79,8 +80,9 @@ def steady(
         ``speed``, some on ``field_speed``.
     threads : int, optional
         Threads of one Fourier transform.
-    progress : callable, optional
-        Called with (state, done, total) after each speed, in their order.
+    progress : bool or callable, optional
+        True: show a bar on stderr. A function is called with (state, done, total) after each
+        speed, in their order.
     errors : bool, optional
         Estimate the errors of the scalars, ``friction_coefficient_error`` and so on, from a
         contact on a coarser grid.
@@ -138,6 +140,7 @@ def steady(
     >>> ds.friction_coefficient.values.round(4).tolist()
     [0.0009, 0.0476, 0.0025]
     """
+    report = reported(progress, ProgressBar("speed"))
     contact = Problem(indenter, material, load, grid, None, indenter_material, tolerance)
     problem = steady_problem(contact, speed, along, rolling, fields)
     started = clock.perf_counter()
@@ -156,8 +159,8 @@ def steady(
             states.append(state if state.speed in kept else state.without_fields())
             for text in state.warnings:
                 warnings.warn(text, AccuracyWarning, stacklevel=2)
-            if progress is not None:
-                progress(state, curve.done, len(problem.speeds))
+            if report is not None:
+                report(state, curve.done, len(problem.speeds))
     except (ConvergenceError, DomainError) as stop:
         stop.partial = result() if states else None
         raise

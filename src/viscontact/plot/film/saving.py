@@ -130,7 +130,7 @@ def _palette(pictures: list[Picture]) -> Image.Image:
 def _write_mp4(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) -> None:
     if write_frames is None:
         raise ValueError(
-            "MP4 needs imageio-ffmpeg: pip install 'viscontact[plot]'; or name a file .gif"
+            "MP4 needs imageio-ffmpeg: pip install 'viscontact[animation]'; or name a file .gif"
         )
     # The message of the encoder would be many lines long.
     if not path.parent.is_dir():
