@@ -90,8 +90,11 @@ def bench(args: list[str]) -> int:
 
 
 def build(args: list[str]) -> int:
-    """Build the wheel in dist/."""
-    return run(["-m", "hatchling", "build", "-t", "wheel", *args])
+    """Build the source archive and the wheel in dist/, and check their metadata."""
+    shutil.rmtree(ROOT / "dist", ignore_errors=True)  # earlier ones would be checked, too
+    status = run(["-m", "hatchling", "build", *args])
+    built = sorted(str(path) for path in (ROOT / "dist").glob("*"))
+    return status or run(["-m", "twine", "check", "--strict", *built])
 
 
 def lock(args: list[str]) -> int:
