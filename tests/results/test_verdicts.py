@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ import viscontact as vc
 from viscontact.case import CaseError, read_case
 from viscontact.case.allowable import MOVING, NOT_STEADY, Allowable
 from viscontact.cli import main
-from viscontact.report import report_page
+from viscontact.report import report_page, sweep_page
 from viscontact.results import variables
 from viscontact.results.peak_stress import STRESSES
 from viscontact.results.verdicts import overall, verdict_on, verdicts
@@ -199,3 +200,11 @@ def test_table_of_a_sweep_has_the_worst_verdict_of_each_run(
     table = capsys.readouterr().out
     rows = [line for line in table.splitlines() if line.startswith("ball_")]
     assert [row.split()[-1] for row in rows] == ["passed", "failed"]
+    ds = vc.open_many(folder / "sweep")
+    assert ds["verdict"].values.tolist() == ["passed", "failed"]
+    page = sweep_page(ds, title="sweep")
+    assert re.findall(r'number">(passed|failed)<', page) == ["passed", "failed"]
+    assert main(["collect", str(folder / "sweep"), "-o", str(folder / "sweep.csv")]) == 0
+    header, *lines = (folder / "sweep.csv").read_text(encoding="utf-8").splitlines()
+    place = header.split(",").index("verdict")
+    assert [line.split(",")[place] for line in lines] == ["passed", "failed"]

@@ -119,6 +119,8 @@ def _listed(lines: list[str]) -> Element | None:
 
 def _table(ds: xr.Dataset) -> Iterator[Element]:
     columns = [*_key_columns(ds), *_scalar_columns(ds)]
+    if "verdict" in ds:
+        columns.append(("Verdict", ds["verdict"].values.ravel().tolist()))
     states, runs = ds["state"].values.ravel(), ds["run"].values.ravel()
     rows = [
         element(

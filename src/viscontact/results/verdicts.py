@@ -79,9 +79,13 @@ def verdicts(ds: xr.Dataset) -> list[Verdict]:
     return [_so_far(each) for each in found] if not ds.attrs.get("complete", 1) else list(found)
 
 
-def verdict_attribute(ds: xr.Dataset) -> str:
-    """Return the attribute `allowable` of a finished run, with its verdicts, as JSON."""
-    found = [verdict_on(ds, name, float(each["limit"])) for name, each in _given(ds).items()]
+def final_verdicts(ds: xr.Dataset) -> list[Verdict]:
+    """Return the verdicts on a run whose last row is there, whatever the result states so far."""
+    return [verdict_on(ds, name, float(each["limit"])) for name, each in _given(ds).items()]
+
+
+def verdict_attribute(found: Sequence[Verdict]) -> str:
+    """Return the attribute `allowable` of a result, as JSON."""
     return json.dumps({each.name: _plain(each) for each in found})
 
 

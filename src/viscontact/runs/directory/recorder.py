@@ -10,7 +10,13 @@ from typing import Any, NamedTuple, Self
 from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.results.netcdf import open_results
 from viscontact.results.variables import error_name
-from viscontact.results.verdicts import ATTRIBUTE, verdict_attribute
+from viscontact.results.verdicts import (
+    ATTRIBUTE,
+    Verdict,
+    final_verdicts,
+    overall,
+    verdict_attribute,
+)
 from viscontact.run_files import STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
@@ -159,27 +165,29 @@ class Recorder:
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with errors and verdicts, and remove the restart state."""
         verdicts = self._verdicts(bars)
+        attributes = {ATTRIBUTE: verdict_attribute(verdicts)} if verdicts else {}
         with self._undisturbed():
             if self._lines is not None:
                 # Before the state is removed: a line lost in a power cut could not be repeated.
                 errors = None if bars is None else bars.values
-                self._lines.finish(errors, self._writer.described_fields())
-            self._writer.finish(bars, verdicts)
+                fields, worst = self._writer.described_fields(), overall(verdicts)
+                self._lines.finish(errors, fields, worst)
+            self._writer.finish(bars, attributes)
             self.shown = self._reached
             self.close()
             self._recorded.check()
             remove_restart_files(self._recorded.directory)
 
-    def _verdicts(self, bars: ErrorBars | None) -> dict[str, str]:
-        """Verdicts on the allowable values, as an attribute of the result; empty without any."""
+    def _verdicts(self, bars: ErrorBars | None) -> list[Verdict]:
+        """Verdicts on the allowable values; empty without any."""
         if ATTRIBUTE not in self._recorded.filed or self._lines is None:
-            return {}
+            return []
         self.publish()
         over = self._recorded.contents.over
         errors = {} if bars is None else bars.values
         with open_results(self._recorded.result_path) as ds:
             stated = {error_name(name): (over, values) for name, values in errors.items()}
-            return {ATTRIBUTE: verdict_attribute(ds.assign(stated))}
+            return final_verdicts(ds.assign(stated))
 
     def close(self) -> None:
         """Close all files; never fails, and further calls do nothing."""

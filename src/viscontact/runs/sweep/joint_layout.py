@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +66,11 @@ class JointLayout:
         return any(each.changed for each in self.runs)
 
     @property
+    def has_verdicts(self) -> bool:
+        """True if any finished run was compared with allowable values."""
+        return any(each.verdict for each in self.states)
+
+    @property
     def scalar_dims(self) -> tuple[str, ...]:
         """Dimensions of a scalar."""
         return (*self.axes.dims, self.row_dim)
@@ -112,6 +117,9 @@ class JointLayout:
         if self.has_changed:
             own = [each.own_settings for each in self.runs]
             about["changed"] = (own, "settings of the run alone")
+        if self.has_verdicts:
+            worst = [each.verdict for each in self.states]
+            about["verdict"] = (worst, "worst verdict on the allowable values")
         texts = {
             name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
             for name, (values, title) in about.items()
@@ -189,7 +197,8 @@ def _outlined(directory: Path) -> tuple[RunState, RunOutline | None]:
     if state.state is not State.DONE:
         return state, None
     try:
-        return state, run_outline(directory)
+        outline = run_outline(directory)
+        return replace(state, verdict=outline.verdict), outline
     except (OSError, RuntimeError, ValueError, LookupError, TypeError) as error:
         return RunState(State.FAILED, f"its result cannot be read: {error}"), None
 

@@ -40,7 +40,8 @@ def open_many(directory: str | Path, *, tree: bool = False) -> xr.Dataset | xr.D
         running, stopped, failed or done) and ``message`` belong to each run; scalars and fields are
         NaN unless it is done. Fields are included if all finished runs store them at the same
         instants on the same grid. If any run
-        was computed with settings of its own, ``changed`` has them as text, empty for the others.
+        was computed with settings of its own, ``changed`` has them as text, empty for the others;
+        ``verdict`` likewise has the worst verdict on the allowable values of each run.
 
     Raises
     ------

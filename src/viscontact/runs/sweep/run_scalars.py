@@ -33,6 +33,7 @@ class RunOutline:
     rows: NDArray[np.float64]  # instants [s] or speeds [m/s]
     columns: frozenset[str]  # those of `COLUMNS` that the result states
     fields: dict[str, Any] | None  # as `described_fields` returns it
+    verdict: str = ""  # the worst on the allowable values; empty without any
 
 
 def run_outline(directory: Path) -> RunOutline:
@@ -43,7 +44,8 @@ def run_outline(directory: Path) -> RunOutline:
             with (directory / PROGRESS_NAME).open("rb") as lines:
                 rows = np.array([_row_value(line) for line in lines])
             over = next(name for name in AXES if name in end)
-            return RunOutline(over, rows, frozenset(set(COLUMNS) & set(end)), end.get("fields"))
+            columns, verdict = frozenset(set(COLUMNS) & set(end)), str(end.get("verdict", ""))
+            return RunOutline(over, rows, columns, end.get("fields"), verdict)
     with opened(directory / RESULT_NAME, "r") as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)

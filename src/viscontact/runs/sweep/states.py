@@ -35,6 +35,7 @@ class RunState:
 
     state: State
     message: str = ""
+    verdict: str = ""  # the worst on the allowable values; empty without any
 
 
 def run_state(directory: Path) -> RunState:
