@@ -93,7 +93,7 @@ def verdict_on(ds: xr.Dataset, name: str, limit: float) -> Verdict:
     """Compare the largest magnitude of a scalar or of a stress over a run with its limit.
 
     It has passed if all magnitudes with their errors are within the limit, and failed if one of
-    them without its error is beyond it.
+    them less its error is beyond it.
     """
     if name in STRESSES:
         return _on_stress(ds, name, limit)
