@@ -125,7 +125,26 @@ def stress_sections(source: StressSource, snapshots: list[Snapshot]) -> list[Sec
     """Sections at the given instants with contact."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
-    return [_section(source, snapshot, half_width) for snapshot in touching]
+    depths = source.depths(_DEEP * half_width)
+    # The instants of one plane together: their influence coefficients are the same.
+    planes: dict[tuple[float | None, float | None], list[int]] = {}
+    for index, snapshot in enumerate(touching):
+        planes.setdefault(_plane(snapshot), []).append(index)
+    found: dict[int, Section] = {}
+    for (x, y), members in planes.items():
+        own = [touching[index] for index in members]
+        places = [int(np.flatnonzero(source.stored == each.time)[0]) for each in own]
+        stresses = source.on_section(places, depths, x, y).von_mises
+        for index, snapshot, stress in zip(members, own, stresses, strict=True):
+            found[index] = _section(source, snapshot, half_width, depths, stress)
+    return [found[index] for index in range(len(touching))]
+
+
+def _plane(snapshot: Snapshot) -> tuple[float | None, float | None]:
+    """The x or the y [m] of the plane through the largest pressure, across the longer extent."""
+    length, width = _extents(snapshot)
+    i, j = _place_of_peak(snapshot)
+    return (float(snapshot.x[i]), None) if length >= width else (None, float(snapshot.y[j]))
 
 
 def _extents(snapshot: Snapshot) -> tuple[float, float]:
@@ -146,16 +165,17 @@ def _half_width(snapshot: Snapshot) -> float:
     return min(*extents, *(period / _ASIDE for period in periods)) / 2
 
 
-def _section(source: StressSource, snapshot: Snapshot, half_width: float) -> Section:
-    """Section at one instant, as deep as the largest shown contact requires."""
+def _section(
+    source: StressSource,
+    snapshot: Snapshot,
+    half_width: float,
+    depths: NDArray[np.float64],
+    stress: NDArray[np.float64],
+) -> Section:
+    """The part near the contact of the stresses on the plane of an instant."""
     left, right, front, back = snapshot.extent()
     length, width = _extents(snapshot)
     is_long = length >= width
-    i, j = _place_of_peak(snapshot)
-    depths = source.depths(_DEEP * half_width)
-    place = int(np.flatnonzero(source.stored == snapshot.time)[0])
-    x, y = (float(snapshot.x[i]), None) if is_long else (None, float(snapshot.y[j]))
-    stress = source.on_section([place], depths, x, y)
     across = snapshot.y if is_long else snapshot.x
     middle = (front + back) / 2 if is_long else (left + right) / 2
     near = np.abs(across - middle) <= _ASIDE * half_width
@@ -163,7 +183,7 @@ def _section(source: StressSource, snapshot: Snapshot, half_width: float) -> Sec
         snapshot.time,
         across[near],
         depths,
-        stress.von_mises[0][:, near],
+        stress[:, near],
         "y" if is_long else "x",
         half_width,
         tuple(depth for depth in source.interfaces if depth < depths[-1]),
