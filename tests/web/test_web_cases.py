@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import openpyxl
 import pytest
 from fastapi.testclient import TestClient
 
@@ -263,6 +265,39 @@ def test_drawings_come_in_ink_for_light_and_for_dark_ground(client: TestClient) 
     answer = client.post("/api/drawing", json={"yaml": CASE, "what": "indenter_material"})
     assert answer.status_code == 422
     assert "rigid" in answer.json()["problems"][0]["message"]
+
+
+def oscillation(folder: Path) -> bytes:
+    """Workbook with an oscillation test of a Zener solid, with its loss 40 % too large."""
+    book, path = openpyxl.Workbook(), folder / "dma.xlsx"
+    sheet = book.create_sheet("DMA")
+    sheet.append(["f [Hz]", "E' [MPa]", "E'' [MPa]"])
+    for power in range(-4, 5):
+        x = 10 ** (power / 2)
+        sheet.append([x / (2 * math.pi), 1 + 9 * x**2 / (1 + x**2), 1.4 * 9 * x / (1 + x**2)])
+    book.save(path)
+    return path.read_bytes()
+
+
+def test_a_sheet_is_uploaded_and_its_fit_is_drawn_with_its_misfit(
+    client: TestClient, tmp_path: Path
+) -> None:
+    sent = client.post("/api/files?name=dma.xlsx", content=oscillation(tmp_path))
+    assert sent.status_code == 201
+    head, tail = CASE.split("  law: zener")[0], CASE[CASE.index("load:") :]
+    case = f"{head}  law: table\n  file: dma.xlsx#DMA\n  poisson_ratio: 0.5\n{tail}"
+    answer = client.post("/api/check", json={"yaml": case, "quality": "coarse"})
+    assert answer.status_code == 200, answer.text
+    assert any("fitted to dma.xlsx#DMA" in note for note in answer.json()["notes"])
+    assert any("misses" in warning for warning in answer.json()["warnings"])
+    drawn = client.post("/api/drawing", json={"yaml": case, "what": "material"}).text
+    for words in ("Storage modulus", "Loss modulus", "Residual [%]", "Misses the data: "):
+        assert f"<!-- {words}" in drawn
+    wrong = case.replace("dma.xlsx#DMA", "dma.xlsx#Data")
+    (problem,) = client.post("/api/check", json={"yaml": wrong}).json()["problems"]
+    assert "has no sheet 'Data'; there are 'Sheet', 'DMA'" in problem["message"]
+    assert problem["path"] == "material.file"
+    client.delete("/api/files/dma.xlsx")
 
 
 def test_what_can_be_read_is_drawn_while_the_rest_is_wrong(client: TestClient) -> None:

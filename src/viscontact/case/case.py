@@ -15,6 +15,7 @@ from viscontact.display import Displayable, DisplayableGroup
 from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.problem.problem import Problem
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.series_fits.fit import Fit
 from viscontact.tables import split_sheet
 from viscontact.units.formatting import format_quantity
 
@@ -46,6 +47,8 @@ class Case(DisplayableGroup, Problem):
         SHA-256 of each of those files, and of the case file, when it was read.
     measured : mapping of str to mapping
         Tables of the laws, in the quantities that were measured, by the section of the material.
+    fits : mapping of str to Fit
+        Series fitted to oscillations that the case names, by the section of the material.
     notes : tuple of str
         Notes on contents of the files, and on those that are not used.
     document : Document
@@ -61,6 +64,7 @@ class Case(DisplayableGroup, Problem):
     steady: SteadyMotion | None
     digests: Mapping[Path, bytes] = field(repr=False)
     measured: Mapping[str, Mapping[str, Any]]
+    fits: Mapping[str, Fit] = field(repr=False)
     notes: tuple[str, ...]
     document: Document = field(repr=False)
 

@@ -160,7 +160,8 @@ def _case(document: Document, found: CaseFile) -> Case:
         load_file=found.load.table,
         files=files,
         digests={path: digest(path) for path in (document.path, *files.values())},
-        measured=_measured(found),
+        measured={name: law.measured for name, law in _tables(found).items()},
+        fits={name: law.fit for name, law in _tables(found).items() if law.fit is not None},
         notes=(*_notes(found), *([early] if early else [])),
         document=document,
     )
@@ -171,9 +172,10 @@ def _notes(found: CaseFile) -> tuple[str, ...]:
     return tuple(note for each in described if each is not None for note in each.notes)
 
 
-def _measured(found: CaseFile) -> dict[str, Any]:
+def _tables(found: CaseFile) -> dict[str, TableLaw]:
+    """Measured tables as laws, by the section of the material."""
     materials = {"material": found.material, "indenter_material": found.indenter_material}
-    return {name: law.measured for name, law in materials.items() if isinstance(law, TableLaw)}
+    return {name: law for name, law in materials.items() if isinstance(law, TableLaw)}
 
 
 def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:

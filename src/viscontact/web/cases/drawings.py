@@ -1,4 +1,4 @@
-"""Drawings of a case before it is run: indenter, curves of the material, load."""
+"""Drawings of a case before it is run: indenter, curves or fit of the material, load."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
 from viscontact.notebook.shapes import natural_size
-from viscontact.plot import creep_curve, draw_indenter, draw_load
+from viscontact.plot import creep_curve, draw_indenter, draw_load, fitted_series
 from viscontact.plot.layout.page import Width
 from viscontact.plot.materials.creep import curve_times
 from viscontact.runs.check_report import drawn_size
@@ -37,6 +37,8 @@ def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> Fi
             return _indenter(*cases.forecast(text), width)
         if what == "load":
             return draw_load(case.load, case.end)
+        if what in case.fits:
+            return fitted_series(case.fits[what], width=width)
         return _curves(_body(case, what), case.end, width)
     except CaseError as error:
         raise case_problems(error, case.document.path) from error

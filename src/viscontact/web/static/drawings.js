@@ -7,7 +7,7 @@ import { isDark } from "./theme.js";
 
 const KINDS = {
   indenter: { tab: "Shape", about: "Sections through the indenter, and its plan", section: "indenter" },
-  material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space", section: "material" },
+  material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space, or the fit to its measured oscillation", section: "material" },
   load: { tab: "Load", about: "The load over time", section: "load" },
 };
 const BEFORE = "Drawing before the last change: the current values cannot be drawn.";
