@@ -228,6 +228,7 @@ def test_the_schema_lists_aliases_in_place_of_their_keys() -> None:
 # --- synonyms, and what is not available ----------------------------------------------------------
 
 SERIES = {"law": "creep-series", "instant": "1 / MPa", "amplitudes": [], "times": []}
+CARD = {"law": "card", "file": "card.inp", "modulus_unit": "MPa", "time_unit": "s"}
 MODULI = {"law": "relaxation-series", "equilibrium": "1 MPa", "moduli": [], "times": []}
 
 
@@ -240,6 +241,15 @@ MODULI = {"law": "relaxation-series", "equilibrium": "1 MPa", "moduli": [], "tim
         ("material", SERIES | {"E": "1 GPa"}, "'instant', its inverse 1/E, with data: uniaxial?"),
         ("material", MODULI | {"E": "1 GPa"}, "'equilibrium', and moduli, with data: uniaxial?"),
         ("material", MODULI | {"G": "1 GPa"}, "'equilibrium', and moduli, with data: shear?"),
+        ("material", SERIES | {"Shore": 60}, "Shore: a hardness does not determine how a material"),
+        ("material", SERIES | {"youngs_modulus": "1 GPa"}, "'instant', its inverse 1/E, with data"),
+        ("material", CARD | {"youngs_modulus": "1 GPa"}, "It goes with law: elastic or maxwell"),
+        ("material", CARD | {"E": "1 GPa"}, "youngs_modulus goes with law: elastic or maxwell"),
+        ("material", SERIES | {"coating": "1 mm"}, "layers goes with law: layered"),
+        ("indenter", SHARP | {"nu": 0.3}, "poisson_ratio is a key of material"),
+        ("layers", [], "It is a key of material"),
+        ("motion", {"kind": "rolling", "speed": "1 m/s"}, "did you mean 'steady'?"),
+        ("load", {"kind": "step", "moment": "1 N"}, "'eccentricity_x', or eccentricity_y, moment"),
         ("load", {"kind": "step", "load": "1 N"}, "did you mean 'force'?"),
         ("load", CYCLES | {"period": "1 s", "force": "1 N"}, "did you mean 'mean'?"),
         ("load", {"kind": "step", "force": "1 N", "diameter": "1 m"}, "a key of indenter"),
@@ -268,3 +278,15 @@ def test_what_is_not_available_is_refused_by_name(word: str, inside: bool, tmp_p
     assert "not available" in line
     assert "see 'Limits' in the manual" in line
     assert "unknown key" not in line
+
+
+def test_examples_of_a_value_without_unit_are_of_the_size_of_its_key(tmp_path: Path) -> None:
+    roller = SHARP | {"half_length": 10, "profile": {"kind": "logarithmic", "amplitude": 5}}
+    length, amplitude = problems(tmp_path, indenter=roller)
+    assert length.endswith("half_length: 10 has no unit; a length is expected; write e.g. '5 mm'")
+    assert amplitude.endswith("5 has no unit; a length is expected; write e.g. '0.5 um'")
+
+
+def test_a_key_of_known_meaning_is_not_compared_by_its_spelling(tmp_path: Path) -> None:
+    [line] = problems(tmp_path, material=CARD | {"youngs_modulus": "1 GPa"})
+    assert "bulk_modulus'" not in line

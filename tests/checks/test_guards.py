@@ -304,6 +304,14 @@ GUARDS = {
         met=Job(material=TABLE, load=vc.ramp(100.0, 20.0), times=np.linspace(0, 101, 30)),
         missed=Job(material=TABLE, load=vc.ramp(100.0, 20.0), times=np.linspace(0, 100, 30)),
     ),
+    "a run beyond the data of one of two materials": Guard(
+        vc.AccuracyWarning,
+        "beyond 100 s, where the indenter material's data end",
+        met=Job(indenter_material=TABLE, load=vc.ramp(100.0, 20.0), times=np.linspace(0, 101, 30)),
+        missed=Job(
+            indenter_material=TABLE, load=vc.ramp(100.0, 20.0), times=np.linspace(0, 100, 30)
+        ),
+    ),
     "a load sooner than the first row of a table": Guard(
         vc.AccuracyWarning,
         "at t = 0 s 100% of the load has come within less than 1 s",

@@ -24,7 +24,7 @@ from viscontact.case.motion import AnyMotion, SpeedRange
 from viscontact.case.quantities import alternatives
 from viscontact.case.sections import CaseFile
 from viscontact.case.title_block import TitleBlock
-from viscontact.case.unknown_words import nearest_word, unknown_word
+from viscontact.case.unknown_words import meanings, nearest_word, unknown_word
 from viscontact.units.dimensions import DIMENSIONS
 
 # Sections by name, or by the value of shape, law or kind.
@@ -158,6 +158,8 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     if kind == "literal_error":
         choices = re.findall(r"'([^']*)'", context["expected"])
         return unknown_word("value", error["input"], choices)
+    if kind == "quantity":
+        return _with_own_example(error["msg"], model, str(key[-1]))
     return _plain_words(error)
 
 
@@ -176,16 +178,19 @@ def _unknown_key(model: type[BaseModel], given: object) -> str:
     allowed = sorted([*_names(model), *(each.name for each in known_aliases(model))])
     unknown = unknown_word("key", given, allowed)
     alike = next((each for each in _WITHIN.values() if model in each.values()), _NO_SHIFTS)
-    for discriminator in ("kind", "law", "shape"):
-        if discriminator not in model.model_fields:
-            continue
-        others = [
-            str(tag)
-            for tag, other in alike.items()
-            if str(given) in other.model_fields and discriminator in other.model_fields
-        ]
-        if others:
-            return f"{unknown}. It goes with {discriminator}: {' or '.join(others)}"
+    if "Allowed:" not in unknown or ("did you mean" in unknown and meanings(given)):
+        return unknown
+    discriminators = [each for each in ("kind", "law", "shape") if each in model.model_fields]
+    for word in (str(given), *meanings(given)):
+        for discriminator in discriminators:
+            others = [
+                str(tag)
+                for tag, other in alike.items()
+                if word in other.model_fields and discriminator in other.model_fields
+            ]
+            if others:
+                named = "It" if word == given else word
+                return f"{unknown}. {named} goes with {discriminator}: {' or '.join(others)}"
     return unknown if "did you mean" in unknown else f"{unknown}{_elsewhere(model, str(given))}"
 
 
@@ -195,16 +200,17 @@ def _elsewhere(model: type[BaseModel], given: str) -> str:
     sections: dict[str, list[type[BaseModel]]] = {
         "the case file": [CaseFile],
         "indenter": list(alternatives(AnyShape).values()),
-        "material": list(alternatives(AnyMaterial).values()),
+        "material": list(alternatives(AnyBody).values()),
         "load": list(loads),
         **{str(name): [section] for name, section in _SECTIONS.items()},
         "motion": list(_MOTIONS.values()),
     }
-    for name, models in sections.items():
-        known = {key for each in models for key in _names(each)}
-        known |= {alias.name for each in models for alias in known_aliases(each)}
-        if model not in models and given in known:
-            return f". It is a key of {name}"
+    for word in (given, *meanings(given)):
+        for name, models in sections.items():
+            known = {key for each in models for key in _names(each)}
+            known |= {alias.name for each in models for alias in known_aliases(each)}
+            if model not in models and word in known:
+                return f". {'It' if word == given else word} is a key of {name}"
     return ""
 
 
@@ -223,6 +229,17 @@ def _example(model: type[BaseModel], key: str) -> str:
             return f"; write e.g. '{key}: {examples[0]}'"
     described = fields[key].description
     return f"; {described}" if described else ""
+
+
+def _with_own_example(said: str, model: type[BaseModel], key: str) -> str:
+    """Message with the size that is usual for the key, in place of any of its dimension."""
+    field = next(
+        (each for name, each in model.model_fields.items() if key in (name, each.alias)), None
+    )
+    [example, *_] = (field.examples if field else None) or [None]
+    if not isinstance(example, str):
+        return said
+    return re.sub(r"(?<=write e\.g\. )'[^']*'", repr(example), said)
 
 
 def _in_place(model: type[BaseModel], key: str) -> str:
@@ -254,7 +271,7 @@ def _plain_words(error: ErrorDetails) -> str:
     }
     if error["type"] in words:
         return f"{words[error['type']]}, got {shown}"
-    if error["type"] in ("quantity", "library"):
+    if error["type"] == "library":
         return error["msg"]
     bounds = error["msg"].removeprefix("Input should be ")
     return f"must be {bounds}, got {shown}"

@@ -16,7 +16,10 @@ _OTHER_VALUES = {
     **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},
     **{"points": "history", "sentences": "history", "file": "history"},
     **{"path": "travel", "oscillating": "reciprocating"},
+    **{"rolling": "steady", "sliding": "steady", "constant-speed": "steady"},
     **{"logarithmic": "log", "logspace": "log", "linear": "uniform", "linspace": "uniform"},
+    **{"log": "logarithmic", "e": "uniaxial", "tension": "uniaxial", "tensile": "uniaxial"},
+    **{"creep-modulus": "uniaxial", "creep_modulus": "uniaxial", "g": "shear", "torsion": "shear"},
     **{
         "hollow": "height-map",
         "surface": "height-map",
@@ -54,7 +57,10 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
     ("tau relaxation_time", {"times": "", "time": ""}),
     ("relaxation_times retardation_times", {"times": ""}),
     ("prony coefficients", {"moduli": "", "amplitudes": ""}),
-    ("load normal_load normal_force weight f p", {"force": "", "mean": ""}),
+    ("creep_modulus tan_delta loss_factor storage_modulus dma", {"file": "with law: table"}),
+    ("creep_compliance relaxation_modulus isochronous data_file", {"file": "with law: table"}),
+    ("load normal_load normal_force weight preload f p", {"force": "", "mean": ""}),
+    ("moment torque", {"eccentricity_x": "or eccentricity_y, moment divided by force"}),
     ("force", {"mean": ""}),
     ("depth indentation displacement penetration", {"approach": ""}),
     ("r curvature_radius", {"radius": "", "radius_x": "and radius_y"}),
@@ -73,7 +79,9 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
     ("domain extent", {"size": ""}),
     ("name description comment", {"title": ""}),
     ("body roller ball punch shape", {"indenter": ""}),
-    ("sample half_space substrate law", {"material": ""}),
+    ("core substrate backing", {"base": "", "material": ""}),
+    ("sample half_space law", {"material": ""}),
+    ("layer coating cover covering lining tyre tire film", {"layers": "under material"}),
     ("times end", {"time": "", "end": ""}),
     ("mesh discretisation discretization", {"grid": ""}),
 )
@@ -82,13 +90,17 @@ _MEANINGS = {word: meant for words, meant in _SYNONYMS for word in words.split()
 _FRICTION = "friction is not available: the contact transmits pressure only"
 _ADHESION = "adhesion is not available: the bodies do not attract each other"
 _PLASTICITY = "plasticity is not available: the materials are linear viscoelastic"
+_HARDNESS = (
+    "a hardness does not determine how a material creeps: give moduli or measured data, see "
+    "'Bring your creep data' in the manual (howto/creep-data)"
+)
 _HEAT = "heating is not available: the temperature is constant during a run"
 
 #: Effects that are not modelled, by the words that ask for them.
 _NOT_AVAILABLE = {
     **dict.fromkeys(("friction", "friction_coefficient", "mu", "cof", "traction"), _FRICTION),
     **dict.fromkeys(("adhesion", "work_of_adhesion", "surface_energy", "jkr", "dmt"), _ADHESION),
-    **dict.fromkeys(("plasticity", "yield_stress", "yield_strength", "hardness"), _PLASTICITY),
+    **dict.fromkeys(("plasticity", "yield_stress", "yield_strength"), _PLASTICITY),
     **dict.fromkeys(("heat", "thermal_expansion", "conductivity", "heat_flux"), _HEAT),
     "wear": "wear is not available: the shapes do not change",
     "damage": "damage is not available: the materials do not age or break",
@@ -103,6 +115,12 @@ _NOT_AVAILABLE = {
 }
 
 
+#: Measures that no key takes, with what to give instead.
+_INSTEAD = dict.fromkeys(
+    ("hardness", "shore", "shore_a", "shore_d", "shore_hardness", "irhd"), _HARDNESS
+)
+
+
 def unknown_word(what: str, given: object, allowed: list[str]) -> str:
     """Message about an unknown key or value, with the nearest one and all that are allowed.
 
@@ -112,18 +130,29 @@ def unknown_word(what: str, given: object, allowed: list[str]) -> str:
     word = _spelled(given)
     if what == "key" and word in _NOT_AVAILABLE:
         return f"{_NOT_AVAILABLE[word]}; see 'Limits' in the manual (trust/limits)"
+    if what == "key" and word in _INSTEAD:
+        return _INSTEAD[word]
     shown = "" if what == "key" else f" {str(given)[:40]!r}"
     return f"unknown {what}{shown}{_hint(what, given, allowed)} Allowed: {', '.join(allowed)}"
 
 
 def _hint(what: str, given: object, allowed: list[str]) -> str:
-    near = nearest_word(given, allowed)
-    if what == "key":
-        meant = _MEANINGS.get(_spelled(given), {})
-        near = next((key for key in meant if key in allowed), near)
-        remark = meant.get(near or "", "")
-        return f"; did you mean {near!r}{f', {remark}' if remark else ''}?" if near else "."
-    return f"; did you mean {near!r}?" if near else "."
+    if what != "key" or not meanings(given):
+        near = nearest_word(given, allowed)
+        return f"; did you mean {near!r}?" if near else "."
+    # A key that is known to mean another one is not compared by its spelling.
+    key = next((each for each in meanings(given) if each in allowed), None)
+    remark = "" if key is None else meanings(given)[key]
+    return f"; did you mean {key!r}{f', {remark}' if remark else ''}?" if key else "."
+
+
+def meanings(given: object) -> dict[str, str]:
+    """Keys that another word for a key may mean, the likeliest first, with a remark on each.
+
+    >>> meanings("Tau"), meanings("radius")
+    ({'times': '', 'time': ''}, {})
+    """
+    return _MEANINGS.get(_spelled(given), {})
 
 
 def nearest_word(given: object, allowed: list[str]) -> str | None:

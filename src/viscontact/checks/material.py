@@ -21,8 +21,8 @@ MAX_LAW_ERROR = 0.01
 EARLY_LOAD_FRACTION = 0.25
 
 
-def data_warnings(time: float, measured_until: float) -> dict[str, str]:
-    """Warn of a run beyond the times at which the material was measured [s].
+def data_warnings(time: float, measured_until: float, whose: str = "material") -> dict[str, str]:
+    """Warn of a run beyond the times at which a material was measured [s].
 
     Examples
     --------
@@ -33,14 +33,18 @@ def data_warnings(time: float, measured_until: float) -> dict[str, str]:
         return {}
     return {
         "data": (
-            f"the run goes beyond {format_quantity(measured_until, 's')}, where the material's "
+            f"the run goes beyond {format_quantity(measured_until, 's')}, where the {whose}'s "
             "data end; from there on its law is an extrapolation"
         )
     }
 
 
 def early_warnings(
-    measured_from: float, load: LoadHistory, time: float, side: str = "right"
+    measured_from: float,
+    load: LoadHistory,
+    time: float,
+    side: str = "right",
+    whose: str = "material",
 ) -> dict[str, str]:
     """Warn of a time so soon after the load that the data do not cover the creep yet.
 
@@ -62,7 +66,7 @@ def early_warnings(
     return {
         "early": (
             f"at t = {format_quantity(time, 's')} {came / load.largest_level:.0%} of the load has "
-            f"come within less than {format_quantity(measured_from, 's')}, where the material's "
+            f"come within less than {format_quantity(measured_from, 's')}, where the {whose}'s "
             "data begin; before that its law is an extrapolation. Give the data an earlier row, or "
             "load more slowly"
         )

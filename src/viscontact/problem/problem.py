@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -223,6 +223,24 @@ class Problem:
     def measured_from(self) -> float:
         """First time of the data of the laws [s]; 0 for formulas."""
         return max(material.known_from for material in self.materials)
+
+    @property
+    def ends_first(self) -> str:
+        """Material whose data end first, in words."""
+        return self._owner(lambda each: each.known_until == self.measured_until)
+
+    @property
+    def begins_last(self) -> str:
+        """Material whose data begin last, in words."""
+        return self._owner(lambda each: each.known_from == self.measured_from)
+
+    def _owner(self, is_it: Callable[[Material], bool]) -> str:
+        """Name of a material by its body, where both deform."""
+        if len(self.bodies) == 1:
+            return "material"
+        indenter = self.bodies[1]
+        own = (indenter,) if isinstance(indenter, Material) else indenter.materials
+        return "indenter material" if any(map(is_it, own)) else "half-space material"
 
     @property
     def thinnest_layer(self) -> float:

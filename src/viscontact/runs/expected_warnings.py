@@ -85,8 +85,8 @@ def _range_warnings(problem: Problem) -> dict[str, str]:
     loaded = instants[load.level_at(instants) > 0] if first > 0 else instants[:0]
     warnings: dict[str, str] = {}
     for time in loaded.tolist():
-        warnings = early_warnings(first, load, time) | warnings
-    return warnings | data_warnings(end, problem.measured_until)
+        warnings = early_warnings(first, load, time, whose=problem.begins_last) | warnings
+    return warnings | data_warnings(end, problem.measured_until, problem.ends_first)
 
 
 def _step_warnings(problem: Problem) -> dict[str, str]:

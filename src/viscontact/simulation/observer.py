@@ -179,7 +179,7 @@ class Observer:
 
     def _collect_warnings(self, step: Step, solution: StepSolution, rim: Rim) -> None:
         problem = self._run.problem
-        found = data_warnings(step.time, problem.measured_until)
+        found = data_warnings(step.time, problem.measured_until, problem.ends_first)
         if solution.outcome is not Outcome.NO_CONTACT:
             motion, displacement = solution.motion, solution.displacement
             found = self._corner_warnings(step.time, solution) | found
@@ -187,7 +187,9 @@ class Observer:
                 geometry_warnings(self._geometry, rim, motion, displacement, solution.pressure)
                 | found
             )
-            early = early_warnings(problem.measured_from, problem.load, step.time, step.side)
+            early = early_warnings(
+                problem.measured_from, problem.load, step.time, step.side, problem.begins_last
+            )
             found = early | found
         found = loading_warnings(self._run, step, self._before, solution) | found
         self._open = found | self._open

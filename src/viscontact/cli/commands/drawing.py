@@ -82,7 +82,8 @@ def plot(
     at: At = None,
     style: Style = None,
     seconds: Annotated[
-        float | None, typer.Option("--seconds", help="Duration of an animation [s]; 8 by default.")
+        float | None,
+        typer.Option("--seconds", help="Duration of an animation in seconds; 8 by default."),
     ] = None,
     fps: Annotated[
         float | None, typer.Option("--fps", help="Frames per second; 15 by default.")

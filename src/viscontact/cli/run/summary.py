@@ -67,8 +67,9 @@ def _warnings(lines: Path, axis: RunAxis, of_result: str) -> Iterator[str]:
         for line in file:
             state = json.loads(line)
             printed |= set(state["warnings"])
+            place = axis.place(state[axis.name])
             for text in state["warnings"]:
-                yield f"{axis.place(state[axis.name])}: {text}"
+                yield text if place in text else f"{place}: {text}"
     yield from (text for text in of_result.splitlines() if text not in printed)
 
 
