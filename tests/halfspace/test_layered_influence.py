@@ -8,7 +8,7 @@ from scipy.special import j0, j1
 from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.halfspace.influence import influence_table
 from viscontact.halfspace.layered_influence import (
-    correction_table,
+    correction_coefficient,
     layered_influence_table,
     periodic_layered_table,
 )
@@ -74,7 +74,7 @@ def test_coefficients_are_integrals_over_the_cell_for_any_thickness(length, cell
     # The image's kernel 0.3/(π sqrt(r² + 4 h²)) over the cell, by hand along x and by adaptive
     # quadrature along y.
     dx, dy = cell
-    table = correction_table((26, 30), cell, Images(length))
+    table = correction_coefficient(np.arange(26) * cell[0], 30, cell, Images(length))
     self_term = influence_table((1, 1), cell)[0, 0]
     for i, j in ((0, 0), (1, 0), (0, 1), (2, 3), (19, 19), (21, 0), (22, 27)):
         x, y = i * dx, j * dy

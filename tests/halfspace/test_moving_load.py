@@ -10,6 +10,7 @@ from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient, influence_table
 from viscontact.halfspace.moving_load import MovingCompliance, moving_influence_table
 from viscontact.halfspace.preconditioner import MovingPreconditioner
+from viscontact.halfspace.surface_response import HALF_SPACE
 
 ZENER = MovingCompliance(1.0, np.array([9.0]), np.array([0.8]))
 SHAPE, CELL = (7, 5), (0.7, 1.9)
@@ -136,5 +137,5 @@ def test_the_preconditioner_inverts_a_wave(axis, cells):
     displacement, pressure = (complex_compliance * 2 / k * along).real, along.real
     if axis == 1:
         displacement, pressure = displacement.T, pressure.T
-    operator = MovingPreconditioner(displacement.shape, (1.0, 1.0), ZENER, axis)
+    operator = MovingPreconditioner(displacement.shape, (1.0, 1.0), [(HALF_SPACE, ZENER)], axis)
     assert operator.apply(displacement) == pytest.approx(pressure, abs=1e-5)

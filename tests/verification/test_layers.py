@@ -250,8 +250,6 @@ def test_results_keep_the_body_and_the_formulas_of_half_spaces_are_refused():
     assert json.loads(ds.attrs["case"])["material"]["type"] == "Layered"
     with pytest.raises(ValueError, match="poisson_ratio is for half-spaces"):
         vc.section_stresses(ds, poisson_ratio=0.45)
-    with pytest.raises(ValueError, match="layered bodies in steady motion are not supported yet"):
-        vc.steady(BALL, ON_STEEL, vc.step(1.0), 1.0)
 
 
 def test_a_cylinder_on_a_thin_layer_has_an_approach():

@@ -1,8 +1,8 @@
-"""Half-space operators on a grid that moves with a body at constant speed."""
+"""Surface operators on a grid that moves with a body at constant speed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -16,21 +16,29 @@ from viscontact.fourier import Transforms
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient
+from viscontact.halfspace.layered_influence import (
+    layered_influence_coefficient,
+    periodic_layered_coefficient,
+)
 from viscontact.halfspace.moving_load import (
     Coefficient,
     MovingCompliance,
     moving_influence_table,
 )
+from viscontact.halfspace.moving_surface import MovingSurface
 from viscontact.halfspace.periodic_influence import periodic_influence_coefficient
 from viscontact.halfspace.preconditioner import MovingPreconditioner
-from viscontact.halfspace.spectral import MovingPeriodicConvolution
+from viscontact.halfspace.spectral import MovingPeriodicConvolution, WaveFactor
+from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
+
+Array = NDArray[np.float64]
 
 #: Fewest cells of a coarser grid along an axis.
 COARSEST = 32
 
 
 class MovingDomain(ContactDomain):
-    """Half-space under a body in steady motion, in the coordinates of the body.
+    """Surface under a body in steady motion, in the coordinates of the body.
 
     The unit displacement is that of the moving contact over a reference compliance
     (`compliance`): that of a wave as long as the grid, so that it has the size of an elastic one.
@@ -39,13 +47,14 @@ class MovingDomain(ContactDomain):
 
     `axis` is that of the motion, which is towards its positive end; `mirrored` means even across
     it. `added` is an elastic compliance added to the operator [1/Pa], for the proximal point
-    method; `moving_table` the influence table without it, if it is known.
+    method; `moving_table` the influence table without it, if it is known. On layers the terms of
+    the `surface` are added; elastic, it is then the one at rest, over that of the reference wave.
     """
 
     def __init__(
         self,
         grid: Grid,
-        moving_compliance: MovingCompliance,
+        surface: MovingSurface,
         axis: int,
         *,
         mirrored: bool = False,
@@ -53,12 +62,13 @@ class MovingDomain(ContactDomain):
         transforms: Transforms | None = None,
         moving_table: NDArray[np.float64] | None = None,
     ) -> None:
-        self.moving_compliance, self.axis = moving_compliance, axis
+        self.surface, self.axis = surface, axis
         self._added, self._moving_table = added, moving_table
-        self._coefficient = _coefficient_on(grid, axis)
-        wave = np.array(2 * np.pi / grid.size[axis])
+        self._samples: dict[SurfaceResponse, Coefficient] = {}
+        wave = 2 * np.pi / grid.size[axis]
         #: Compliance that unit displacements are relative to [1/Pa].
-        self.compliance = abs(complex(moving_compliance.at_wave_number(wave)))
+        self.compliance = abs(complex(surface.at_length(wave).at_wave_number(np.array(wave))))
+        self._at_rest = surface.relaxed_response(wave)
         even = (mirrored and axis == 1, mirrored and axis == 0)
         super().__init__(grid, mirrored=even, transforms=transforms)
 
@@ -80,22 +90,24 @@ class MovingDomain(ContactDomain):
     def elastic(self) -> Operator:
         """Displacement per unit elastic compliance [Pa m] of pressure [Pa] on all cells."""
         if all(self.grid.periodic):
-            return self._filtered(np.ones_like, self.shape)
-        return self._convolved(self._elastic_table, self.shape)
+            return self._filtered([(self._at_rest, np.ones_like)], self.shape)
+        return self._convolved(self._elastic_table(self._at_rest), self.shape)
 
     @cached_property
     def loss(self) -> Operator:
         """Slope of the delayed displacement, Σ (Ji/li) (K p - Ei K p) [-], of pressure [Pa]."""
-        moving = self.moving_compliance
+        terms = self.surface.terms
         if all(self.grid.periodic):
-            return self._filtered(moving.loss_at_wave_number, self.shape)
-        rates = replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
-        grid = self.grid
-        delayed = moving_influence_table(
-            grid.shape, grid.cell_size, rates, self.axis, self._coefficient
-        )
-        lost = rates.relaxed * self._elastic_table - delayed
-        return self._convolved(lost + self._drift, self.shape)
+            factors = [(response, moving.loss_at_wave_number) for response, moving in terms]
+            return self._filtered(factors, self.shape)
+        first, *others = (self._loss_of_term(*term) for term in terms)
+        return self._convolved(sum(others, start=first) + self._drift, self.shape)
+
+    @property
+    def local_compliance(self) -> float:
+        """Compliance of short waves at the frequency of the reference wave [1/Pa]."""
+        wave = np.array(2 * np.pi / self.grid.size[self.axis])
+        return abs(complex(self.surface.short_waves.at_wave_number(wave)))
 
     @property
     def _drift(self) -> float:
@@ -107,14 +119,14 @@ class MovingDomain(ContactDomain):
             return 0.0
         across = self.grid.shape[1 - self.axis]
         force = self.grid.cell_size[self.axis] / across
-        return 2 / np.pi * force * self.moving_compliance.drift
+        return 2 / np.pi * force * self.surface.drift
 
     def _on(
         self, grid: Grid, added: float = 0.0, moving_table: NDArray[np.float64] | None = None
     ) -> MovingDomain:
         return MovingDomain(
             grid,
-            self.moving_compliance,
+            self.surface,
             self.axis,
             mirrored=any(self.mirrored),
             added=added,
@@ -122,27 +134,45 @@ class MovingDomain(ContactDomain):
             moving_table=moving_table,
         )
 
-    @cached_property
-    def _elastic_table(self) -> NDArray[np.float64]:
-        rest = MovingCompliance(1.0, np.empty(0), np.empty(0))
-        return moving_influence_table(
-            self.grid.shape, self.grid.cell_size, rest, self.axis, self._coefficient
-        )
+    def _elastic_table(self, response: SurfaceResponse) -> NDArray[np.float64]:
+        """Influence table of an elastic surface, kept."""
+        if response not in self._tables:
+            rest = MovingCompliance(1.0, np.empty(0), np.empty(0))
+            self._tables[response] = self._table_of_term(response, rest)
+        return self._tables[response]
+
+    def _table_of_term(
+        self, response: SurfaceResponse, compliance: MovingCompliance
+    ) -> NDArray[np.float64]:
+        """Influence table of a term in motion."""
+        if response not in self._samples:
+            self._samples[response] = _coefficient_on(self.grid, self.axis, response)
+        cells = self.grid.shape, self.grid.cell_size
+        return moving_influence_table(*cells, compliance, self.axis, self._samples[response])
+
+    def _loss_of_term(
+        self, response: SurfaceResponse, moving: MovingCompliance
+    ) -> NDArray[np.float64]:
+        """Table of the slope of the delayed displacement under a term."""
+        rates = replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
+        elastic = self._elastic_table(response)
+        return rates.relaxed * elastic - self._table_of_term(response, rates)
 
     def _influence_table(self) -> NDArray[np.float64]:
         if all(self.grid.periodic):
             return np.empty((0, 0))
         if self._moving_table is None:
-            relative = self.moving_compliance.scaled(1 / self.compliance)
-            self._moving_table = moving_influence_table(
-                self.grid.shape, self.grid.cell_size, relative, self.axis, self._coefficient
-            )
-            if not self.grid.has_datum:  # from the farthest place on, as that of the memory is far
+            relative = self.surface.scaled(1 / self.compliance)
+            first, *others = (self._table_of_term(*term) for term in relative.terms)
+            self._moving_table = sum(others, start=first)
+            # Without a datum from the farthest place on, as that of the memory is far.
+            if not (self.grid.has_datum or self.surface.is_supported):
                 self._moving_table -= self._drift / self.compliance * self._offsets
                 self._moving_table -= self._moving_table.min()
         if not self._added:
             return self._moving_table
-        return self._moving_table + self._added / self.compliance * self._elastic_table
+        share = self._added / self.compliance
+        return self._moving_table + share * self._elastic_table(self._at_rest)
 
     @property
     def _offsets(self) -> NDArray[np.float64]:
@@ -152,32 +182,33 @@ class MovingDomain(ContactDomain):
         return offsets[:, None] if self.axis == 0 else offsets[None, :]
 
     def _preconditioner(self, shape: tuple[int, int]) -> MovingPreconditioner:
-        total = self._relative
         options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
-        return MovingPreconditioner(shape, self.grid.cell_size, total, self.axis, **options)
+        terms, cell_size = self._relative, self.grid.cell_size
+        return MovingPreconditioner(shape, cell_size, terms, self.axis, **options)
 
     @property
-    def _relative(self) -> MovingCompliance:
-        """Compliance of the operator over the reference one, with what is added [-]."""
-        moving = self.moving_compliance
-        return replace(moving, instant=moving.instant + self._added).scaled(1 / self.compliance)
+    def _relative(self) -> tuple[tuple[SurfaceResponse, MovingCompliance], ...]:
+        """Terms of the operator over the reference compliance, with what is added [-]."""
+        whole = self.surface.with_elastic(self._at_rest, self._added)
+        return whole.scaled(1 / self.compliance).terms
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         if all(self.grid.periodic):
-            return self._filtered(self._relative.at_wave_number, shape, single=single)
+            factors = [(response, moving.at_wave_number) for response, moving in self._relative]
+            return self._filtered(factors, shape, single=single)
         return self._convolved(self._coefficients, shape, single=single)
 
     def _filtered(
         self,
-        factor: Callable[[NDArray[np.float64]], NDArray[np.complex128]],
+        terms: Sequence[tuple[SurfaceResponse, WaveFactor]],
         shape: tuple[int, int],
         *,
         single: bool = False,
     ) -> MovingPeriodicConvolution:
-        """Operator on a period by the factors of its waves along the motion."""
+        """Operator on a period by the terms' factors of its waves along the motion."""
         size, transforms = self.grid.cell_size, self._transforms
         return MovingPeriodicConvolution(
-            shape, size, factor, self.axis, single=single, transforms=transforms
+            shape, size, terms, self.axis, single=single, transforms=transforms
         )
 
     def _convolved(
@@ -199,22 +230,44 @@ class MovingDomain(ContactDomain):
         )
 
 
-def _coefficient_on(grid: Grid, axis: int) -> Coefficient:
+def _coefficient_on(grid: Grid, axis: int, response: SurfaceResponse) -> Coefficient:
     """Influence coefficients of an elastic surface, with images across the motion if periodic."""
-    if not grid.periodic[1 - axis]:
-        return influence_coefficient
-    period = grid.size[1 - axis]
+    across_cells, size = grid.shape[1 - axis], grid.size[axis]
 
-    def with_images(
-        along: NDArray[np.float64], across: NDArray[np.float64], cell: tuple[float, float]
-    ) -> NDArray[np.float64]:
-        if grid.shape[1 - axis] == 1:  # pieces of any length make the strip
+    def free(along: Array, across: Array, cell: tuple[float, float]) -> Array:
+        if response is HALF_SPACE:
+            return influence_coefficient(along, across, cell)
+        return layered_influence_coefficient(along[:, 0], across.size, cell, response)
+
+    def with_images(along: Array, across: Array, cell: tuple[float, float]) -> Array:
+        if response is not HALF_SPACE:
+            turned = (cell[1], cell[0])
+            half = periodic_layered_coefficient(
+                across_cells, np.abs(along[:, 0]), turned, response, size
+            )
+            places = np.arange(across_cells)
+            return half[np.minimum(places, across_cells - places)].T
+        if across_cells == 1:  # pieces of any length make the strip
             return periodic_influence_coefficient(across, along, (cell[0], cell[0]), cell[0], size)
+        period = grid.size[1 - axis]
         near = np.minimum(across, period - across)
         return periodic_influence_coefficient(near, along, cell[::-1], period, size)
 
-    size = grid.size[axis]
-    return with_images
+    found = with_images if grid.periodic[1 - axis] else free
+    return found if response is HALF_SPACE else _remembered(found)
+
+
+def _remembered(coefficient: Coefficient) -> Coefficient:
+    """Coefficients that are kept: displacement and loss ask for those of the same places."""
+    known: dict[bytes, Array] = {}
+
+    def kept(along: Array, across: Array, cell: tuple[float, float]) -> Array:
+        key = along.tobytes()  # all have the same places across, and cells
+        if key not in known:
+            known[key] = coefficient(along, across, cell)
+        return known[key]
+
+    return kept
 
 
 def coarser_shape(shape: tuple[int, int]) -> tuple[int, int] | None:

@@ -23,16 +23,24 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.influence import FAR, influence_table
-from viscontact.halfspace.periodic_influence import periodic_influence_table
+from viscontact.halfspace.influence import FAR, influence_coefficient
+from viscontact.halfspace.periodic_influence import periodic_influence_coefficient
 from viscontact.halfspace.smooth_kernel import SmoothKernel, smooth_kernel
+from viscontact.halfspace.strip_influence import strip_coefficient
 from viscontact.halfspace.surface_response import SurfaceResponse
 
 Array = NDArray[np.float64]
 
 #: Gauss nodes over each piece of a triangle, and along each edge of a cell far away.
 CORNER_RULE = np.polynomial.legendre.leggauss(24)
-CELL_RULE = np.polynomial.legendre.leggauss(3)
+SHORT_RULE, CELL_RULE = (np.polynomial.legendre.leggauss(count) for count in (8, 3))
+
+#: Longest piece of a triangle, over asinh(Y/X), and one for which fewer nodes do; distance of an
+#: edge that counts as zero, in cells.
+LONGEST_PIECE, SHORT_PIECE, ON_EDGE = 3.0, 0.6, 1e-12
+
+#: Ratio of the distances up to which tables of the kernel reach, and its largest power.
+REACHES, MOST_REACHES = 16.0, 7
 
 #: Rest of π r k(r) below which images are left out, and its part of L(0) below which they decay as
 #: 1/r³; the farthest and the least distance of that in thicknesses, and the fewest images.
@@ -53,10 +61,22 @@ def layered_influence_table(
     >>> layered_influence_table((1, 2), (1.0, 1.0), thick).round(3).tolist()
     [[1.122, 0.33]]
     """
-    table = response.short_waves * influence_table(shape, cell_size)
+    x = np.arange(shape[0], dtype=np.float64) * cell_size[0]
+    return layered_influence_coefficient(x, shape[1], cell_size, response)
+
+
+def layered_influence_coefficient(
+    x: Array, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
+) -> Array:
+    """Influence coefficients [m] at any offsets x [m] and of j < ny cells along y, shape (nx, ny).
+
+    Per unit contact compliance of the half-space that the response is relative to.
+    """
+    y = np.arange(ny, dtype=np.float64) * cell_size[1]
+    table = response.short_waves * influence_coefficient(x[:, None], y[None, :], cell_size)
     if math.isinf(response.length):
         return table
-    return table + correction_table(shape, cell_size, response)
+    return table + correction_coefficient(x, ny, cell_size, response)
 
 
 def periodic_layered_table(
@@ -77,28 +97,49 @@ def periodic_layered_table(
     >>> round(float(periodic_layered_table((1, 2), (1.0, 1.0), thin, 1.0)[0, 0]), 9)
     0.008888889
     """
-    table = np.zeros(shape)
+    y = np.arange(shape[1], dtype=np.float64) * cell_size[1]
+    half = periodic_layered_coefficient(shape[0], y, cell_size, response, datum)
+    offsets = np.arange(shape[0])
+    return half[np.minimum(offsets, shape[0] - offsets)]
+
+
+def periodic_layered_coefficient(
+    nx: int,
+    y: Array,
+    cell_size: tuple[float, float],
+    response: SurfaceResponse,
+    datum: float,
+) -> Array:
+    """Influence coefficients [m] in a period of nx cells along x, at any offsets y [m].
+
+    At offsets of 0 to nx/2 cells along x, shape (nx // 2 + 1, y); see `periodic_layered_table`.
+    """
+    dx, dy = cell_size
+    if nx == 1:
+        dx = dy  # pieces of any length make the strip
+    table = np.zeros((nx // 2 + 1, y.size))
+    places = np.arange(nx // 2 + 1, dtype=np.float64)[:, None] * dx
     if response.long_waves:
-        table += response.long_waves * periodic_influence_table(shape, cell_size, datum)
+        far = periodic_influence_coefficient(places, y[None, :], (dx, dy), nx * dx, datum)
+        table += response.long_waves * far
     if math.isinf(response.length):
         return table
-    (nx, ny), (dx, dy) = shape, cell_size
     if nx == 1:
-        dx = max(dy, response.length / 8)  # pieces of any length make the strip
+        return table + strip_coefficient(y, dy, response)
     reach, cubic = _reach_of_rest(response, nx * dx)
     images = math.ceil(reach / (nx * dx))
     count = nx * images + nx // 2 + 1
-    rest = layered_influence_table((count, ny), (dx, dy), response)
+    rest = layered_influence_coefficient(y, count, (dy, dx), response)
     if response.long_waves:
-        rest -= response.long_waves * influence_table((count, ny), (dx, dy))
+        along = np.arange(count) * dx
+        rest -= response.long_waves * influence_coefficient(y[:, None], along, (dy, dx))
     # Offsets i + m nx of all images, those of x < 0 by symmetry.
     offsets = np.abs(np.arange(-images, images + 1)[:, None] * nx + np.arange(nx // 2 + 1))
-    folded = rest[offsets].sum(axis=0)
+    folded = rest.T[offsets].sum(axis=0)
     # The images beyond.
-    y, last = np.arange(ny) * dy, (images + 0.5) * nx * dx
+    last = (images + 0.5) * nx * dx
     folded += 2 * cubic * dy / nx / (last * np.hypot(last, y) + last**2 + y**2)
-    places = np.arange(nx)
-    return np.asarray(table + folded[np.minimum(places, nx - places)])
+    return np.asarray(table + folded)
 
 
 def _reach_of_rest(response: SurfaceResponse, period: float) -> tuple[float, float]:
@@ -120,24 +161,23 @@ def _reach_of_rest(response: SurfaceResponse, period: float) -> tuple[float, flo
     return reach, float(4 * first - second) / 3
 
 
-def correction_table(
-    shape: tuple[int, int], cell_size: tuple[float, float], response: SurfaceResponse
+def correction_coefficient(
+    x: Array, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
 ) -> Array:
-    """Integrals of the smooth correction Δ over cells at offsets of i and j cells [m]."""
-    (nx, ny), (dx, dy) = shape, cell_size
+    """Integrals of Δ over cells at any offsets x [m] and of j < ny cells along y [m]."""
+    (dx, dy), x = cell_size, np.abs(x)
     # Tables are kept: one for all grids of similar extent.
-    reach = response.length * 2.0 ** math.ceil(
-        math.log2(math.hypot((nx + 1) * dx, (ny + 1) * dy) / response.length)
-    )
-    kernel = smooth_kernel(response, reach)
-    nx_near, ny_near = (
-        min(n, int(FAR * max(cell_size) / d) + 1) for n, d in zip(shape, cell_size, strict=True)
-    )
-    x, y = np.arange(nx, dtype=np.float64) * dx, np.arange(ny, dtype=np.float64) * dy
-    table = np.empty(shape)
-    table[nx_near:] = _gauss(kernel, x[nx_near:], y, cell_size)
-    table[:nx_near, ny_near:] = _gauss(kernel, x[:nx_near], y[ny_near:], cell_size)
-    table[:nx_near, :ny_near] = _by_corners(kernel, (nx_near, ny_near), cell_size)
+    farthest = math.hypot(float(x.max(initial=0.0)) + dx, (ny + 1) * dy) / response.length
+    power = math.ceil(math.log(max(farthest, 1.0)) / math.log(REACHES))
+    kernel = smooth_kernel(response, response.length * REACHES ** min(power, MOST_REACHES))
+    is_near = x <= FAR * max(cell_size)
+    ny_near = min(ny, int(FAR * max(cell_size) / dy) + 1)
+    y = np.arange(ny, dtype=np.float64) * dy
+    table = np.empty((x.size, ny))
+    table[~is_near] = _gauss(kernel, x[~is_near], y, cell_size)
+    table[is_near, ny_near:] = _gauss(kernel, x[is_near], y[ny_near:], cell_size)
+    if is_near.any():
+        table[is_near, :ny_near] = _by_corners(kernel, x[is_near], ny_near, cell_size)
     return table
 
 
@@ -151,27 +191,32 @@ def _gauss(kernel: SmoothKernel, x: Array, y: Array, cell_size: tuple[float, flo
     return np.asarray(total * (dx * dy / 4))
 
 
-def _by_corners(
-    kernel: SmoothKernel, shape: tuple[int, int], cell_size: tuple[float, float]
-) -> Array:
-    """Double differences of F over the corners of cells around offsets of i and j cells."""
-    (nx, ny), (dx, dy) = shape, cell_size
-    x, y = np.arange(0.5, nx) * dx, np.arange(0.5, ny) * dy
-    corners = _triangles(kernel, x, y) + _triangles(kernel, y, x).T
+def _by_corners(kernel: SmoothKernel, x: Array, ny: int, cell_size: tuple[float, float]) -> Array:
+    """Double differences of F over the corners of cells around x and of j < ny cells along y."""
+    dx, dy = cell_size
+    edges = np.concatenate([x + dx / 2, x - dx / 2])
+    distances, places = np.unique(np.maximum(np.abs(edges), ON_EDGE * dx), return_inverse=True)
+    sides = np.arange(0.5, ny) * dy
+    corners = _triangles(kernel, distances, sides) + _triangles(kernel, sides, distances).T
     # F is odd in X and in Y: that of the corner at -1/2 cells is that of the first, reversed.
-    for axis in (0, 1):
-        first = -np.take(corners, [0], axis)
-        corners = np.diff(corners, axis=axis, prepend=first)
-    return corners
+    corners = np.sign(edges)[:, None] * corners[places]
+    over_x = corners[: x.size] - corners[x.size :]
+    return np.diff(over_x, axis=1, prepend=-over_x[:, :1])
 
 
 def _triangles(kernel: SmoothKernel, near: Array, along: Array) -> Array:
-    """T(X, Y) of all X (`near`, rows) and of ascending Y (`along`, columns)."""
-    ends = np.arcsinh(along[None, :] / near[:, None])
+    """T(X, Y) of ascending X (`near`, rows) and Y (`along`, columns)."""
+    # Pieces from zero on, each short enough for the rule.
+    first = math.asinh(float(along[0]) / float(near[0]))
+    before = along[0] * np.exp(-LONGEST_PIECE * np.arange(int(first / LONGEST_PIECE), 0, -1))
+    ends = np.arcsinh(np.append(before, along)[None, :] / near[:, None])
     starts = np.concatenate([np.zeros((near.size, 1)), ends[:, :-1]], axis=1)
     middle, half = (ends + starts) / 2, (ends - starts) / 2
     pieces = np.zeros(ends.shape)
-    for node, weight in zip(*CORNER_RULE, strict=True):
-        grown = np.cosh(middle + node * half)
-        pieces += weight * half * kernel.moment(near[:, None] * grown) / grown
-    return np.asarray(np.cumsum(pieces, axis=1))
+    short = half.max(axis=0) <= SHORT_PIECE / 2
+    for columns, rule in ((~short, CORNER_RULE), (short, SHORT_RULE)):
+        for node, weight in zip(*rule, strict=True):
+            grown = np.cosh(middle[:, columns] + node * half[:, columns])
+            moments = kernel.moment(near[:, None] * grown)
+            pieces[:, columns] += weight * half[:, columns] * moments / grown
+    return np.asarray(np.cumsum(pieces, axis=1)[:, before.size :])

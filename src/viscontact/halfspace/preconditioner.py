@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,14 +64,17 @@ class Preconditioner:
 
     def _set_ratios(self, ratios: NDArray[np.float64]) -> None:
         """Divide |q|/2 by L, whose logarithm is linear in that of the wave number."""
-        _, before, part = self._interpolation
         # Of a sum of several terms, rounding may be negative where nothing is left.
         known = np.log(np.maximum(np.abs(ratios), np.finfo(float).tiny))
-        slopes = np.diff(known)
-        symbol = self._spectra.half_wave_numbers / np.exp(known[before] + slopes[before] * part)
+        symbol = self._spectra.half_wave_numbers / np.exp(self._interpolated(known))
         # The mean of a block is a wave of about the longest length in it, not of none.
         symbol[0, 0] = min([*symbol[0, 1:2], *symbol[1:2, 0]])
         self._symbol = symbol.astype(np.float32)
+
+    def _interpolated(self, known: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Values at all wave numbers, linear in the logarithm, from those at `waves`."""
+        _, before, part = self._interpolation
+        return np.asarray(known[before] + np.diff(known)[before] * part)
 
     def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
@@ -78,22 +82,39 @@ class Preconditioner:
 
 
 class MovingPreconditioner(Preconditioner):
-    """Approximate inverse of the convolution with `moving_influence_table`: |q|/2 over J*(k V).
+    """Approximate inverse of the convolution with a moving table: |q|/2 over the sum of L J*(k V).
 
-    A wave's complex compliance delays pressure behind displacement; its modulus alone would take
-    more search directions. `apply` returns a pressure [Pa].
+    The sum goes over the terms of a surface, pairs of L and of the compliance in motion. A wave's
+    complex compliance delays pressure behind displacement; its modulus alone would take more search
+    directions. `apply` returns a pressure [Pa].
     """
 
     def __init__(
         self,
         shape: tuple[int, int],
         cell_size: tuple[float, float],
-        compliance: MovingCompliance,
+        terms: Sequence[tuple[SurfaceResponse, MovingCompliance]],
         axis: int,
         *,
         mirrored: tuple[bool, bool] = (False, False),
         transforms: Transforms | None = None,
     ) -> None:
         super().__init__(shape, cell_size, mirrored=mirrored, transforms=transforms)
-        along = self._spectra.factor_along(axis, lambda wave: 1 / compliance.at_wave_number(wave))
-        self._symbol = (self._spectra.half_wave_numbers * along).astype(np.complex64)
+        waves = self._spectra.wave_numbers[axis]
+        waves = waves[:, None] if axis == 0 else waves[None, :]
+        total: Any = 0.0
+        for response, compliance in terms:
+            own = compliance.at_wave_number(waves)
+            total = total + (own if response is HALF_SPACE else self._ratios_of(response) * own)
+        inverse = self._spectra.real_at_shortest(axis, np.asarray(1 / total))
+        symbol = self._spectra.half_wave_numbers * inverse
+        if any(response is not HALF_SPACE for response, _ in terms):  # as of layers at rest
+            symbol[0, 0] = min(abs(each) for each in (*symbol[0, 1:2], *symbol[1:2, 0]))
+        self._symbol = symbol.astype(np.complex64)
+
+    def _ratios_of(self, response: SurfaceResponse) -> NDArray[np.float64]:
+        """L at all wave numbers; that of a term may be negative [-]."""
+        known = response.ratio(self.waves)
+        if (known > 0).all():
+            return np.asarray(np.exp(self._interpolated(np.log(known))))
+        return self._interpolated(known)

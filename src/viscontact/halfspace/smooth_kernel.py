@@ -47,20 +47,28 @@ MIRRORED = 8
 class SmoothKernel:
     """Table of Δ(r) [1/m] and of its moment ∫_0^r Δ r' dr' [m], up to a distance.
 
-    In units of `length` both are splines of asinh(r/length).
+    In units of `length` both are splines of asinh(r/length). Beyond the `reach` of the table Δ
+    falls as 1/r, as between two half-spaces.
     """
 
     length: float
+    reach: float
     value_spline: scipy.interpolate.BSpline
     moment_spline: scipy.interpolate.BSpline
 
     def value(self, r: Array) -> Array:
         """Δ at distances [1/m]."""
-        return np.asarray(self.value_spline(np.arcsinh(r / self.length)) / self.length)
+        near = np.minimum(r, self.reach)
+        farther = np.maximum(r / self.reach, 1.0)
+        return np.asarray(
+            self.value_spline(np.arcsinh(near / self.length)) / (self.length * farther)
+        )
 
     def moment(self, r: Array) -> Array:
         """Moment ∫_0^r Δ r' dr' [m]."""
-        return np.asarray(self.moment_spline(np.arcsinh(r / self.length)) * self.length)
+        near = np.minimum(r, self.reach)
+        found = self.moment_spline(np.arcsinh(near / self.length)) * self.length
+        return np.asarray(found + self.reach * self.value(np.array(self.reach)) * (r - near))
 
 
 @lru_cache(maxsize=32)
@@ -87,7 +95,7 @@ def smooth_kernel(response: SurfaceResponse, reach: float) -> SmoothKernel:
     )
     integral = moment.antiderivative()
     integral.c -= integral(0.0)  # the basis functions add up to one
-    return SmoothKernel(length, value, integral)
+    return SmoothKernel(length, reach, value, integral)
 
 
 def _ray_integral(response: SurfaceResponse, length: float, r: Array) -> Array:

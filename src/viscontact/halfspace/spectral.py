@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from typing import Any, Self
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,9 @@ from viscontact.fourier import (
     transforms_by,
 )
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
+
+#: Factor of waves by their wave numbers along the motion [1/m].
+WaveFactor: TypeAlias = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
 
 
 class PeriodicConvolution:
@@ -62,9 +65,7 @@ class PeriodicConvolution:
         half[0, 0] = np.inf  # q = 0 comes below
         symbol = 1 / half
         if response is not HALF_SPACE:
-            waves, places = np.unique(half, return_inverse=True)
-            waves[-1] = waves[0]  # in place of infinity
-            symbol *= response.ratio(2 * waves)[places].reshape(half.shape)
+            symbol *= _ratios(response, half)
         # On a half-space the mean pressure leaves the mean plane where it is.
         mean = response.mean_displacement
         self._has_datum = bool(np.isfinite(mean))
@@ -92,26 +93,44 @@ class PeriodicConvolution:
         return self._spectra.filtered(pressure, self._symbol, into)
 
 
-class MovingPeriodicConvolution(PeriodicConvolution):
-    """Surface displacement under a periodic load in steady motion, relative to the mean plane.
+def _ratios(response: SurfaceResponse, half: NDArray[np.float64]) -> NDArray[np.float64]:
+    """L at half wave numbers, of which the infinite ones stand for others [-]."""
+    waves, places = np.unique(half, return_inverse=True)
+    waves[-1] = waves[0]  # in place of infinity
+    return np.asarray(response.ratio(2 * waves)[places].reshape(half.shape))
 
-    The symbol 2/|q| is multiplied by a complex `factor` for each wave number along the axis of the
-    motion, such as the complex compliance [1/Pa].
+
+class MovingPeriodicConvolution(PeriodicConvolution):
+    """Surface displacement under a periodic load in steady motion.
+
+    The symbol 2/|q| is multiplied by the sum over the surface's terms of L(|q|) times a complex
+    factor for each wave number along the axis of the motion, such as the complex compliance [1/Pa].
+    Displacement is measured as in `PeriodicConvolution`.
     """
 
     def __init__(
         self,
         shape: tuple[int, int],
         cell_size: tuple[float, float],
-        factor: Callable[[NDArray[np.float64]], NDArray[np.complex128]],
+        terms: Sequence[tuple[SurfaceResponse, WaveFactor]],
         axis: int,
         *,
         single: bool = False,
         transforms: Transforms | None = None,
     ) -> None:
         super().__init__(shape, cell_size, single=single, transforms=transforms)
-        along = self._spectra.factor_along(axis, factor)
-        self._symbol = (self._symbol * along).astype(np.complex64 if single else np.complex128)
+        half = self._spectra.half_wave_numbers
+        half[0, 0] = np.inf  # q = 0 comes below
+        total: Any = 0.0
+        mean = 0.0
+        for response, factor in terms:
+            along = self._spectra.factor_along(axis, factor)
+            total = total + (along if response is HALF_SPACE else _ratios(response, half) * along)
+            mean += response.mean_displacement * float(along.flat[0].real)
+        symbol = np.asarray(self._symbol * total)
+        self._has_datum = bool(np.isfinite(mean))
+        symbol[0, 0] = mean if self._has_datum else 0.0
+        self._symbol = symbol.astype(np.complex64 if single else np.complex128)
 
 
 class Spectra:
@@ -151,16 +170,21 @@ class Spectra:
         spectrum *= symbol
         return np.asarray(np.multiply(self._back(spectrum), size, out=into, dtype=np.float64))
 
-    def factor_along(
-        self, axis: int, factor: Callable[[NDArray[np.float64]], NDArray[np.complex128]]
-    ) -> NDArray[np.complex128]:
+    def factor_along(self, axis: int, factor: WaveFactor) -> NDArray[np.complex128]:
         """Factor of each entry of a spectrum by its wave number along an axis [1/m]."""
         values = np.asarray(factor(self.wave_numbers[axis]), dtype=np.complex128)
-        # The shortest wave of an even number of cells is its own mirror image.
+        return self.real_at_shortest(axis, values[:, None] if axis == 0 else values[None, :])
+
+    def real_at_shortest(self, axis: int, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """Factors, made real where a wave along an axis is its own mirror image.
+
+        That is the shortest one of an even number of cells.
+        """
         cells = self._block.shape[axis]
         if cells % 2 == 0:
-            values[cells // 2] = values[cells // 2].real
-        return values[:, None] if axis == 0 else values[None, :]
+            shortest = (cells // 2,) if axis == 0 else (slice(None), cells // 2)
+            values[shortest] = values[shortest].real
+        return values
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
         for axis in self._even:

@@ -125,7 +125,7 @@ def surface_of(bodies: Sequence[Material | Layered]) -> Surface:
     """
     terms: list[SurfaceTerm] = []
     for body in bodies:
-        for new in _terms_of(body):
+        for new in terms_of(body):
             terms = _with_term(terms, new)
     layered = [body for body in bodies if isinstance(body, Layered)]
     separated = [separate(body) for body in layered if as_elastic(body) is None]
@@ -148,8 +148,14 @@ def _with_term(terms: list[SurfaceTerm], new: SurfaceTerm) -> list[SurfaceTerm]:
     return [*terms, new]
 
 
-def _terms_of(body: Material | Layered) -> list[SurfaceTerm]:
-    """Terms of one body."""
+def terms_of(body: Material | Layered) -> list[SurfaceTerm]:
+    """Terms of one body.
+
+    >>> from viscontact.laws import Elastic
+    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
+    >>> [term.response is HALF_SPACE for term in terms_of(steel)]
+    [True]
+    """
     if isinstance(body, Material):
         return [SurfaceTerm(body.contact_compliance(), HALF_SPACE)]
     creeps_alike = as_elastic(body)

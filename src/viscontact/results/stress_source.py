@@ -26,6 +26,7 @@ from viscontact.results.recorded_case import (
     recorded_object,
     recorded_poisson_ratio,
 )
+from viscontact.results.run_axis import SPEED, run_axis
 
 Array = NDArray[np.float64]
 
@@ -125,6 +126,12 @@ class StressSource:
         stored = self.results["pressure"]
         if self.history is None or not self.history.times.size:
             return np.asarray(stored.values[list(places)], dtype=np.float64)[None]
+        if run_axis(self.results) is SPEED:
+            raise ValueError(
+                "stresses: in these layers, which creep differently, they depend on the history of "
+                "the pressure, and are not available in steady motion; move the body in time "
+                "('motion: kind: travel' in a case file, motion=Travel(...) in Python)"
+            )
         if stored.dims[0] != "time" or self.stored[0] > 0:
             raise ValueError(
                 "stresses: in these layers, which creep differently, they depend on the history of "

@@ -19,7 +19,8 @@ PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 64, 2
 ARRAYS_OF_STATE = 4
 
 #: Fields that take as much memory as the tables and operators of a further term of layers.
-ARRAYS_OF_TERM = 12
+#: In steady motion, which keeps no history, as many as these.
+ARRAYS_OF_TERM, ARRAYS_OF_MOVING_TERM = 12, 3
 
 #: Memory of the time and the scalars of a step [bytes], measured.
 BYTES_PER_STEP = 2000.0
@@ -41,7 +42,8 @@ def curve_memory(run: SteadySetup) -> float:
     """Memory of a checked run over speed [bytes]; its fields are written as they are found."""
     largest = max(run.grids, key=lambda grid: grid.shape[0] * grid.shape[1])
     kept = 8.0 * ARRAYS_OF_STATE * run.grid.shape[0] * run.grid.shape[1]
-    return needed_memory(largest, 0) + kept
+    further = len(run.problem.contact.surface.terms) - 1
+    return needed_memory(largest, ARRAYS_OF_MOVING_TERM * further) + kept
 
 
 def needed_memory(grid: Grid, fields_kept: int) -> float:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 
+from viscontact.checks.half_space_theory import warnings_of_covers
+from viscontact.grid import Grid
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.runs.forecast import Forecast, convolution_time
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import curve_memory
-from viscontact.steady.curve import run_warnings
+from viscontact.steady.curve import geometry_of, run_warnings
 from viscontact.steady.preparation import SteadySetup, estimate_at
 from viscontact.units.formatting import format_quantity
 
@@ -40,7 +42,7 @@ def steady_forecast(run: SteadySetup, *, errors: bool) -> Forecast:
             repeats or far < size / 2
             for far, size, repeats in zip(reach, grid.size, grid.periodic, strict=True)
         ),
-        warnings=run_warnings(run),
+        warnings=run_warnings(run) | _cover_warnings(run, found, grid, speed),
     )
 
 
@@ -61,5 +63,15 @@ def _estimate(run: SteadySetup, speed: float) -> ContactEstimate:
     if not any(grid.periodic):
         return estimate_at(problem, speed)
     time = grid.size[problem.axis] / (2 * speed)
-    compliance = float(problem.contact.compliance(time))
-    return estimate_period(problem.contact.indenter, compliance, problem.point, grid)
+    contact = problem.contact
+    compliance, response = float(contact.compliance(time)), contact.surface.response_at(time)
+    return estimate_period(contact.indenter, compliance, problem.point, grid, response=response)
+
+
+def _cover_warnings(
+    run: SteadySetup, found: ContactEstimate, grid: Grid, speed: float
+) -> dict[str, str]:
+    """Warnings about layers under the estimated contact, in the cells of the run."""
+    passed = (found.length, found.width)[run.problem.axis] / speed
+    geometry = geometry_of(run.problem, found.open_gap, found.rim.grid, passed, predicted=True)
+    return warnings_of_covers(geometry, found.rim, found.motion, grid.cell_size)

@@ -14,7 +14,7 @@ from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.steady_equilibrium import SteadySolution, solve_steady_contact
 from viscontact.fourier import Transforms
 from viscontact.grid import Grid
-from viscontact.steady.moving_law import MovingLaw
+from viscontact.steady.moving_law import MovingLaws
 from viscontact.steady.problem import SteadyProblem
 
 #: Cells along an axis that can be halved.
@@ -74,7 +74,7 @@ class SteadySolver:
     """Solver of a problem on any grid and at any speed."""
 
     problem: SteadyProblem
-    law: MovingLaw
+    laws: MovingLaws
     transforms: Transforms
 
     def solve(
@@ -87,7 +87,7 @@ class SteadySolver:
         even = mirrored_axes(grid, open_gap, (load.is_even(0), load.is_even(1)))[1 - axis]
         extent = max(grid.size_about_origin)
         domain = MovingDomain(
-            grid, self.law.at(speed, extent), axis, mirrored=even, transforms=self.transforms
+            grid, self.laws.at(speed, extent), axis, mirrored=even, transforms=self.transforms
         )
         point = self.problem.point
         posed = ContactProblem(

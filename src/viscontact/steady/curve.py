@@ -7,16 +7,23 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscontact.checks.collector import WarningCollector
+from viscontact.checks.covers import covers_of
 from viscontact.checks.half_space_theory import (
     SINGULAR_KINDS,
     Geometry,
     corner_warnings,
     geometry_warnings,
 )
-from viscontact.checks.material import data_warnings, law_warnings, origin_warnings
-from viscontact.checks.mesh import cells_across_spots, mesh_warnings
+from viscontact.checks.material import (
+    data_warnings,
+    law_warnings,
+    origin_warnings,
+    splitting_warnings,
+)
+from viscontact.checks.mesh import cells_across_spots, layer_warnings, mesh_warnings
 from viscontact.checks.motion import edge_warnings, free_tilt_warnings
 from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.singularities import strain_of
@@ -155,8 +162,8 @@ class SteadyCurve:
         problem = self._run.problem
         rim = rim_of(problem, contact)
         against = resistance_of(problem, contact)
-        flows = self._run.solver.law.fluidity > 0 and not all(contact.grid.periodic)
-        datum = contact.grid.has_datum and not flows
+        sinks = self._run.solver.laws.sinks and not all(contact.grid.periodic)
+        datum = problem.contact.has_datum(contact.grid) and not sinks
         state = state_of(problem, contact, rim, against, datum=datum)
         return Measured(state, rim, against)
 
@@ -201,10 +208,12 @@ def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
 def run_warnings(run: SteadySetup) -> dict[str, str]:
     """Warnings, by kind, that hold for all speeds."""
     problem = run.problem
-    compliance, law = problem.contact.compliance, run.solver.law
-    found = law_warnings(law.error, compliance.inversion_error)
+    compliance, laws, surface = problem.contact.compliance, run.solver.laws, problem.contact.surface
+    found = law_warnings(laws.error, compliance.inversion_error)
+    found |= splitting_warnings(surface.splitting_error)
     found |= origin_warnings(problem.contact.materials)
-    found |= datum_warnings(run.grids[0], ("approach",))
+    found |= datum_warnings(run.grids[0], ("approach",), supported=surface.is_supported)
+    found |= layer_warnings(problem.contact.thinnest_layer, run.grids[0].cell_size)
     if run.tolerance_reached is not None:
         requested = problem.contact.automatic_grid
         assert requested is not None
@@ -213,7 +222,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
             f"the smallest has a tolerance of about {run.tolerance_reached:.2g} in place of "
             f"{requested.tolerance:.2g}; {FEWER_SPEEDS}"
         )
-    if run.solver.law.fluidity and not all(run.grids[0].periodic):
+    if laws.sinks and not all(run.grids[0].periodic):
         found["fluid"] = (
             "the material flows, so that the approach grows without limit with the distance "
             "travelled: approach is not defined (NaN), and displacement has an unknown constant"
@@ -226,6 +235,28 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     if problem.tilts_freely:
         found |= free_tilt_warnings([f"tilt_{problem.along}"])
     return found
+
+
+def geometry_of(
+    problem: SteadyProblem,
+    open_gap: NDArray[np.float64],
+    grid: Grid,
+    passed: float,
+    *,
+    predicted: bool = False,
+) -> Geometry:
+    """Return what the warnings about a contact's geometry need; it is `passed` in a time [s]."""
+    body = problem.contact
+    return Geometry(
+        body.indenter,
+        open_gap,
+        grid,
+        thickness=body.thickness,
+        indenter_gives=body.indenter_material is not None,
+        covers=covers_of(body.bodies, passed),
+        is_supported=body.surface.is_supported,
+        predicted=predicted,
+    )
 
 
 def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[str, str]:
@@ -242,16 +273,10 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
             f"{format_quantity(contact.speed, 'm/s')} and {MIN_CELLS_ACROSS} are the least (20 or "
             f"more recommended); {more}"
         )
-    geometry = Geometry(
-        body.indenter,
-        gap_on(problem, grid),
-        grid,
-        thickness=body.thickness,
-        indenter_gives=body.indenter_material is not None,
-    )
-    pressure, motion = contact.pressure, contact.solution.motion
-    strain = strain_of(float(pressure.max()), contact.domain.compliance)
     passed = (rim.length, rim.width)[problem.axis] / contact.speed
+    geometry = geometry_of(problem, gap_on(problem, grid), grid, passed)
+    pressure, motion = contact.pressure, contact.solution.motion
+    strain = strain_of(float(pressure.max()), contact.domain.local_compliance)
     return (
         mesh_warnings(rim.cells_across, cells_across_spots(pressure > 0, periodic=grid.periodic))
         | corner_warnings(geometry, grid.largest_at(pressure), strain)

@@ -89,6 +89,10 @@ def error_bars(
     forces = bars[along_motion]
     if fine.against.slope_weight and not fine.against.at_end:
         forces = max(forces, FORMS * fine.against.difference)
+    # The error of layers' compliance, of which the loss is a part only.
+    splitting = problem.contact.surface.splitting_error
+    if splitting and fine.against.value:
+        forces += splitting / fine.against.loss_share * abs(fine.against.value)
     if singular:
         bars["peak_pressure"] = math.inf
     return bars | {
@@ -106,9 +110,10 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     cell, extents = rim.grid.cell_size, (rim.length, rim.width)
     free = [axis for axis in (0, 1) if not rim.grid.periodic[axis]] or [0, 1]
     square = max(min(extents[axis] / cell[axis] for axis in free), 1.0) ** 2
-    solver = problem.contact.solver_error
+    solver, splitting = problem.contact.solver_error, problem.contact.surface.splitting_error
+    relative = solver + splitting
     least = {
-        name: (LEAST_ERRORS.get(name, 0.0) / square + solver) * abs(float(getattr(state, name)))
+        name: (LEAST_ERRORS.get(name, 0.0) / square + relative) * abs(float(getattr(state, name)))
         for name in WITH_ERROR
     }
     for axis, name in enumerate(("contact_length", "contact_width")):

@@ -2,7 +2,7 @@
 
 The material of the half-space flows through the contact, and so does that of a body that rolls: it
 returns after each turn. The material of a body that slides travels with it: its compliance is the
-relaxed one.
+relaxed one. Of layers each term of the surface has a law.
 """
 
 from __future__ import annotations
@@ -15,8 +15,12 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.halfspace.moving_load import MovingCompliance
+from viscontact.halfspace.moving_surface import MovingSurface
+from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
+from viscontact.problem.surface import ROUNDING, SurfaceTerm, terms_of
 from viscontact.steady.problem import SteadyProblem
 from viscontact.time_integration.prony_approximation import as_exponentials
 
@@ -44,8 +48,9 @@ SATURATED, TINY = 1e-12, 1e-9
 
 @dataclass(frozen=True, eq=False)
 class MovingLaw:
-    """J(t) of the bodies, for all speeds of a run."""
+    """J(t) of the bodies for all speeds of a run, of one of the terms of their surface."""
 
+    response: SurfaceResponse  # of the term
     instant: float  # with the relaxed compliance of a body that slides [1/Pa]
     amplitudes: NDArray[np.float64]  # [1/Pa]
     times: NDArray[np.float64]  # retardation times [s]
@@ -65,9 +70,47 @@ class MovingLaw:
             lengths, periods = np.append(lengths, flow), np.append(periods, np.inf)
         return MovingCompliance(self.instant, amplitudes, lengths, periods, self.late_creep / speed)
 
+    def with_another(self, other: MovingLaw) -> MovingLaw:
+        """Law of this body with that of another one of the same response."""
+        return replace(
+            self,
+            instant=self.instant + other.instant,
+            amplitudes=np.append(self.amplitudes, other.amplitudes),
+            times=np.append(self.times, other.times),
+            periods=np.append(self.periods, other.periods),
+            error=max(self.error, other.error),
+        )
 
-def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLaw:
-    """Law of the bodies of a problem.
+
+@dataclass(frozen=True, eq=False)
+class MovingLaws:
+    """Laws of all terms of the bodies' surface."""
+
+    terms: tuple[MovingLaw, ...]
+
+    @property
+    def error(self) -> float:
+        """Largest relative error of a J [-]."""
+        return max(law.error for law in self.terms)
+
+    @property
+    def sinks(self) -> bool:
+        """True for a fluid under which nothing stops the flow: the approach grows for ever."""
+        flowing = [law for law in self.terms if law.fluidity > 0]
+        return any(abs(law.response.long_waves) > ROUNDING for law in flowing)
+
+    @property
+    def shortest_period(self) -> float:
+        """Shortest way after which material returns [m]; inf if none does."""
+        return min(float(law.periods.min(initial=np.inf)) for law in self.terms)
+
+    def at(self, speed: float, extent: float) -> MovingSurface:
+        """Surface at a speed [m/s], for contacts that are small against an extent [m]."""
+        return MovingSurface(tuple((law.response, law.at(speed, extent)) for law in self.terms))
+
+
+def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLaws:
+    """Laws of the bodies of a problem.
 
     `extents` are the contact's lengths along the motion at the fastest and slowest speed [m].
     """
@@ -79,26 +122,59 @@ def moving_law(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLa
     else:
         last = LONGEST * extents[1] / float(speeds.min())
     material, mate = problem.contact.material, problem.contact.indenter_material
-    assert isinstance(material, Material)  # layers are refused
-    assert isinstance(mate, Material | None)
-    series, error, late_creep = _series(material.contact_compliance(), first, last)
-    law = MovingLaw(
+    found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(material)]
+    for term in _terms(mate) if mate is not None else ():
+        compliance = term.compliance
+        if problem.rolling and not compliance.is_elastic:
+            _relaxed(compliance, last, "rolls")
+            curvature = problem.contact.indenter.curvatures[problem.axis]
+            series, error, _ = _series(compliance, first, last)
+            new = _law(term, series, error, 0.0, 2 * np.pi / curvature)
+        else:
+            nothing = np.empty(0)
+            relaxed = SeriesCompliance(_relaxed(compliance, last, "slides"), nothing, nothing)
+            new = _law(term, relaxed, 0.0, 0.0)
+        alike = [index for index, law in enumerate(found) if law.response == new.response]
+        if alike:
+            found[alike[0]] = found[alike[0]].with_another(new)
+        else:
+            found.append(new)
+    return MovingLaws(tuple(found))
+
+
+def _terms(body: Material | Layered) -> list[SurfaceTerm]:
+    """Terms of a body. Those of a layered solid do not flow, however its response is separated."""
+    parts = (body,) if isinstance(body, Material) else body.materials
+    creep = [part.contact_compliance() for part in parts]
+    if any(not isinstance(each, SeriesCompliance) or each.fluidity > 0 for each in creep):
+        return terms_of(body)
+    return [replace(term, compliance=_without_flow(term.compliance)) for term in terms_of(body)]
+
+
+def _without_flow(compliance: ContactCompliance) -> ContactCompliance:
+    if isinstance(compliance, SeriesCompliance) and compliance.fluidity:
+        return SeriesCompliance(compliance.instant, compliance.amplitudes, compliance.times)
+    return compliance
+
+
+def _law(
+    term: SurfaceTerm,
+    series: SeriesCompliance,
+    error: float,
+    late_creep: float,
+    period: float = np.inf,
+) -> MovingLaw:
+    """Law of a term from the series of its creep function; material may return."""
+    return MovingLaw(
+        term.response,
         series.instant,
-        series.amplitudes,
-        series.times,
-        np.full(series.times.shape, np.inf),
+        np.asarray(series.amplitudes),
+        np.asarray(series.times),
+        np.full(np.shape(series.times), period),
         series.fluidity,
         error,
         late_creep,
     )
-    if mate is None:
-        return law
-    compliance = mate.contact_compliance()
-    if problem.rolling and not compliance.is_elastic:
-        curvature = problem.contact.indenter.curvatures[problem.axis]
-        return _with_roller(law, compliance, 2 * np.pi / curvature, first, last)
-    relaxed = _relaxed(compliance, last, "slides")
-    return replace(law, instant=law.instant + relaxed)
 
 
 def flows(compliance: ContactCompliance, late: float) -> bool:
@@ -141,22 +217,6 @@ def _late_creep(compliance: ContactCompliance, series: SeriesCompliance, last: f
     whole = first * exponent / (np.expm1(exponent * np.log(10)) * (1 - exponent) * last)
     own = float((series.amplitudes / series.times) @ scipy.special.exp1(last / series.times))
     return float(whole - own - series.fluidity * (np.log(SLOW) - np.euler_gamma))
-
-
-def _with_roller(
-    law: MovingLaw, compliance: ContactCompliance, period: float, first: float, last: float
-) -> MovingLaw:
-    """Law with the material of a roller, which returns after a period [m]."""
-    _relaxed(compliance, last, "rolls")
-    series, error, _ = _series(compliance, first, last)
-    return replace(
-        law,
-        instant=law.instant + series.instant,
-        amplitudes=np.append(law.amplitudes, series.amplitudes),
-        times=np.append(law.times, series.times),
-        periods=np.append(law.periods, np.full(series.times.shape, period)),
-        error=max(law.error, error),
-    )
 
 
 def _relaxed(compliance: ContactCompliance, late: float, moves: str) -> float:

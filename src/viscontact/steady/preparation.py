@@ -14,7 +14,7 @@ from viscontact.grid import Grid
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.steady.contact import SteadySolver, gap_on
-from viscontact.steady.moving_law import MovingLaw, moving_law
+from viscontact.steady.moving_law import MovingLaws, moving_laws
 from viscontact.steady.problem import SteadyProblem
 from viscontact.steady.region import (
     SEARCH_CELLS,
@@ -28,6 +28,10 @@ from viscontact.units.formatting import format_quantity
 
 #: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
 ACROSS, LEAST_ACROSS = 6.0, 20.0
+
+#: Cells on the thickness of the thinnest layer, along the motion, and the most by which cells are
+#: made shorter for them.
+CELLS_OF_LAYER, MOST_REFINEMENT = 2.0, 2.0
 
 #: Part of these cells that may be lacking.
 LITTLE_LESS = 0.01
@@ -78,19 +82,21 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     given, axis, contact = problem.contact.grid, problem.axis, problem.contact
     check_endless(contact.indenter, given if isinstance(given, Grid) else None)
     if isinstance(given, Grid):
-        check_period(contact.indenter, gap_on(problem, given), given, contact.load)
+        supported = contact.surface.is_supported
+        open_gap = gap_on(problem, given)
+        check_period(contact.indenter, open_gap, given, contact.load, supported=supported)
     _refuse_apart(problem)
     if isinstance(given, Grid):
         extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
-        law = moving_law(problem, extents)
-        _refuse_flow(law, given)
-        _refuse_long_grid(law, given, axis)
-        solver = SteadySolver(problem, law, transforms)
+        laws = moving_laws(problem, extents)
+        _refuse_flow(laws, given)
+        _refuse_long_grid(laws, given, axis)
+        solver = SteadySolver(problem, laws, transforms)
         return SteadySetup(solver, (given,) * len(problem.speeds), threads, library)
     speeds = problem.speeds
     fast, slow = (estimate_at(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
-    law = moving_law(problem, (fast.extents[axis], slow.extents[axis]))
-    solver = SteadySolver(problem, law, transforms)
+    laws = moving_laws(problem, (fast.extents[axis], slow.extents[axis]))
+    solver = SteadySolver(problem, laws, transforms)
     setup = SteadySetup(solver, (), threads, library)
     return _on_chosen_grids(setup, fast)
 
@@ -110,6 +116,7 @@ def _on_chosen_grids(setup: SteadySetup, estimate: ContactEstimate) -> SteadySet
         regions[speed] = last
     across = max(ACROSS / request.tolerance**0.5, LEAST_ACROSS)
     lattice = lattice_for(list(regions.values()), across)
+    lattice = _on_layers(lattice, problem.contact.thinnest_layer, problem.axis)
     if request.largest_cell is not None:
         lattice = Lattice(np.minimum(lattice.cell_size, request.largest_cell))
     grids = [
@@ -124,6 +131,13 @@ def _on_chosen_grids(setup: SteadySetup, estimate: ContactEstimate) -> SteadySet
     return replace(setup, grids=tuple(grids), work=float(work), tolerance_reached=coarse)
 
 
+def _on_layers(lattice: Lattice, thickness: float, axis: int) -> Lattice:
+    """Lattice with shorter cells along the motion where they are long against a layer [m]."""
+    cell = lattice.cell_size[axis]
+    wanted = np.clip(thickness / CELLS_OF_LAYER, cell / MOST_REFINEMENT, cell)
+    return Lattice(np.where(np.arange(2) == axis, wanted, lattice.cell_size))
+
+
 def _cells_across(regions: list[Region], lattice: Lattice) -> float:
     """Cells across the smallest contact, along the axis along which it has fewer."""
     return min(float((region.extents / lattice.cell_size).min()) for region in regions)
@@ -132,10 +146,11 @@ def _cells_across(regions: list[Region], lattice: Lattice) -> float:
 def estimate_at(problem: SteadyProblem, speed: float) -> ContactEstimate:
     """Elastic contact with the compliance of the time in which half of it is passed."""
     contact = problem.contact
-    found = locate_contact(contact.indenter, float(contact.compliance(1.0)), problem.point)
-    for _ in range(ROUNDS):
+    time = 1.0
+    for _ in range(ROUNDS + 1):
+        compliance, response = float(contact.compliance(time)), contact.surface.response_at(time)
+        found = locate_contact(contact.indenter, compliance, problem.point, response=response)
         time = found.extents[problem.axis] / (2 * speed)
-        found = locate_contact(contact.indenter, float(contact.compliance(time)), problem.point)
     return found
 
 
@@ -148,9 +163,9 @@ def _centred(problem: SteadyProblem, reach: NDArray[np.float64]) -> tuple[bool, 
     return across == 0 and even, across == 1 and even
 
 
-def _refuse_flow(law: MovingLaw, grid: Grid) -> None:
+def _refuse_flow(laws: MovingLaws, grid: Grid) -> None:
     """Refuse a fluid under a line contact, which drags ever more of it along (Stokes' paradox)."""
-    if law.fluidity and not grid.has_datum:
+    if laws.sinks and not grid.has_datum:
         raise ValueError(
             "material: the material flows, and on a grid that is periodic across the motion the "
             "resistance of a fluid grows without limit with the distance travelled, so "
@@ -159,9 +174,9 @@ def _refuse_flow(law: MovingLaw, grid: Grid) -> None:
         )
 
 
-def _refuse_long_grid(law: MovingLaw, grid: Grid, axis: int) -> None:
+def _refuse_long_grid(laws: MovingLaws, grid: Grid, axis: int) -> None:
     """Refuse a grid longer than half the circumference of a roller whose material returns."""
-    half, length = float(law.periods.min(initial=np.inf)) / 2, grid.size[axis]
+    half, length = laws.shortest_period / 2, grid.size[axis]
     if length - grid.cell_size[axis] >= half:
         raise ValueError(
             f"grid.size: the grid is {format_quantity(length, 'm', 3)} long along the motion, and "

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
 from viscontact.loads.steady_motion import constant_load
-from viscontact.materials.layers import Layered
 from viscontact.problem.problem import Problem
 from viscontact.problem.surface import creeps
 
@@ -81,12 +80,6 @@ def steady_problem(
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
     """Refuse a viscoelastic indenter that is not known to roll or slide, or that cannot roll."""
     mate = contact.indenter_material
-    for name, body in (("material", contact.material), ("indenter_material", mate)):
-        if isinstance(body, Layered):
-            raise ValueError(
-                f"{name}: layered bodies in steady motion are not supported yet; give a Material, "
-                "or move the body in time: simulate(..., motion=Travel(...))"
-            )
     if mate is None or not creeps(mate):
         return
     if rolling is None:

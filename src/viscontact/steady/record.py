@@ -68,7 +68,8 @@ def steady_attributes(run: SteadySetup, grid: Grid) -> dict[str, Any]:
         "tolerance": problem.contact.tolerance,
         "along": problem.along,
         "transforms": run.transforms,
-        "memory_error": run.solver.law.error,
+        "memory_error": run.solver.laws.error,
+        "splitting_error": problem.contact.surface.splitting_error,
         "inversion_error": problem.contact.compliance.inversion_error,
     }
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.contact.moving_domain import MovingDomain
 from viscontact.contact.resistance import reaches_end, resistance_by_slope
+from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.indenters import Indenter
 
 #: Retardation lengths beyond so many half lengths of the contact: the dissipation is the more
@@ -29,6 +30,8 @@ class Resistance:
     by_dissipation: float
     slope_weight: float  # weight of the first form in the value
     at_end: bool  # the body ends in the contact, where its slope has no limit
+    #: Loss over the modulus of the compliance of waves as long as the contact, sin(loss angle) [-].
+    loss_share: float = 1.0
 
     @property
     def value(self) -> float:
@@ -58,25 +61,28 @@ def resistance(
     lost = float((pressure * domain.loss.apply(pressure)).sum())
     lost *= domain.grid.cell_area * domain.symmetry_count
     at_end = reaches_end(whole, domain.grid, indenter)[domain.axis]
-    return Resistance(by_slope, lost, _slope_weight(domain, half_length), at_end=at_end)
+    waves = domain.surface.at_length(1 / half_length).at_wave_number(np.array(1 / half_length))
+    share = float(waves.imag / abs(waves))
+    return Resistance(by_slope, lost, _slope_weight(domain, half_length), at_end, share)
 
 
 def _slope_weight(domain: MovingDomain, half_length: float) -> float:
     """Weight of the form by the slope in the resistance."""
-    length, moving = _lossy_length(domain, half_length), domain.moving_compliance
+    moving = domain.surface.at_length(1 / half_length)
+    length = _lossy_length(moving, half_length)
     if moving.instant == 0:  # the loss where the surface is loaded first is not resolved
         return 1.0
     if length > LONG * half_length:
         return 0.0
     if length > domain.grid.cell_size[domain.axis]:
         return 1.0
-    growth = float((moving.relaxed / moving.instant - 1) ** SHORT_EXPONENT)
+    growth = float(max(moving.relaxed / moving.instant - 1, 0.0) ** SHORT_EXPONENT)
     return growth / (1 + growth)
 
 
-def _lossy_length(domain: MovingDomain, half_length: float) -> float:
+def _lossy_length(moving: MovingCompliance, half_length: float) -> float:
     """Mean retardation length by weights of the loss in a wave as long as the contact [m]."""
-    moving, wave = domain.moving_compliance, 1 / half_length
+    wave = 1 / half_length
     turn = wave * moving.lengths
     loss = moving.amplitudes * turn / (1 + turn**2)
     total = float(loss.sum())

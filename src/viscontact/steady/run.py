@@ -14,6 +14,7 @@ from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
+from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.simulation.progress_bar import ProgressBar, reported
@@ -30,21 +31,21 @@ Progress = Callable[[ContactState, int, int], None]
 
 def steady(
     indenter: Indenter,
-    material: Material,
+    material: Material | Layered,
     load: LoadHistory,
     speed: ArrayLike,
     *,
     along: Literal["x", "y"] = "y",
     rolling: bool | None = None,
     grid: Grid | AutomaticGrid | None = None,
-    indenter_material: Material | None = None,
+    indenter_material: Material | Layered | None = None,
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
     progress: Progress | bool | None = None,
     errors: bool = True,
 ) -> xr.Dataset:
-    """Contact of a body that moves over a creeping half-space at constant speed.
+    """Contact of a body that moves over a creeping half-space or layers at constant speed.
 
     The steady state is solved for at once, without steps in time, at one speed or at each of a
     curve of speeds. There is no friction in the contact: the body is held back by the loss in the
@@ -54,8 +55,8 @@ def steady(
     ----------
     indenter : Indenter
         Shape of the moving body.
-    material : Material
-        Material of the half-space.
+    material : Material or Layered
+        Material of the half-space, or a body of layers.
     load : LoadHistory
         Constant load, such as ``step(force)``. Give the tilt along the motion (``tilt_y=0.0``) for
         a body on an axle; if it is left out, the body turns until that moment vanishes.
@@ -71,8 +72,8 @@ def steady(
         on cells that the run chooses; chosen by the run as well when left out, for each speed. A
         grid that is periodic across the motion holds a line contact, whose approach has no datum;
         one that is periodic along both axes holds a body that repeats.
-    indenter_material : Material, optional
-        Material of the indenter; rigid when left out.
+    indenter_material : Material or Layered, optional
+        Material of the indenter, such as a covered roll; rigid when left out.
     tolerance : float, optional
         Relative error of gap and balances at every speed.
     fields : {"all", "none"} or sequence of float, optional
@@ -122,9 +123,9 @@ def steady(
     -----
     The displacement is u = J0 q + Σ Ji ∫ exp(-z/li) q(ξ + z) dz/li, with the deflection q of an
     elastic half-space of unit compliance under the same pressure, and the retardation lengths
-    li = speed times retardation time (Hunter 1961). The resistance is ∫ p (∂h/∂ξ) dA, or the power
-    of the dashpots over the speed, whichever is the more accurate; their difference is part of its
-    error.
+    li = speed times retardation time (Hunter 1961); of layers it is the sum of a few such terms.
+    The resistance is ∫ p (∂h/∂ξ) dA, or the power of the dashpots over the speed, whichever is the
+    more accurate; their difference is part of its error.
 
     References
     ----------
