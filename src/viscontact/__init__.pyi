@@ -6,6 +6,8 @@ from . import reference as reference
 from . import surfaces as surfaces
 from . import verify as verify
 from .case import shipped_material as shipped_material
+from .design.design import design as design
+from .design.result import DesignResult as DesignResult
 from .errors import AccuracyWarning as AccuracyWarning
 from .errors import ConvergenceError as ConvergenceError
 from .errors import DomainError as DomainError

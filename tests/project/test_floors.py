@@ -30,7 +30,7 @@ FLOORS = (
     ("simulation", "plot", "notebook"),
     ("accuracy", "report", "steady"),
     ("runs", "verify"),
-    ("web",),
+    ("web", "design"),
     ("cli",),
     ("__main__",),
 )

@@ -1,0 +1,72 @@
+"""Conclusions of a search: what is to be known of the best trial, or why there is none."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from viscontact.design.evaluation import Evaluation
+from viscontact.design.goals import Constraint
+from viscontact.design.search import Search
+from viscontact.design.trials import Trial
+from viscontact.results.formatting import format_with_error
+from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import format_quantity
+
+#: Part of a range from its end within which an optimum lies at the bound.
+AT_BOUND = 0.01
+
+
+def why_infeasible(evaluation: Evaluation, search: Search) -> str:
+    """Reason why no trial is feasible, with the closest one."""
+    goal, limits = evaluation.goal, evaluation.constraints
+    tried = [evaluation.trials[number] for number in search.points]
+    said = f"no feasible design in {evaluation.runs} runs"
+    done = [trial for trial in tried if not trial.failure]
+    if not done:
+        reason = tried[0].failure if tried else "runs: are too few"
+        return f"{said}: every trial failed, the first one with: {reason}"
+    closest = min(done, key=lambda trial: trial.violation(limits))
+    where = ", ".join((f"{key}={value}" for key, value in closest.settings.items()))
+    if closest.violation(limits) == 0.0:
+        return (
+            f"{said}: the {goal.scalar} has no limit, as at a sharp end, or the trials on coarse "
+            f"cells were not confirmed on those of the case (closest: {where}); constrain the "
+            "contact, choose another scalar, or allow more runs"
+        )
+    broken = max(limits, key=lambda each: each.violation(closest.extreme(each).value))
+    value = format_quantity(closest.extreme(broken).value, broken.units)
+    return f"{said}: {broken} is not kept; the closest is {value} at {where}"
+
+
+def notes_on(best: Trial, search: Search) -> Iterator[str]:
+    """Yield what is to be known of the best trial."""
+    evaluation, space = search.evaluation, search.space
+    goal, point = evaluation.goal, search.point(best)
+    for number in space.ranges:
+        part, key = point[number], space.parameters[number].key
+        if min(part, 1 - part) <= AT_BOUND:
+            which, verb = "upper" if part > 0.5 else "lower", "falls" if goal.least else "grows"
+            yield (
+                f"the optimum lies at the {which} bound of {key}, {best.settings[key]}: the "
+                f"{goal.scalar} {verb} up to there, and a wider range may give a better one; if it "
+                f"{verb} for ever, there is no optimum"
+            )
+    for limit in evaluation.constraints:
+        yield from _undecided(best, limit)
+    if evaluation.runs + len(evaluation.scenarios) > evaluation.budget:
+        yield f"all {evaluation.budget} runs were used before the gain was within the error"
+    before = evaluation.trials[0]
+    if before.is_feasible(goal, evaluation.constraints):
+        own, found = (goal.cost(each.worst(goal).value) for each in (before, best))
+        if own < found:
+            yield "the values of the case itself are better than the best ones that were found"
+    yield from best.warnings
+
+
+def _undecided(best: Trial, limit: Constraint) -> Iterator[str]:
+    found = best.extreme(limit)
+    excess = abs(found.value - limit.bound)
+    if not excess > found.error and not math.isnan(found.error):
+        value = format_with_error(found.value, found.error, SCALARS[limit.scalar].units)
+        yield f"{limit} is kept within the error only: {value}"

@@ -1,0 +1,303 @@
+"""Design of a case: values of its parameters for the least or largest scalar: `design`."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.case import Case, CaseError, read_case
+from viscontact.design.conclusions import notes_on, why_infeasible
+from viscontact.design.evaluation import BudgetSpentError, Evaluation, coarse_cells
+from viscontact.design.goals import Goal, constraints_of, goal_of
+from viscontact.design.history import History
+from viscontact.design.parameters import Space, space_of
+from viscontact.design.result import DesignResult, table_of
+from viscontact.design.search import Search
+from viscontact.design.trials import Trial
+from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.executors.local import LocalWorkers
+from viscontact.runs.machine.cores import usable_cores
+from viscontact.runs.recipes import refuse_import_by_a_worker
+from viscontact.runs.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
+from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import whole
+
+#: Called with the numbers of runs, done and allowed, after each trial.
+Progress = Callable[[int, int], None]
+
+
+def design(
+    case: str | PathLike[str],
+    change: Mapping[str, Any],
+    *,
+    minimise: str | None = None,
+    maximise: str | None = None,
+    at: Literal["worst", "end"] | float = "worst",
+    over: Mapping[str, Sequence[Any]] | None = None,
+    constraints: Sequence[str] = (),
+    settings: Mapping[str, Any] | None = None,
+    runs: int = 60,
+    workers: int | None = None,
+    directory: str | PathLike[str] | None = None,
+    progress: Progress | None = None,
+) -> DesignResult:
+    """Find the values of some parameters of a case for which a scalar is least or largest.
+
+    Parameters
+    ----------
+    case : path-like
+        Case file, YAML or TOML, of a run over time.
+    change : mapping
+        Parameters by dotted key, at most eight: a tuple of two bounds, and ``"log"`` for a
+        logarithmic scale, as ``{"indenter.crown_radius": ("20 mm", "2 m", "log")}``; or a list of
+        values to choose from, as ``{"material": ["pmma-paper", "epdm-70-25c"]}``.
+    minimise, maximise : str, optional
+        Name of the scalar whose magnitude is to be least, or largest; one of both.
+    at : {"worst", "end"} or float, optional
+        Instant of the scalar: that of its worst value in the run, the last one, or a time of the
+        run [s].
+    over : mapping, optional
+        Scenarios: values of some keys, as ``{"load.eccentricity_x": ["0 mm", "5 mm"]}``; all
+        combinations of several keys. The scalar counts in the worst one.
+    constraints : sequence of str, optional
+        Bounds on the magnitudes of scalars at all instants of all scenarios, as
+        ``["contact_length<=18mm"]``, or with ``>=``.
+    settings : mapping, optional
+        Values of other keys, the same in all runs.
+    runs : int, optional
+        Most runs; a trial takes one for each scenario.
+    workers : int, optional
+        Number of parallel processes, for the scenarios of a trial; by default as many as there are
+        cores. With 1, the runs are computed in this process.
+    directory : path-like, optional
+        Keep the trials there. The same call again goes on where the first one was interrupted.
+    progress : callable, optional
+        Called after each trial with the number of runs so far and the most allowed ones.
+
+    Returns
+    -------
+    DesignResult
+        ``best`` and ``table`` (xarray.Dataset), ``settings``, ``case_text`` and ``notes``.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit, the case or a bound is refused (as `CaseError`), two
+        constraints contradict each other, or no trial is feasible; the message names the closest
+        one.
+
+    Notes
+    -----
+    The ranges are searched on coarse cells by the algorithm DIRECT (Jones, Perttunen and Stuckman
+    1993; locally biased: Gablonsky and Kelley 2001), which needs no derivatives and no random
+    numbers; constraints are an exact penalty. The best trials are computed again on the cells of
+    the case, and the search goes on around the best one by the method of Nelder and Mead (1965).
+    Each search ends when its last trials have gained less than the error of the scalar. A global
+    optimum is not guaranteed. A peak pressure without a limit, as where a contact reaches the sharp
+    end of a roller, is never the best one.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp(), "ball.yaml")
+    >>> _ = file.write_text(
+    ...     "{indenter: {shape: sphere, radius: 5 mm}, "
+    ...     "material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}, "
+    ...     "load: {kind: step, force: 0.1 N}, time: {end: 1 s, steps: 1}, "
+    ...     "grid: {shape: [64, 64], size: [2.4 mm, 2.4 mm]}, output: {errors: false}}"
+    ... )
+    >>> found = design(
+    ...     file,
+    ...     {"load.force": ("0.01 N", "0.5 N", "log")},
+    ...     maximise="approach",
+    ...     constraints=["contact_width<=1.2mm"],
+    ... )
+    >>> force = float(found.best["load.force"])
+    >>> abs(force / (4 / 3 * 4e6 * 0.6e-3**3 / 5e-3) - 1) < 0.1  # Hertz: F = 4/3 E* a^3 / R
+    True
+    """
+    refuse_import_by_a_worker()
+    path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
+    goal, limits, space = (
+        goal_of(minimise, maximise, at),
+        constraints_of(constraints),
+        space_of(change),
+    )
+    scenarios = _scenarios(over)
+    _refuse_repeated(space.keys, scenarios.keys, tuple(fixed))
+    budget = whole("runs", runs, 1)
+    own = _checked(path, space, scenarios, fixed, goal)
+    arguments = {
+        "case": hashlib.sha256(b"".join(sorted(own.digests.values()))).hexdigest(),
+        **{"change": repr(change), "goal": repr(goal), "over": repr(scenarios.rows)},
+        **{"constraints": repr(limits), "settings": fixed},
+    }
+    count = usable_cores() if workers is None else whole("workers", workers, 1)
+    with ExitStack() as opened:
+        history = opened.enter_context(_history(directory, arguments))
+        evaluation = Evaluation(
+            path,
+            fixed,
+            [
+                dict(t.split("=", 1) for t in scenarios.settings(n))
+                for n in range(len(scenarios.rows))
+            ],
+            goal,
+            limits,
+            coarse_cells(own),
+            budget,
+            opened.enter_context(_workers(min(count, len(scenarios.rows)))),
+            history.keep if history else _forget,
+            progress or _silent,
+            history.recorded if history else {},
+        )
+        return _searched(evaluation, space, scenarios, own)
+
+
+def _searched(evaluation: Evaluation, space: Space, scenarios: Design, own: Case) -> DesignResult:
+    """Search, and describe the best trial; ValueError if none is feasible."""
+    goal, limits = evaluation.goal, evaluation.constraints
+    try:
+        evaluation.evaluate({}, "case")
+    except BudgetSpentError:
+        raise ValueError(
+            f"runs: {evaluation.budget} are too few for {len(scenarios.rows)} scenarios"
+        ) from None
+    search = Search(space, evaluation)
+    best = search.run()
+    if best is None:
+        raise ValueError(why_infeasible(evaluation, search))
+    names = [scenarios.name(row) or "as in the case" for row in range(len(scenarios.rows))]
+    table = table_of(
+        evaluation.trials, space.keys, _own_values(own, space.keys), names, goal, limits
+    )
+    notes = tuple(notes_on(best, search))
+    return DesignResult(
+        table,
+        dict(best.settings),
+        notes,
+        evaluation.runs,
+        evaluation.case,
+        evaluation.settings,
+        goal,
+        evaluation.trials.index(best),
+    )
+
+
+def _scenarios(over: Mapping[str, Sequence[Any]] | None) -> Design:
+    if not over:
+        return NOTHING_VARIED
+    for key, values in over.items():
+        if isinstance(values, str) or not len(values):
+            raise ValueError(
+                f"over: {key}: must be a list of values, as ['0 mm', '5 mm'], got {values!r}"
+            )
+    try:
+        return grid_design({key: [str(value) for value in values] for key, values in over.items()})
+    except EqualValuesError as error:
+        raise ValueError(f"over: {error}") from None
+
+
+def _refuse_repeated(*groups: Sequence[str]) -> None:
+    keys = [key for group in groups for key in group]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f"{key}: is given twice, in change, over or settings; give it once")
+
+
+def _checked(
+    path: Path, space: Space, scenarios: Design, fixed: Mapping[str, str], goal: Goal
+) -> Case:
+    """Check the case at its own values, at the bounds and in all scenarios, and return it."""
+    first = scenarios.settings(0)
+    own = _read(path, (*_assignments(fixed), *first))
+    if own.steady is not None:
+        raise ValueError(f"{path}: is in steady motion; a design takes a case over time")
+    if own.adaptive is None and not isinstance(goal.at, str):
+        _require_instant(own.instants, goal.at)
+    for corner in space.corners():
+        _read(path, (*_assignments(fixed), *first, *_assignments(corner)))
+    for row in range(1, len(scenarios.rows)):
+        _read(path, (*_assignments(fixed), *scenarios.settings(row)))
+    return own
+
+
+def _require_instant(instants: NDArray[np.float64], time: float) -> None:
+    """Raise ValueError if a time [s] is none of the instants."""
+    near = float(instants[np.abs(instants - time).argmin()])
+    if not np.isclose(near, time, rtol=1e-9, atol=0):
+        wanted, found = (format_quantity(each, "s") for each in (time, near))
+        raise ValueError(f"at: {wanted} is no instant of the case; the nearest one is {found}")
+
+
+def _read(path: Path, settings: Sequence[str]) -> Case:
+    """Read a case; CaseError without the name of an option of the command line."""
+    try:
+        return read_case(path, settings)
+    except CaseError as error:
+        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
+
+
+def _assignments(settings: Mapping[str, str]) -> list[str]:
+    return [f"{key}={value}" for key, value in settings.items()]
+
+
+def _own_values(case: Case, keys: Sequence[str]) -> dict[str, str]:
+    """Values of some keys in the case, where they are plain."""
+    found = {}
+    for key in keys:
+        value: Any = case.document.data
+        for step in key.split("."):
+            value = value.get(step) if isinstance(value, dict) else None
+        if isinstance(value, str | int | float):
+            found[key] = str(value)
+    return found
+
+
+@contextmanager
+def _history(
+    directory: str | PathLike[str] | None, arguments: dict[str, Any]
+) -> Iterator[History | None]:
+    if directory is None:
+        yield None
+        return
+    place = Path(directory)
+    if place.exists() and not place.is_dir():
+        raise ValueError(f"directory: {place} is a file; name a directory for the design")
+    place.mkdir(parents=True, exist_ok=True)
+    try:
+        with locked(place):
+            yield History(place, arguments)
+    except DirectoryInUse as error:
+        raise ValueError(str(error)) from None
+
+
+@contextmanager
+def _workers(count: int) -> Iterator[LocalWorkers | None]:
+    """Warm processes; none for one run at a time."""
+    if count == 1:
+        yield None
+        return
+    pool = LocalWorkers(count)
+    try:
+        yield pool
+    except BaseException:
+        pool.kill()
+        raise
+    finally:
+        pool.shutdown()
+
+
+def _forget(trial: Trial) -> None:
+    """Keep nothing."""
+
+
+def _silent(done: int, allowed: int) -> None:
+    """Show nothing."""

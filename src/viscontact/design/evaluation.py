@@ -1,0 +1,157 @@
+"""Evaluation of trials: the runs of their scenarios on coarse cells or on those of the case."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from viscontact.case import Case, read_case
+from viscontact.design.goals import Constraint, Goal
+from viscontact.design.trials import Level, ScenarioResult, Trial, goal_name
+from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.grid import Grid
+from viscontact.indenters import (
+    Chamfer,
+    CylindricalProfile,
+    FullCrown,
+    Indenter,
+    PartialCrown,
+    Roller,
+    TwoRadiiCrown,
+)
+from viscontact.runs.many import simulate_many
+from viscontact.runs.sweep.varied_runs import VariedRun
+
+#: Relative error of an automatic grid in the search, unless the case allows more.
+COARSE_TOLERANCE = 0.05
+#: Least number of cells along an edge, and cells from which a given grid is made coarser.
+LEAST_CELLS, MOST_CELLS = 32, 2**12
+
+#: Scalar without a limit at a sharp end, also where the cells do not resolve that, and the words of
+#: the warning of a contact that reaches the end.
+PEAK, AT_THE_END = "peak_pressure", "the end of the indenter's profile"
+_SHARP = (CylindricalProfile, PartialCrown, FullCrown, TwoRadiiCrown, Chamfer)
+
+#: A scenario: values of the case by key.
+Scenario = Mapping[str, str]
+
+
+class BudgetSpentError(Exception):
+    """The next trial would need more runs than are allowed."""
+
+
+@dataclass
+class Evaluation:
+    """Runs of a design, each made once; `recorded` has those of an interrupted design."""
+
+    case: Path
+    settings: Mapping[str, str]
+    scenarios: Sequence[Scenario]
+    goal: Goal
+    constraints: tuple[Constraint, ...]
+    coarse: Mapping[str, str]  # settings of the coarse cells
+    budget: int  # most runs
+    executor: Executor | None
+    keep: Callable[[Trial], None]  # called after each new trial
+    progress: Callable[[int, int], None]  # called with the numbers of runs, done and allowed
+    recorded: dict[tuple[Any, ...], Trial] = field(default_factory=dict)
+    trials: list[Trial] = field(default_factory=list)
+
+    @property
+    def runs(self) -> int:
+        """Number of runs that the trials have taken."""
+        return len(self.trials) * len(self.scenarios)
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """Levels of the search, the cheap one first."""
+        return ("coarse", "case") if self.coarse else ("case",)
+
+    def evaluate(self, settings: Mapping[str, str], level: Level) -> Trial:
+        """Return the trial of some values; BudgetSpentError if it would need too many runs."""
+        known = next((t for t in self.trials if identity(t) == _key(settings, level)), None)
+        if known is not None:
+            return known
+        if self.runs + len(self.scenarios) > self.budget:
+            raise BudgetSpentError
+        recorded = self.recorded.get(_key(settings, level))
+        trial = recorded or Trial(dict(settings), level, self._results(settings, level))
+        self.trials.append(trial)
+        if recorded is None:
+            self.keep(trial)
+        self.progress(self.runs, self.budget)
+        return trial
+
+    def _results(self, settings: Mapping[str, str], level: Level) -> tuple[ScenarioResult, ...]:
+        runs = [self._run(settings, scenario, level) for scenario in self.scenarios]
+        with warnings.catch_warnings():
+            # They are kept with the trial.
+            warnings.simplefilter("ignore", AccuracyWarning)
+            if self.executor is None:
+                found = [_attempt(run) for run in runs]
+            else:
+                found = simulate_many(runs, executor=self.executor, return_exceptions=True)
+        return tuple(self._measured(run, each) for run, each in zip(runs, found, strict=True))
+
+    def _run(self, settings: Mapping[str, str], scenario: Scenario, level: Level) -> VariedRun:
+        cells = self.coarse if level == "coarse" else {}
+        whole = {**self.settings, **cells, "output.fields": "none", **scenario, **settings}
+        return VariedRun(self.case, whole, tuple(settings), "", "", "cases")
+
+    def _measured(self, run: VariedRun, found: xr.Dataset | Exception) -> ScenarioResult:
+        if isinstance(found, ValueError | ConvergenceError | DomainError):
+            return ScenarioResult({}, str(found).splitlines()[0])
+        if isinstance(found, Exception):
+            raise found
+        values = {goal_name(self.goal): self.goal.value(found)}
+        values |= {str(each): each.value(found) for each in self.constraints}
+        warned = str(found.attrs.get("warnings", ""))
+        if AT_THE_END in warned and ends_sharply(read_case(run.case, run.assignments).indenter):
+            peaks = [goal_name(self.goal)] * (self.goal.scalar == PEAK)
+            peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
+            values |= {name: replace(values[name], error=math.inf) for name in peaks}
+        return ScenarioResult(values, "", warned)
+
+
+def ends_sharply(indenter: Indenter) -> bool:
+    """True for a roller with an edge at its end, where a contact has a pressure without a limit.
+
+    The end of a logarithmic profile has a finite pressure, which the error bars cover.
+    """
+    return isinstance(indenter, Roller) and isinstance(indenter.line, _SHARP)
+
+
+def identity(trial: Trial) -> tuple[Any, ...]:
+    """Values and cells of a trial, which are the same in an equal one."""
+    return _key(trial.settings, trial.level)
+
+
+def coarse_cells(case: Case) -> dict[str, str]:
+    """Settings of the coarse cells of a case; none if its own cells are coarse."""
+    if isinstance(case.grid, Grid):
+        shape, least = case.grid.shape, LEAST_CELLS
+        while math.prod(shape) > MOST_CELLS and min(shape) >= 2 * least:
+            shape = (shape[0] // 2, shape[1] // 2)
+        return {} if shape == case.grid.shape else {"grid.shape": f"[{shape[0]}, {shape[1]}]"}
+    asked = case.automatic_grid
+    if asked is None or asked.largest_cell is not None or asked.tolerance >= COARSE_TOLERANCE:
+        return {}
+    return {"grid.tolerance": f"{100 * COARSE_TOLERANCE:g} %"}
+
+
+def _key(settings: Mapping[str, str], level: Level) -> tuple[Any, ...]:
+    return (level, *sorted(settings.items()))
+
+
+def _attempt(run: VariedRun) -> xr.Dataset | Exception:
+    try:
+        return run()
+    except (ValueError, ConvergenceError, DomainError) as error:
+        return error

@@ -1,0 +1,172 @@
+"""Goals of a design: the scalar that is to be least or largest, and constraints."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import SCALARS, scalars_with_error
+from viscontact.units.formatting import format_quantity
+from viscontact.units.parsing import parse_any_quantity
+
+#: Instant of a goal: that of the worst value, the last one, or a time [s].
+At = Literal["worst", "end"] | float
+
+_CONSTRAINT = re.compile(r"\s*(\w+)\s*(<=|>=)\s*(.+?)\s*")
+#: Units of the results in the words of quantities.
+_AS_READ = {"m2": "m^2"}
+
+
+@dataclass(frozen=True)
+class Value:
+    """Value of a scalar of a run, with its error, in SI units."""
+
+    value: float  # NaN if the run has none
+    error: float  # half width of the error bar: inf if mesh-dependent, NaN if unknown
+
+    @property
+    def depends_on_mesh(self) -> bool:
+        """True if smaller cells give other values, without a limit."""
+        return math.isinf(self.error)
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Scalar that is to be least, or largest, at an instant."""
+
+    scalar: str
+    least: bool
+    at: At = "worst"
+
+    def value(self, results: xr.Dataset) -> Value:
+        """Magnitude of the scalar in a run, at its instant: for "worst", the one farthest off."""
+        return magnitude(results, self.scalar, self.at, largest=self.least)
+
+    def cost(self, value: float) -> float:
+        """Number that is smaller for a better value."""
+        return value if self.least else -value
+
+    def __str__(self) -> str:
+        return f"{'least' if self.least else 'largest'} {self.scalar}"
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """Bound on the magnitude of a scalar at all instants of all scenarios."""
+
+    scalar: str
+    upper: bool  # the bound is the largest allowed magnitude, else the least
+    bound: float  # SI
+
+    def value(self, results: xr.Dataset) -> Value:
+        """The magnitude that comes closest to the bound, or exceeds it most."""
+        return magnitude(results, self.scalar, "worst", largest=self.upper)
+
+    def violation(self, value: float) -> float:
+        """Excess over the bound, relative to it; below zero if the bound is kept.
+
+        >>> Constraint("force", True, 10.0).violation(12.0)
+        0.2
+        """
+        scale = abs(self.bound) or 1.0
+        excess = (value - self.bound) / scale
+        return math.inf if math.isnan(value) else excess if self.upper else -excess
+
+    @property
+    def units(self) -> str:
+        """SI unit."""
+        return SCALARS[self.scalar].units
+
+    def __str__(self) -> str:
+        sign = "<=" if self.upper else ">="
+        return f"{self.scalar} {sign} {format_quantity(self.bound, self.units)}"
+
+
+def magnitude(results: xr.Dataset, scalar: str, at: At, *, largest: bool) -> Value:
+    """Largest or least magnitude of a scalar over a run, or that at an instant.
+
+    ValueError if the run does not have the scalar, or a given time is none of its instants.
+    """
+    if scalar not in results:
+        raise ValueError(f"{scalar}: the result does not have it")
+    sizes = np.abs(np.asarray(results[scalar].values, dtype=float))
+    errors = errors_of(results, scalar)
+    if at == "worst":
+        if not np.isfinite(sizes).any():
+            return Value(math.nan, math.nan)
+        row = int(np.nanargmax(sizes) if largest else np.nanargmin(sizes))
+        # A value without a limit at any instant is the worst, whatever its number is here.
+        unlimited = bool(largest and np.isposinf(errors).any())
+        return Value(float(sizes[row]), math.inf if unlimited else float(errors[row]))
+    times = np.asarray(results["time"].values, dtype=float)
+    row = len(times) - 1 if at == "end" else int(np.abs(times - float(at)).argmin())
+    if at != "end" and not math.isclose(times[row], float(at), rel_tol=1e-9, abs_tol=1e-15):
+        near = format_quantity(float(times[row]), "s")
+        wanted = format_quantity(float(at), "s")
+        raise ValueError(f"at: {wanted} is no instant of the run; the nearest one is {near}")
+    return Value(float(sizes[row]), float(errors[row]))
+
+
+def goal_of(minimise: str | None, maximise: str | None, at: At) -> Goal:
+    """Return the goal of `design`; ValueError if an argument does not fit."""
+    if (minimise is None) == (maximise is None):
+        raise ValueError("give one of minimise and maximise, e.g. minimise='peak_pressure'")
+    option = "minimise" if maximise is None else "maximise"
+    scalar = _known(minimise or maximise or "", option)
+    if isinstance(at, str) and at not in ("worst", "end"):
+        raise ValueError(f"at: must be 'worst', 'end' or a time [s], got {at!r}")
+    return Goal(scalar, maximise is None, at)
+
+
+def constraints_of(texts: Sequence[str]) -> tuple[Constraint, ...]:
+    """Read constraints, as ``contact_length<=18mm``; ValueError names the fault.
+
+    >>> str(constraints_of(["contact_length<=18mm"])[0])
+    'contact_length <= 18 mm'
+    """
+    if isinstance(texts, str):
+        raise ValueError(f"constraints: must be a list, as [{texts!r}]")
+    found = tuple(map(_constraint, texts))
+    for upper in found:
+        for lower in found:
+            same = upper.scalar == lower.scalar and upper.upper and not lower.upper
+            if same and lower.bound > upper.bound:
+                raise ValueError(f"constraints: {upper} and {lower} contradict each other")
+    return found
+
+
+def _constraint(text: str) -> Constraint:
+    match = _CONSTRAINT.fullmatch(text)
+    if match is None:
+        raise ValueError(
+            f"constraints: write SCALAR<=VALUE or SCALAR>=VALUE, as 'contact_length<=18mm', got "
+            f"{text!r}"
+        )
+    name, sign, quantity = match.groups()
+    scalar = _known(name, "constraints")
+    unit = SCALARS[scalar].units
+    try:
+        bound, given = parse_any_quantity(quantity)
+    except ValueError as error:
+        raise ValueError(f"constraints: {text}: {error}") from None
+    if given != _AS_READ.get(unit, unit):
+        raise ValueError(f"constraints: {text}: must have a unit of [{unit}], got {quantity!r}")
+    return Constraint(scalar, sign == "<=", bound)
+
+
+def _known(name: str, where: str) -> str:
+    """Name of a scalar with an error bar; ValueError for another one."""
+    names = scalars_with_error(moving=True)
+    if name in names:
+        return name
+    close = difflib.get_close_matches(name, names, 1)
+    hint = f"did you mean {close[0]}?" if close else f"one of {', '.join(names)}"
+    raise ValueError(f"{where}: {name!r} is no scalar of a result; {hint}")

@@ -1,0 +1,139 @@
+"""Result of a design: the best trial, all trials as a table, and what is to be known of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from viscontact.case import read_case
+from viscontact.design.goals import Constraint, Goal, Value
+from viscontact.design.trials import Trial, goal_name
+from viscontact.results.formatting import format_with_error
+from viscontact.results.variables import SCALARS, error_name
+from viscontact.runs.sweep.axes import coordinate
+
+
+@dataclass(frozen=True)
+class DesignResult:
+    """Best values of the parameters of a case, and the trials that lead to them.
+
+    Attributes
+    ----------
+    table : xarray.Dataset
+        All trials along the dimension ``trial``, in their order, in SI units: the varied keys as
+        coordinates, the goal and the constraints by their names, in the worst scenario, with their
+        errors; the goal over (trial, scenario) as ``<name>_of_scenarios``; ``level`` ("coarse", or
+        "case" for the cells of the case), ``feasible`` and ``message``, the reason of a failed run.
+        Trial 0 is the case as it is.
+    settings : mapping of str to str
+        Best values by key, as ``--set`` takes them.
+    notes : tuple of str
+        What is to be known of the optimum: that it lies at a bound, that a constraint is kept only
+        within the error, that the runs were used up, and the warnings of its runs.
+    runs : int
+        Number of runs of the trials.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscontact.design.design import design
+    >>> file = Path(tempfile.mkdtemp(), "ball.yaml")
+    >>> _ = file.write_text(
+    ...     "{indenter: {shape: sphere, radius: 5 mm}, "
+    ...     "material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}, "
+    ...     "load: {kind: step, force: 0.1 N}, time: {end: 1 s, steps: 1}, "
+    ...     "grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}}"
+    ... )
+    >>> found = design(file, {"indenter.radius": ["2 mm", "8 mm"]}, minimise="peak_pressure")
+    >>> found.settings, found.runs
+    ({'indenter.radius': '8 mm'}, 3)
+    >>> before = found.table.isel(trial=0)
+    >>> round(float(found.best.peak_pressure / before.peak_pressure), 2)  # Hertz: (5/8)**(2/3)
+    0.73
+    """
+
+    table: xr.Dataset
+    settings: Mapping[str, str]
+    notes: tuple[str, ...]
+    runs: int
+    case: Path
+    fixed: Mapping[str, str]
+    goal: Goal
+    number: int  # of the best trial
+
+    @property
+    def best(self) -> xr.Dataset:
+        """Best trial: its row of the table."""
+        return self.table.isel(trial=self.number)
+
+    @property
+    def case_text(self) -> str:
+        """Best case as YAML, without the values of a scenario."""
+        settings = {**self.fixed, **self.settings}
+        return read_case(self.case, [f"{k}={v}" for k, v in settings.items()]).text
+
+    def __str__(self) -> str:
+        values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
+        return f"{self.goal}: {self._format(self.number)} at {values}{self._before()}"
+
+    def _before(self) -> str:
+        if not np.isfinite(self.table[self.goal.scalar].values[0]):
+            return ""
+        return f", where the case has {self._format(0)}"
+
+    def _format(self, trial: int) -> str:
+        name = self.goal.scalar
+        value, error = (float(self.table[n].values[trial]) for n in (name, error_name(name)))
+        return format_with_error(value, error, SCALARS[name].units)
+
+
+def table_of(
+    trials: Sequence[Trial],
+    keys: Sequence[str],
+    own: Mapping[str, str],
+    scenarios: Sequence[str],
+    goal: Goal,
+    constraints: tuple[Constraint, ...],
+) -> xr.Dataset:
+    """Table of the trials; `own` are the values of the case, of trials without others."""
+    columns = {key: [t.settings.get(key, own.get(key, "")) for t in trials] for key in keys}
+    coords = {key: coordinate(key, "trial", texts) for key, texts in columns.items()}
+    names = xr.Variable("scenario", np.array(scenarios, dtype=np.str_))
+    data: dict[str, xr.Variable] = {}
+    for each in constraints:
+        data |= _columns(each.scalar, [trial.extreme(each) for trial in trials])
+    data |= _columns(goal.scalar, [trial.worst(goal) for trial in trials])
+    data |= _of_scenarios(trials, goal)
+    feasible = [trial.is_feasible(goal, constraints) for trial in trials]
+    data["feasible"] = xr.Variable("trial", feasible, {"long_name": "all constraints are kept"})
+    data["level"] = _texts([trial.level for trial in trials], "cells of the runs")
+    data["message"] = _texts([trial.failure for trial in trials], "reason of a failed run")
+    return xr.Dataset(data, {"trial": np.arange(len(trials)), "scenario": names, **coords})
+
+
+def _columns(name: str, values: Sequence[Value]) -> dict[str, xr.Variable]:
+    about = {"units": SCALARS[name].units, "long_name": SCALARS[name].long_name}
+    error = {"units": about["units"], "long_name": f"estimated error of: {about['long_name']}"}
+    return {
+        name: xr.Variable("trial", [each.value for each in values], about),
+        error_name(name): xr.Variable("trial", [each.error for each in values], error),
+    }
+
+
+def _of_scenarios(trials: Sequence[Trial], goal: Goal) -> dict[str, xr.Variable]:
+    none = Value(np.nan, np.nan)
+    found = [[r.values.get(goal_name(goal), none) for r in trial.results] for trial in trials]
+    about = {"units": SCALARS[goal.scalar].units}
+    dims, name = ("trial", "scenario"), f"{goal.scalar}_of_scenarios"
+    return {
+        name: xr.Variable(dims, [[v.value for v in row] for row in found], about),
+        error_name(name): xr.Variable(dims, [[v.error for v in row] for row in found], about),
+    }
+
+
+def _texts(texts: Sequence[str], long_name: str) -> xr.Variable:
+    return xr.Variable("trial", np.array(texts, dtype=np.str_), {"long_name": long_name})

@@ -1,0 +1,206 @@
+"""Search for the best point of a space: DIRECT on coarse cells, then a local search."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any
+
+import numpy as np
+from scipy.optimize import direct, minimize
+
+from viscontact.design.evaluation import BudgetSpentError, Evaluation
+from viscontact.design.parameters import Choice, Space
+from viscontact.design.trials import Level, Trial
+
+Point = tuple[float, ...]
+
+#: Cost of a relative excess over a bound, in parts of the objective: an exact penalty, as long as
+#: the objective changes less than this for a given relative change of the bound.
+PENALTY = 10.0
+#: Cost of a value without a limit, in parts of it.
+UNLIMITED = 0.2
+#: Trials in which a search must gain something, for each parameter and for the search itself: of
+#: the whole space, and of the surroundings of the best trial.
+PATIENCE, LOCAL_PATIENCE = 6, 2
+#: Least gain that counts, relative to the objective, where the error is not known or smaller.
+LEAST_GAIN = 1e-3
+#: Most trials that are certified on the cells of the case, before the local search.
+CANDIDATES = 3
+#: Edge of the first simplex of the local search, in parts of the ranges.
+SIMPLEX = 0.04
+#: Parts of a range from its end in which the end itself is tried.
+NEAR_END = 0.1
+
+
+class _NothingGainedError(Exception):
+    """The last trials of a search have gained less than the error."""
+
+
+@dataclass
+class Search:
+    """Search over a space by the trials of an evaluation."""
+
+    space: Space
+    evaluation: Evaluation
+    points: dict[int, Point] = field(default_factory=dict)  # of the trials, by their number
+
+    def run(self) -> Trial | None:
+        """Return the best feasible trial on the cells of the case; None without one.
+
+        BudgetSpentError is caught: then the best trial so far is returned.
+        """
+        try:
+            self._explore(self.evaluation.levels[0])
+            self._certify()
+            self._refine()
+        except BudgetSpentError:
+            pass
+        return self.best("case")
+
+    def best(self, level: Level) -> Trial | None:
+        """Best feasible trial of a level."""
+        found = self._ranked(level)
+        return found[0] if found else None
+
+    def _ranked(self, level: Level) -> list[Trial]:
+        """Feasible trials of a level, the best first."""
+        goal, limits = self.evaluation.goal, self.evaluation.constraints
+        found = [
+            each
+            for number, each in enumerate(self.evaluation.trials)
+            if number in self.points and each.level == level and each.is_feasible(goal, limits)
+        ]
+        return sorted(found, key=lambda each: goal.cost(each.worst(goal).value))
+
+    def _explore(self, level: Level) -> None:
+        """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
+        choices = [each for each in self.space.parameters if isinstance(each, Choice)]
+        if len(choices) == len(self.space.parameters):
+            for point in product(*(_middles(len(each.values)) for each in choices)):
+                self._try(point, level)
+            return
+        watched = _Watched(self, level, PATIENCE * (1 + len(self.space.parameters)))
+        bounds = [(0.0, 1.0)] * len(self.space.parameters)
+        with contextlib.suppress(_NothingGainedError):
+            direct(watched, bounds, maxfun=100 * self.evaluation.budget, vol_tol=0, len_tol=1e-4)
+        self._try_ends(level)
+
+    def _try_ends(self, level: Level) -> None:
+        """Try the end of a range that the best trial is close to, which DIRECT never reaches."""
+        best = self.best(level)
+        if best is None:
+            return
+        point = list(self.point(best))
+        ends = [round(point[n]) for n in self.space.ranges]
+        near = [
+            (n, end)
+            for n, end in zip(self.space.ranges, ends, strict=True)
+            if abs(point[n] - end) < NEAR_END
+        ]
+        for n, end in near:
+            self._try((*point[:n], float(end), *point[n + 1 :]), level)
+        if len(near) > 1:
+            for n, end in near:
+                point[n] = float(end)
+            self._try(tuple(point), level)
+
+    def _certify(self) -> None:
+        """Compute the best coarse trials on the cells of the case."""
+        if self.evaluation.levels[0] == "case":
+            return
+        goal = self.evaluation.goal
+        certified: list[Trial] = []
+        for coarse in self._ranked("coarse"):
+            value = coarse.worst(goal)
+            best = self.best("case")
+            if best is not None:
+                # The others are worse by more than the cells can explain.
+                known = value.error if math.isfinite(value.error) else 0.0
+                if goal.cost(value.value) - known > goal.cost(best.worst(goal).value):
+                    return
+                if len(certified) >= CANDIDATES:
+                    return
+            certified.append(self._try(self.point(coarse), "case"))
+
+    def _refine(self) -> None:
+        """Search around the best certified trial on the cells of the case, by Nelder and Mead."""
+        best, ranges = self.best("case"), self.space.ranges
+        if best is None or not ranges:
+            return
+        start = np.array(self.point(best))
+        simplex = np.tile(start[list(ranges)], (len(ranges) + 1, 1))
+        for row in range(len(ranges)):
+            simplex[row + 1, row] += SIMPLEX if simplex[0, row] < 0.5 else -SIMPLEX
+        watched = _Watched(self, "case", LOCAL_PATIENCE * (1 + len(ranges)))
+
+        def cost(coordinates: Any) -> float:
+            point = start.copy()
+            point[list(ranges)] = coordinates
+            return watched(point)
+
+        options = {"initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.0}
+        with contextlib.suppress(_NothingGainedError):
+            minimize(
+                cost,
+                simplex[0],
+                method="Nelder-Mead",
+                bounds=[(0, 1)] * len(ranges),
+                options=options,
+            )
+        self._try_ends("case")
+
+    def point(self, trial: Trial) -> Point:
+        """Coordinates of a trial."""
+        return self.points[self.evaluation.trials.index(trial)]
+
+    def _try(self, point: Sequence[float], level: Level) -> Trial:
+        trial = self.evaluation.evaluate(self.space.settings(point), level)
+        number = self.evaluation.trials.index(trial)
+        self.points.setdefault(number, tuple(float(np.clip(part, 0, 1)) for part in point))
+        return trial
+
+
+class _Watched:
+    """Cost of points in parts of the objective; it ends a search that gains less than the error."""
+
+    def __init__(self, search: Search, level: Level, patience: int) -> None:
+        self._search, self._level, self._patience = search, level, patience
+        self._scale = 0.0  # size of the first objective
+        self._mark = math.inf  # best cost when something was gained last
+        self._tried, self._last = 0, 0
+
+    def __call__(self, point: Any) -> float:
+        before = len(self._search.evaluation.trials)
+        trial = self._search._try(tuple(np.ravel(point)), self._level)
+        cost = self._cost(trial)
+        self._watch(trial, cost, is_new=len(self._search.evaluation.trials) > before)
+        return cost
+
+    def _cost(self, trial: Trial) -> float:
+        evaluation = self._search.evaluation
+        value = trial.worst(evaluation.goal)
+        if not math.isfinite(value.value):
+            return 2 * PENALTY
+        self._scale = self._scale or abs(value.value) or 1.0
+        cost = (
+            evaluation.goal.cost(value.value) + UNLIMITED * abs(value.value) * value.depends_on_mesh
+        )
+        return cost / self._scale + PENALTY * min(trial.violation(evaluation.constraints), 1.0)
+
+    def _watch(self, trial: Trial, cost: float, *, is_new: bool) -> None:
+        self._tried += is_new
+        error = trial.worst(self._search.evaluation.goal).error
+        least = max(LEAST_GAIN, error / self._scale if math.isfinite(error) else 0.0)
+        if cost < self._mark - least:
+            self._mark, self._last = cost, self._tried
+        if self._tried - self._last >= self._patience:
+            raise _NothingGainedError
+
+
+def _middles(count: int) -> list[float]:
+    """Coordinates in the middle of the parts of some choices."""
+    return [(number + 0.5) / count for number in range(count)]

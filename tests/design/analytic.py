@@ -1,0 +1,71 @@
+"""Designs of functions in place of runs, to test the search without a contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from viscontact.design.evaluation import Evaluation
+from viscontact.design.goals import Goal, Value, constraints_of
+from viscontact.design.parameters import space_of
+from viscontact.design.search import Search
+from viscontact.design.trials import Level, ScenarioResult, Trial, goal_name
+
+#: Values of the parameters to the objective and, by name of the constraint, the other scalars.
+Function = Callable[[Mapping[str, float]], Mapping[str, Value]]
+
+
+@dataclass
+class AnalyticEvaluation(Evaluation):
+    """Evaluation of a function in place of runs, which counts its calls."""
+
+    function: Function = field(default=lambda values: {})
+    calls: int = 0
+
+    def _results(self, settings: Mapping[str, str], level: Level) -> tuple[ScenarioResult, ...]:
+        self.calls += 1
+        if not settings:
+            return (ScenarioResult({}, "the case itself is not tried"),)
+        numbers = {key: _number(text) for key, text in settings.items()}
+        try:
+            found = self.function(numbers)
+        except ValueError as error:
+            return (ScenarioResult({}, str(error)),)
+        names = {"force": goal_name(self.goal)}
+        return (ScenarioResult({names.get(name, name): v for name, v in found.items()}),)
+
+
+def searched(
+    function: Function,
+    change: Mapping[str, object],
+    *,
+    least: bool = True,
+    constraints: Sequence[str] = (),
+    budget: int = 60,
+    is_coarse: bool = False,
+) -> tuple[Search, Trial | None]:
+    """Search for the best `force` of a function, and return the search and the best trial."""
+    evaluation = AnalyticEvaluation(
+        Path("case.yaml"),
+        {},
+        [{}],
+        Goal("force", least),
+        constraints_of(constraints),
+        {"grid.shape": "[32, 32]"} if is_coarse else {},
+        budget,
+        None,
+        lambda trial: None,
+        lambda done, allowed: None,
+        function=function,
+    )
+    evaluation.evaluate({}, "case")
+    search = Search(space_of(change), evaluation)
+    return search, search.run()
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text.split()[0])
+    except ValueError:
+        return float("nan")

@@ -1,0 +1,87 @@
+"""Arguments of a design that are refused, with the reason."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import viscontact as vc
+
+BALL = """
+indenter: {shape: sphere, radius: 5 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, force: 0.1 N}
+time: {end: 1 s, steps: 1}
+grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}
+output: {errors: false}
+"""
+FORCE = {"load.force": ("0.01 N", "0.1 N")}
+
+
+@pytest.fixture
+def ball(tmp_path: Path) -> Path:
+    path = tmp_path / "ball.yaml"
+    path.write_text(BALL)
+    return path
+
+
+REFUSED: dict[str, tuple[dict[str, Any], str]] = {
+    "no parameter": ({"change": {}}, "change: name a key"),
+    "no tuple": ({"change": {"load.force": "1 N"}}, "change: load.force: must be a tuple"),
+    "reversed": ({"change": {"load.force": ("2 N", "1 N")}}, "the lower bound comes first"),
+    "log from zero": (
+        {"change": {"load.force": ("0 N", "1 N", "log")}},
+        "a logarithmic range needs bounds above zero",
+    ),
+    "one choice": ({"change": {"load.force": ["1 N"]}}, "must list two values or more"),
+    "cells": ({"change": {"grid.tolerance": ("1 %", "2 %")}}, "no parameters of a design"),
+    "unknown key": ({"change": {"load.farce": ("1 N", "2 N")}}, "farce"),
+    "wrong unit": ({"change": {"load.force": ("1 mm", "2 mm")}}, "cannot read"),
+    "body of no sense": (
+        {"change": {"material.poisson_ratio": ("0.3", "0.7")}},
+        "material.poisson_ratio",
+    ),
+    "no goal": ({"minimise": None}, "give one of minimise and maximise"),
+    "two goals": ({"maximise": "approach"}, "give one of minimise and maximise"),
+    "unknown scalar": ({"minimise": "peak_presure"}, "did you mean peak_pressure?"),
+    "no constraint": ({"constraints": ["contact_width=1mm"]}, "write SCALAR<=VALUE"),
+    "text": ({"constraints": "contact_width<=1mm"}, "must be a list"),
+    "unit": ({"constraints": ["contact_width<=1kN"]}, "must have a unit of [m]"),
+    "contradiction": (
+        {"constraints": ["contact_width<=1mm", "contact_width>=2mm"]},
+        "contact_width <= 1 mm and contact_width >= 2 mm contradict each other",
+    ),
+    "instant": ({"at": 0.3}, "at: 300 ms is no instant of the case; the nearest one is 0 s"),
+    "word": ({"at": "begin"}, "at: must be 'worst', 'end' or a time"),
+    "scenarios": ({"over": {"load.force": ["1 N", "2 N"]}}, "load.force: is given twice"),
+    "equal scenarios": (
+        {"over": {"indenter.radius": ["5 mm", "0.5 cm"]}},
+        "are equal",
+    ),
+    "no list": ({"over": {"indenter.radius": "5 mm"}}, "must be a list of values"),
+    "too few runs": (
+        {"over": {"indenter.radius": ["5 mm", "6 mm"]}, "runs": 1},
+        "runs: 1 are too few for 2 scenarios",
+    ),
+}
+
+
+@pytest.mark.parametrize(("given", "message"), REFUSED.values(), ids=REFUSED.keys())
+def test_an_argument_that_does_not_fit_is_refused(
+    ball: Path, given: dict[str, Any], message: str
+) -> None:
+    arguments = {"change": FORCE, "minimise": "approach", "workers": 1} | given
+    with pytest.raises(ValueError, match=r"\w") as refusal:
+        vc.design(ball, arguments.pop("change"), **arguments)
+    assert message in str(refusal.value)
+    assert "--set" not in str(refusal.value)
+
+
+def test_steady_motion_is_refused_by_name(tmp_path: Path) -> None:
+    path = tmp_path / "rolling.yaml"
+    moved = "motion: {kind: steady, speed: 0.5 m/s, along: y, rolling: true}"
+    path.write_text(BALL.replace("time: {end: 1 s, steps: 1}", moved))
+    with pytest.raises(ValueError, match="is in steady motion; a design takes a case over time"):
+        vc.design(path, {"indenter.radius": ("4 mm", "6 mm")}, minimise="approach", workers=1)

@@ -1,0 +1,140 @@
+"""Designs of contacts, against closed forms and a scan of all values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from tests.design.test_arguments import BALL
+
+import viscontact as vc
+
+RADIUS, MODULUS = 5e-3, 4e6  # m, E* = 4 G in Pa at nu = 0.5
+
+
+@pytest.fixture
+def ball(tmp_path: Path) -> Path:
+    path = tmp_path / "ball.yaml"
+    path.write_text(BALL.replace("[32, 32]", "[64, 64]"))
+    return path
+
+
+def test_the_largest_force_within_a_contact_width_follows_hertz(ball: Path) -> None:
+    found = vc.design(
+        ball,
+        {"load.force": ("0.01 N", "0.5 N", "log")},
+        maximise="approach",
+        constraints=["contact_width<=1.2mm"],
+        workers=1,
+    )
+    # F = 4/3 E* a^3 / R (Hertz); the width is known to a part of a cell of 37 um.
+    assert float(found.best["load.force"]) == pytest.approx(
+        4 / 3 * MODULUS * 0.6e-3**3 / RADIUS, rel=0.1
+    )
+    assert float(found.best.contact_width) <= 1.2e-3
+    assert found.runs <= 60
+
+
+def test_the_worst_scenario_decides(ball: Path) -> None:
+    found = vc.design(
+        ball,
+        {"indenter.radius": ["4 mm", "6 mm"]},
+        minimise="peak_pressure",
+        over={"load.force": ["0.05 N", "0.1 N"]},
+        workers=2,
+    )
+    assert found.settings == {"indenter.radius": "6 mm"}
+    assert found.table.scenario.values.tolist() == ["force=0.05N", "force=0.1N"]
+    # p0 = (6 F E*^2 / (pi^3 R^2))^(1/3) (Hertz), with the larger force.
+    peak = (6 * 0.1 * MODULUS**2 / (np.pi**3 * 6e-3**2)) ** (1 / 3)
+    assert float(found.best.peak_pressure) == pytest.approx(peak, rel=0.01)
+    small, large = found.best.peak_pressure_of_scenarios.values
+    assert large / small == pytest.approx(2 ** (1 / 3), rel=0.01)
+
+
+def test_the_result_states_the_case_before_and_after(ball: Path) -> None:
+    found = vc.design(ball, {"load.force": ["0.05 N", "0.2 N"]}, minimise="approach", workers=1)
+    ratio = float(found.table.approach[0] / found.best.approach)
+    assert ratio == pytest.approx(2 ** (2 / 3), rel=0.01)  # Hertz: 0.1 N in the case
+    assert found.table["load.force"].values.tolist() == [0.1, 0.05, 0.2]
+    assert found.table["load.force"].attrs["units"] == "N"
+    assert "force: 0.05 N" in found.case_text
+    assert str(found).startswith("least approach: ")
+
+
+def test_a_design_goes_on_where_it_was_interrupted(ball: Path, tmp_path: Path) -> None:
+    place = tmp_path / "found"
+
+    def designed(progress: object = None) -> xr.Dataset:
+        return vc.design(
+            *(ball, {"load.force": ("0.01 N", "0.1 N")}),
+            minimise="contact_area",
+            constraints=["approach>=10 um"],
+            **{"runs": 20, "workers": 1, "directory": place, "progress": progress},  # type: ignore[arg-type]
+        ).table
+
+    def interrupt(done: int, allowed: int) -> None:
+        if done == 5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        designed(interrupt)
+    history = place / "trials.jsonl"
+    assert len(history.read_text().splitlines()) == 1 + 5
+    with history.open("a") as file:
+        file.write('{"settings": {"load.f')  # killed while writing
+    whole = designed()
+    lines = history.read_text().splitlines()
+    assert len(lines) == 1 + whole.sizes["trial"]
+    again = designed()
+    assert history.read_text().splitlines() == lines
+    xr.testing.assert_identical(whole, again)
+
+
+def test_a_directory_of_another_design_is_refused(ball: Path, tmp_path: Path) -> None:
+    place, change = tmp_path / "found", {"load.force": ["0.05 N", "0.2 N"]}
+    vc.design(ball, change, minimise="approach", workers=1, directory=place)
+    with pytest.raises(ValueError, match="holds another design, with a different goal"):
+        vc.design(ball, change, maximise="approach", workers=1, directory=place)
+    ball.write_text(BALL)
+    with pytest.raises(ValueError, match="with a different case"):
+        vc.design(ball, change, minimise="approach", workers=1, directory=place)
+
+
+CROWNED = """
+indenter: {shape: roller, radius: 5 mm, half_length: 9.565 mm, crown_radius: 75 mm, length: 30 mm}
+material: {law: elastic, shear_modulus: 901.7 MPa, poisson_ratio: 0.38}
+load: {kind: step, force: 10 kN}
+time: {end: 1 s, steps: 1}
+grid: {shape: [256, 64], size: [30.6 mm, 2.6 mm]}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_the_best_crown_of_an_elastic_roller_is_that_of_a_fine_scan(tmp_path: Path) -> None:
+    path = tmp_path / "roller.yaml"
+    path.write_text(CROWNED)
+    key = "indenter.crown_radius"
+    found = vc.design(path, {key: ("20 mm", "2 m", "log")}, minimise="peak_pressure", workers=1)
+    # The peak falls until the contact reaches the sharp ends, where pressure has no limit. The scan
+    # knows that by the length of the contact, which ends a cell before them.
+    scan = [
+        vc.simulate(
+            vc.Roller(5e-3, 9.565e-3, profile="partial", crown_radius=radius, end_length=15e-3),
+            vc.Material(vc.Elastic(901.7e6), poisson_ratio=0.38),
+            vc.step(10e3),
+            vc.Grid((256, 64), (30.6e-3, 2.6e-3)),
+            [0.0],
+            fields="none",
+            errors=False,
+        )
+        for radius in np.geomspace(0.02, 2.0, 93)
+    ]
+    free = [float(ds.peak_pressure[0]) for ds in scan if ds.contact_length[0] < 29.75e-3]
+    assert len(free) > 10
+    assert float(found.best.peak_pressure) == pytest.approx(min(free), rel=0.01)
+    assert found.runs <= 60
+    assert bool(found.best.feasible)
