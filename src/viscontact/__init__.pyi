@@ -23,6 +23,7 @@ from .identification import fit_dynamic as fit_dynamic
 from .identification import fit_indentation as fit_indentation
 from .identification import fit_master_curve as fit_master_curve
 from .identification import fit_relaxation as fit_relaxation
+from .identification import read_force_curve as read_force_curve
 from .indenters import Chamfer as Chamfer
 from .indenters import Cone as Cone
 from .indenters import CylindricalProfile as CylindricalProfile

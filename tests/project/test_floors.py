@@ -47,7 +47,7 @@ OTHERS = {
     "python_calamine": "tables",
     "psutil": "runs", "threadpoolctl": "runs",
     "pydantic": "case", "pydantic_core": "case", "ruamel": "materials",
-    "SurfaceTopography": "surfaces",
+    "SurfaceTopography": "surfaces", "afmformats": "identification",
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
     "contourpy": "plot", "plotly": "plot", "typst": "report",
     "typer": "cli", "click": "cli", "rich": "cli",

@@ -252,8 +252,8 @@ def test_ci_ends_with_the_readme_test_command() -> None:
 
 
 def test_the_extras_are_those_promised() -> None:
-    users = {"plot", "animation", "fast", "surfaces", "fit", "web", "cluster", "pdf", "all"}
-    assert set(PROJECT["optional-dependencies"]) == users | {"test", "docs", "dev"}
+    users = {"plot", "animation", "fast", "surfaces", "afm", "fit", "web", "cluster", "pdf"}
+    assert set(PROJECT["optional-dependencies"]) == users | {"all", "test", "docs", "dev"}
 
 
 def test_the_version_is_the_same_everywhere() -> None:

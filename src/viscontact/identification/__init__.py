@@ -4,6 +4,7 @@ from viscontact.identification.contact_point import ContactPoint, find_contact
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
+from viscontact.identification.instrument_curves import read_force_curve
 from viscontact.identification.isotherm import Isotherm
 from viscontact.identification.master_curve import (
     MasterCurve,
@@ -38,4 +39,5 @@ __all__ = [
     "fit_relaxation",
     "fit_wlf",
     "material_section",
+    "read_force_curve",
 ]

@@ -14,7 +14,7 @@ Table = Annotated[
     typer.Argument(
         metavar="FILE.csv",
         help="Measured values, CSV or spreadsheet (as tests.xlsx#Sheet2); the headings name the "
-        "quantities and units.",
+        "quantities and units. Or a force curve of an instrument (.jpk-force, .h5).",
     ),
 ]
 Test = Annotated[
@@ -88,7 +88,7 @@ SpringConstant = Annotated[
         "--spring-constant",
         metavar="K",
         help="Spring constant of the cantilever, e.g. '0.1 N/m', for a force curve: columns time, "
-        "position, and deflection or force.",
+        "position, and deflection or force; files of instruments state their own.",
     ),
 ]
 Sensitivity = Annotated[

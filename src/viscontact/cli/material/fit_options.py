@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
-from viscontact.identification import ForceCurve
+from viscontact.identification import ForceCurve, read_force_curve
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.series_fits.prony import FitOptions
 from viscontact.tables import Table
@@ -60,28 +61,27 @@ class FitArguments:
             return self.poisson_ratio, None
         return self.poisson_ratio, _read_option("--bulk-modulus", self.bulk_modulus, "pressure")
 
-    def indenter_of(self, table: Table) -> Indenter:
-        """Return the indenter of an indentation record."""
+    def indenter_of(self, name: str) -> Indenter:
+        """Return the indenter of an indentation record in a file of this name."""
         if self.indenter is None:
             raise ValueError(
-                f"{table.source.name}: an indentation record needs --indenter, such as "
-                "'sphere 5 um'"
+                f"{name}: an indentation record needs --indenter, such as 'sphere 5 um'"
             )
         if self.poisson_ratio is None and self.bulk_modulus is None:
             raise ValueError(
-                f"{table.source.name}: an indentation record needs --poisson-ratio, such as 0.4, "
+                f"{name}: an indentation record needs --poisson-ratio, such as 0.4, "
                 "or --bulk-modulus"
             )
-        self._refuse_idle(table)
+        self._refuse_idle(name)
         return read_indenter(self.indenter)
 
     def force_curve(self, table: Table) -> ForceCurve:
         """Return the force curve of a table."""
-        if self.spring_constant is None:
+        stiffness = self.stiffness()
+        if stiffness is None:
             raise ValueError(
                 f"{table.source.name}: a force curve needs --spring-constant, such as '0.1 N/m'"
             )
-        stiffness = _read_option("--spring-constant", self.spring_constant, "stiffness")
         if "signal" not in table and self.sensitivity is not None:
             raise ValueError(
                 f"{table.source.name}: --sensitivity goes with a deflection in volts; leave it out"
@@ -99,7 +99,20 @@ class FitArguments:
             deflection = sensitivity * table["signal"]
         return ForceCurve(table["time"], table["position"], deflection, stiffness)
 
-    def _refuse_idle(self, table: Table) -> None:
+    def stiffness(self) -> float | None:
+        """Return the spring constant [N/m], None where it is not given."""
+        if self.spring_constant is None:
+            return None
+        return _read_option("--spring-constant", self.spring_constant, "stiffness")
+
+    def instrument_curve(self, file: Path) -> ForceCurve:
+        """Return a force curve of a file of an instrument."""
+        if self.sensitivity is not None or self.stress is not None:
+            option = "--stress" if self.sensitivity is None else "--sensitivity"
+            raise ValueError(f"{file.name}: {option} does not go with this file; leave it out")
+        return read_force_curve(file, spring_constant=self.stiffness())
+
+    def _refuse_idle(self, name: str) -> None:
         """Refuse options that do not apply to an indentation record."""
         options = {
             "--data": self.data is not None,
@@ -111,7 +124,7 @@ class FitArguments:
         idle = [option for option, given in options.items() if given]
         if idle:
             raise ValueError(
-                f"{table.source.name}: {', '.join(idle)} does not go with an indentation record; "
+                f"{name}: {', '.join(idle)} does not go with an indentation record; "
                 "leave it out (its law is chosen by --law)"
             )
 

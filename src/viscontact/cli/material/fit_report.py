@@ -17,6 +17,7 @@ from viscontact.cli.terminal.messages import refuse, say
 from viscontact.errors import AccuracyWarning
 from viscontact.identification import (
     Fit,
+    ForceCurve,
     IndentationRecord,
     Isotherm,
     MasterCurve,
@@ -27,6 +28,8 @@ from viscontact.identification import (
     fit_master_curve,
     material_section,
 )
+from viscontact.identification.instrument_curves import is_instrument_file
+from viscontact.indenters import Indenter
 from viscontact.laws import WLF
 from viscontact.materials.material import Material
 from viscontact.series_fits.table_fit import fit_measured, measured_columns
@@ -45,17 +48,32 @@ def report_fit(
     width: str | float | None = None,
 ) -> None:
     """Fit a law to a table; print it, and draw and write it where files are named."""
-    table = _read(file, arguments.stress)
-    say_chosen(file, table)
-    try:
-        text, draw = _fitted(table, arguments)
-    except ValueError as error:
-        refuse(table.located(error))
+    if is_instrument_file(file):
+        text, draw = _from_instrument(file, arguments)
+    else:
+        text, draw = _from_table(file, arguments)
     print(f"\n{text}")
     if output is not None:
         _draw(draw, output, width)
     if section is not None:
         _write(section, text + "\n")
+
+
+def _from_table(file: Path, arguments: FitArguments) -> tuple[str, _Drawing]:
+    table = _read(file, arguments.stress)
+    say_chosen(file, table)
+    try:
+        return _fitted(table, arguments)
+    except ValueError as error:
+        refuse(table.located(error))
+
+
+def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, _Drawing]:
+    try:
+        indenter = arguments.indenter_of(file.name)
+        return _from_force_curve(arguments.instrument_curve(file), indenter, arguments)
+    except (ValueError, OSError) as error:
+        refuse(str(error))
 
 
 class _Drawing:
@@ -75,7 +93,8 @@ def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
     if "force" in table and "approach" in table:
         return _from_indentation(table, arguments)
     if "position" in table and any(c in table for c in ("deflection", "signal", "force")):
-        return _from_force_curve(table, arguments)
+        indenter = arguments.indenter_of(table.source.name)
+        return _from_force_curve(arguments.force_curve(table), indenter, arguments)
     if arguments.spring_constant is not None or arguments.sensitivity is not None:
         raise ValueError(
             f"{table.source.name}: --spring-constant and --sensitivity go with a force curve, "
@@ -133,7 +152,7 @@ def _from_sets(
 
 
 def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
-    indenter = arguments.indenter_of(table)
+    indenter = arguments.indenter_of(table.source.name)
     if arguments.spring_constant is not None or arguments.sensitivity is not None:
         raise ValueError(
             f"{table.source.name}: --spring-constant and --sensitivity do not go with an approach, "
@@ -143,10 +162,11 @@ def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Draw
     return _from_record(record, arguments)
 
 
-def _from_force_curve(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
+def _from_force_curve(
+    curve: ForceCurve, indenter: Indenter, arguments: FitArguments
+) -> tuple[str, _Drawing]:
     """Find the contact point, print it, and fit a law to the indentation."""
-    indenter = arguments.indenter_of(table)
-    contact = find_contact(arguments.force_curve(table), indenter)
+    contact = find_contact(curve, indenter)
     print(repr(contact))
     return _from_record(contact.record(), arguments)
 

@@ -1,0 +1,159 @@
+"""Force curves from files of atomic force microscopes, read by afmformats."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.identification.force_curve import ForceCurve
+
+#: Suffixes of the files that afmformats reads, without those of tables.
+INSTRUMENT_FILES = (".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".h5", ".ibw")
+
+_NUMBERED = re.compile(r"(?P<file>.+)#(?P<number>\d+)")
+# The position that a sensor has measured comes before the one that the piezo was told.
+_POSITIONS = ("height (measured)", "height (piezo)")
+
+
+def split_number(path: Path) -> tuple[Path, int | None]:
+    """File and number of a curve, such as ``map.jpk-force-map#12``; None without a number.
+
+    >>> split_number(Path("a/map.jpk-force-map#12"))
+    (PosixPath('a/map.jpk-force-map'), 12)
+    """
+    found = _NUMBERED.fullmatch(path.name)
+    if found is None or path.exists():
+        return path, None
+    return path.with_name(found["file"]), int(found["number"])
+
+
+def is_instrument_file(path: Path) -> bool:
+    """True for the name of a file of an instrument, with or without the number of a curve.
+
+    >>> is_instrument_file(Path("cell.jpk-force")), is_instrument_file(Path("cell.csv"))
+    (True, False)
+    """
+    return split_number(path)[0].suffix.lower() in INSTRUMENT_FILES
+
+
+def read_force_curve(
+    path: str | PathLike[str], number: int | None = None, *, spring_constant: float | None = None
+) -> ForceCurve:
+    """Read a force curve from a file of an atomic force microscope.
+
+    The formats are those of afmformats: JPK (Bruker) curves and maps, and its own HDF5. The
+    position is that of the sensor, or of the piezo where there is none; the deflection is the force
+    in the file over the spring constant in the file.
+
+    Parameters
+    ----------
+    path : path-like
+        The file, and for a curve of a map its number, from 0, behind ``#``: "map.jpk-force-map#12".
+    number : int, optional
+        The number, from 0, instead of that in `path`.
+    spring_constant : float, optional
+        Spring constant [N/m] from a later calibration, in place of the one in the file. The
+        deflection does not change, the force does.
+
+    Returns
+    -------
+    ForceCurve
+        For `find_contact`.
+
+    Raises
+    ------
+    ValueError
+        If afmformats is missing or cannot read the file, if the file has several curves and no
+        number is given, or lacks times, a position, the force or the spring constant.
+    OSError
+        If there is no such file.
+
+    Examples
+    --------
+    >>> curve = read_force_curve("cell.jpk-force")  # doctest: +SKIP
+    >>> contact = find_contact(curve, Sphere(5e-6))  # doctest: +SKIP
+    """
+    file, behind = split_number(Path(path))
+    if not file.is_file():
+        raise FileNotFoundError(f"{file}: there is no such file")
+    name = file.name
+    curve = _chosen(name, _loaded(file), behind if number is None else number)
+    columns = {column: _column(name, curve, column) for column in ("time", "force")}
+    position = next((each for each in _POSITIONS if each in curve.columns), None)
+    if position is None:
+        raise ValueError(f"{name}: states no position; there are {', '.join(curve.columns)}")
+    stated = curve.metadata.get("spring constant", np.nan)
+    if not stated > 0:
+        raise ValueError(f"{name}: states no spring constant; calibrate the cantilever first")
+    try:
+        return ForceCurve(
+            columns["time"],
+            _column(name, curve, position),
+            columns["force"] / stated,
+            stated if spring_constant is None else spring_constant,
+        )
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error
+
+
+def _loaded(file: Path) -> list[Any]:
+    """Curves of a file in the order of their numbers, as afmformats gives them."""
+    try:
+        import afmformats  # takes half a second, and few files need it
+    except ImportError as error:
+        raise ValueError(
+            f"{file.name}: reading force curves of instruments needs afmformats; type: "
+            "pip install 'viscontact[afm]', or export time, position and deflection as CSV"
+        ) from error
+    with _refused_by_name(file.name):
+        # HDF5 sorts its curves as 0, 1, 10, 11, ..., 2.
+        return sorted(afmformats.load_data(file), key=lambda curve: int(curve.enum))
+
+
+@contextmanager
+def _refused_by_name(name: str) -> Iterator[None]:
+    """Raise ValueError for whatever afmformats raises at a file."""
+    from afmformats.errors import AFMFileFormatError, MissingMetaDataError
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about details of the formats
+            yield
+    except MissingMetaDataError as error:
+        keys = ", ".join(error.meta_keys)
+        raise ValueError(f"{name}: does not state: {keys}; calibrate and save it again") from error
+    # Errors of afmformats are no Exceptions, and a broken file may raise anything else.
+    except (Exception, AFMFileFormatError) as error:
+        why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
+        raise ValueError(f"{name}: cannot be read as force curves: {why}") from error
+
+
+def _chosen(name: str, curves: list[Any], number: int | None) -> Any:
+    if not curves:
+        raise ValueError(f"{name}: has no force curve")
+    if number is None and len(curves) > 1:
+        raise ValueError(
+            f"{name}: has {len(curves)} curves; name one by its number, {name}#0 to "
+            f"{name}#{len(curves) - 1}"
+        )
+    if not 0 <= (number or 0) < len(curves):
+        raise ValueError(f"{name}: has no curve {number}; the last one is {len(curves) - 1}")
+    return curves[number or 0]
+
+
+def _column(name: str, curve: Any, column: str) -> NDArray[np.float64]:
+    if column not in curve.columns:
+        raise ValueError(
+            f"{name}: states no {column}; there are {', '.join(curve.columns)}; export time, "
+            "position and deflection as CSV"
+        )
+    with _refused_by_name(name):
+        return np.asarray(curve[column], dtype=np.float64)

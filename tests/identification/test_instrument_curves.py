@@ -1,0 +1,126 @@
+"""Force curves of instrument files: against what the files state, and what was written."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.cli import main
+
+pytest.importorskip("afmformats")
+
+# Curve of a cell on a JPK CellHesion 200, from the tests of afmformats (MIT license), where it is
+# tests/data/fmt-jpk-fd_spot3-0192.jpk-force.
+CELL = Path(__file__).with_name("cell.jpk-force")
+
+
+def stated(name: str) -> float:
+    """Number in the header of the file."""
+    with zipfile.ZipFile(CELL) as archive:
+        for part in ("header.properties", "segments/0/segment-header.properties"):
+            for line in archive.read(part).decode().splitlines():
+                if line.startswith(name + "="):
+                    return float(line.partition("=")[2])
+    raise KeyError(name)
+
+
+def test_curve_of_jpk_has_the_times_and_the_setpoint_of_its_header():
+    curve = vc.read_force_curve(CELL)
+    points = int(stated("force-segment-header.num-points"))
+    assert curve.times.size == 2 * points
+    # Approach and retraction of one second each; the clock of a segment starts at 0.
+    assert stated("force-segment-header.duration") == pytest.approx(1.0)
+    assert np.ptp(curve.times) == pytest.approx(2.0, rel=1e-3)
+    assert curve.spring_constant == pytest.approx(0.0434937, rel=1e-5)
+    # The approach stops when the force above the baseline reaches the setpoint. It is sampled
+    # every 0.5 ms, in which the piezo moves by 2.5 nm; the rest is drift of the baseline.
+    force = curve.spring_constant * curve.deflection
+    assert force.max() - force[: points // 4].mean() == pytest.approx(4e-9, rel=0.08)
+    assert np.argmax(force) == pytest.approx(points, rel=0.01)
+
+
+def test_contact_point_is_where_the_force_leaves_the_baseline():
+    curve = vc.read_force_curve(CELL)
+    contact = vc.find_contact(curve, vc.Sphere(2.5e-6))
+    force = curve.spring_constant * curve.deflection[: curve.loading_rows]
+    position = curve.position[: curve.loading_rows]
+    far = position < contact.position - 2e-7
+    # Before contact the force scatters about a line; behind it, it rises above the scatter.
+    line = np.polyfit(position[far], force[far], 1)
+    rest = force - np.polyval(line, position)
+    scatter = rest[far].std()
+    assert scatter == pytest.approx(contact.noise * curve.spring_constant, rel=0.2)
+    behind = rest[position > contact.position + 1e-7]
+    assert behind.size > 50
+    assert behind.min() > 5 * scatter
+
+
+def written(path: Path, curves: int = 1, **changed: object) -> tuple[np.ndarray, ...]:
+    """Write curves in the HDF5 of afmformats, each with a larger force than the one before.
+
+    Return times, height and bending of the first one.
+    """
+    times = np.linspace(0.0, 1.0, 200)
+    height = 5e-6 - 4e-6 * times
+    bending = np.maximum(3e-6 - height, 0.0) * 0.3
+    columns = {"time": times, "force": 0.1 * bending, "height (piezo)": height}
+    metadata = {"spring constant": 0.1, "imaging mode": "force-distance", **changed}
+    with h5py.File(path, "w") as file:
+        file.attrs.update({"software": "afmformats", "software version": "0.18.7"})
+        for number in range(curves):
+            curve = file.create_group(str(number))
+            curve.attrs.update({k: v for k, v in metadata.items() if v is not None})
+            for name, values in columns.items():
+                curve[name] = (number + 1) * values if name == "force" else values
+    return times, height, bending
+
+
+def test_a_later_spring_constant_changes_the_force_and_not_the_deflection(tmp_path):
+    times, height, bending = written(tmp_path / "one.h5")
+    curve = vc.read_force_curve(tmp_path / "one.h5")
+    other = vc.read_force_curve(tmp_path / "one.h5", spring_constant=0.2)
+    np.testing.assert_allclose(curve.times, times, atol=1e-12)
+    np.testing.assert_allclose(curve.position, -height, rtol=1e-6)  # turned over
+    np.testing.assert_allclose(curve.deflection, bending, rtol=1e-6, atol=1e-16)
+    np.testing.assert_array_equal(other.deflection, curve.deflection)
+    assert (curve.spring_constant, other.spring_constant) == (0.1, 0.2)
+
+
+def test_curves_of_a_map_are_named_by_their_numbers(tmp_path):
+    _, _, bending = written(tmp_path / "map.h5", curves=11)
+    with pytest.raises(ValueError, match=r"has 11 curves; name one by its number, map.h5#0 to"):
+        vc.read_force_curve(tmp_path / "map.h5")
+    for number in (2, 10):
+        curve = vc.read_force_curve(f"{tmp_path}/map.h5#{number}")
+        np.testing.assert_allclose(curve.deflection, (number + 1) * bending, rtol=1e-6, atol=1e-16)
+    with pytest.raises(ValueError, match=r"map.h5: has no curve 11; the last one is 10"):
+        vc.read_force_curve(f"{tmp_path}/map.h5#11")
+
+
+def test_files_that_cannot_be_used_are_refused_by_name(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"none.jpk-force: there is no such file"):
+        vc.read_force_curve(tmp_path / "none.jpk-force")
+    (tmp_path / "bad.jpk-force").write_bytes(CELL.read_bytes()[:9000])
+    with pytest.raises(ValueError, match=r"bad.jpk-force: cannot be read as force curves"):
+        vc.read_force_curve(tmp_path / "bad.jpk-force")
+    written(tmp_path / "k.h5", **{"spring constant": None})
+    with pytest.raises(ValueError, match=r"k.h5: states no spring constant"):
+        vc.read_force_curve(tmp_path / "k.h5")
+
+
+def test_fit_takes_the_file_of_an_instrument(tmp_path, capsys):
+    options = ["--indenter", "sphere 2.5 um", "--poisson-ratio", "0.5", "--law", "elastic"]
+    written_to = tmp_path / "cell.yaml"
+    assert main(["fit", str(CELL), *options, "--yaml", str(written_to)]) == 0
+    said = capsys.readouterr()
+    assert "ContactPoint: at -18.055 µm" in said.out
+    assert "law: elastic" in written_to.read_text(encoding="utf-8")
+    assert main(["fit", str(CELL), *options, "--sensitivity", "50 nm/V"]) == 2
+    assert "--sensitivity does not go with this file" in capsys.readouterr().err
+    assert main(["fit", str(CELL), "--poisson-ratio", "0.5"]) == 2
+    assert "cell.jpk-force: an indentation record needs --indenter" in capsys.readouterr().err
