@@ -204,7 +204,8 @@ def test_compared_rims_are_those_of_the_instant_named(
     figure = COMPARISONS[name]({"one": results, "other": results}, times=times)
     texts = [axes.get_title(loc="left") for axes in figure.axes[:2]]
     if name == "contact-outline":
-        texts = [text.get_text() for text in figure.legends[0].get_texts()]
+        keys = [text.get_text() for text in figure.legends[0].get_texts()]
+        texts = [f"{key}, {texts[0]}" for key in keys]
     assert texts == [f"{run}, t = {named:g} s" for run in ("one", "other")]
     panels = [axes for axes in figure.axes if axes.patches and axes.get_label() != "<colorbar>"]
     patches = [(axes, each) for axes in panels for each in axes.patches]
@@ -284,6 +285,12 @@ def test_stress_section_crosses_the_shorter_extent_through_the_middle(
     assert ends == pytest.approx([left, min(right, border)], abs=2.1 * ELLIPSE_EDGES[0])
     deepest = axes.get_ylim()[0] * factor(axes.get_ylabel())
     assert deepest == pytest.approx(2 * half_width, abs=ELLIPSE_EDGES[0])
+    # The plane stands in the heading, on the other axis.
+    stated = re.match(r"t = 2 s, ([xy]) = (-?[\d.]+) (\w+)", axes.get_title(loc="left"))
+    assert stated is not None
+    assert stated[1] == "xy"[1 - transposed]
+    plane = float(stated[2]) * factor(f"[{stated[3]}]")
+    assert plane == pytest.approx(ELLIPSE_MIDDLE[1], abs=0.6 * ELLIPSE_EDGES[1])
 
 
 def test_stresses_below_an_ellipse_are_those_of_the_table(
@@ -316,7 +323,7 @@ def test_stresses_reach_two_of_the_shorter_half_widths_deep_by_default(
 def test_stresses_do_not_depend_on_the_names_of_the_axes() -> None:
     both = [ellipse(), ellipse(transposed=True)]
     headings = [FIGURES["stress-section"](each).axes[0].get_title(loc="left") for each in both]
-    assert headings[0] == headings[1]
+    assert headings[0].replace(" y = ", " x = ") == headings[1].replace(" y = ", " x = ")
     first, second = (FIGURES["von-mises"](each) for each in both)
     for one, other in zip(first.axes, second.axes, strict=True):
         drawn = [np.asarray(axes.get_lines()[0].get_ydata()) for axes in (one, other)]

@@ -170,7 +170,11 @@ def test_outlines_of_runs_lie_over_one_another_at_one_instant() -> None:
         assert box.x0 * 1e-3 == pytest.approx(float(inside.min()), abs=cell)
         assert box.x1 * 1e-3 == pytest.approx(float(inside.max()), abs=cell)
     names = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert names == ["straight, t = 1000 s", "tilted, t = 1000 s"]
+    assert (names, axes.get_title(loc="left")) == (["straight", "tilted"], "t = 1000 s")
+    runs["tilted"] = roller(times=(0.0, 500.0), shape=(48, 16), tilt=0.2)
+    later = COMPARISONS["contact-outline"](runs)
+    names = [text.get_text() for text in later.legends[0].get_texts()]
+    assert names == ["straight, t = 1000 s", "tilted, t = 500 s"]
     with pytest.raises(ValueError, match="contact-outline: runs are compared at one instant"):
         COMPARISONS["contact-outline"](runs, times=[0.0, 1000.0])
 

@@ -100,12 +100,13 @@ def test_listed_runs_have_a_column_of_points_for_each_key() -> None:
     np.testing.assert_allclose(over_radius.get_ydata(), 1e3 * ds.approach[:, 1])
 
 
-def test_value_that_depends_on_the_mesh_is_hollow() -> None:
+def test_value_that_depends_on_the_mesh_is_hollow_and_on_no_curve() -> None:
     ds = hertz_sweep(load__force=FORCES)
     ds["peak_pressure_error"][1] = np.inf
-    marks = panel(response(ds), "Peak").lines[1]
+    curve, marks, *_ = panel(response(ds), "Peak").lines
     assert marks.get_xdata().tolist() == [2.0]
-    assert marks.get_color() == "white"
+    assert marks.get_markerfacecolor() == "white"
+    assert np.isnan(curve.get_ydata()).tolist() == [False, True, False]
 
 
 def test_largest_value_ignores_instants_without_one() -> None:

@@ -18,7 +18,7 @@ from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
-from viscontact.results.snapshots import labels_of, take_snapshots
+from viscontact.results.snapshots import headings_of, labels_of, take_snapshots
 
 _NAME = "contact-outline"
 
@@ -107,7 +107,7 @@ def compare_contact_outlines(
     Returns
     -------
     matplotlib.figure.Figure
-        One outline per run, named with the instant.
+        One outline per run; the instant stands above, or with each run where they differ.
 
     Raises
     ------
@@ -127,7 +127,9 @@ def compare_contact_outlines(
     >>> runs = {"0.1 N": one, "0.2 N": two}
     >>> figure = compare_contact_outlines(runs)
     >>> [text.get_text() for text in figure.legends[0].get_texts()]
-    ['0.1 N, t = 1 s', '0.2 N, t = 1 s']
+    ['0.1 N', '0.2 N']
+    >>> figure.axes[0].get_title(loc="left")
+    't = 1 s'
     """
     snapshots, labels = headed_snapshots(runs, times, _NAME)
     if len(snapshots) > len(runs):
@@ -143,8 +145,12 @@ def compare_contact_outlines(
     style.dress(axes)
     window.show(axes)
     style.add_heading(axes, window.note, aside=True)
+    instants = {heading for snapshot in snapshots for heading in headings_of([snapshot])}
+    if len(instants) == 1:
+        style.add_heading(axes, instants.pop())
+        labels = list(runs)
     lines = [Line2D([], [], **look) for look in looks]
-    style.add_legend_below(style.figure_of(axes), lines, labels, columns=1)
+    style.add_legend_below(style.figure_of(axes), lines, labels, columns=4)
     return style.figure_of(axes)
 
 
@@ -153,7 +159,7 @@ def _new_axes(window: Window, count: int, wanted: Width | None, *, below: bool =
     usual = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
     width = page_width(wanted, usual)
     if below:
-        height = (width - 0.8) * window.height_to_width + 0.75 + 0.2 * count
+        height = (width - 0.8) * window.height_to_width + 0.75 + 0.2 * min(count, 3)
     else:  # as high as the legend at least
         height = max((width - 1.6) * window.height_to_width + 0.6, 0.2 * count + 0.3)
     return style.new_figure(width, height, fixed_aspect=True).add_subplot()

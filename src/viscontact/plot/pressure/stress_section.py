@@ -39,8 +39,16 @@ class Section:
     depths: NDArray[np.float64]  # [m], shape (m,)
     stress: NDArray[np.float64]  # [Pa], shape (m, n)
     axis: str  # of `across`, "x" or "y"
+    place: float  # of the plane on the other axis [m]
     half_width: float  # of the largest shown contact along that axis [m]
     interfaces: tuple[float, ...] = ()  # depths of interfaces of layers [m]
+
+    @property
+    def place_in_words(self) -> str:
+        """Position of the plane, such as "x = 2 mm"."""
+        # Cell centres that are zero up to rounding are zero.
+        place = self.place if abs(self.place) > 1e-9 * self.half_width else 0.0
+        return f"{'x' if self.axis == 'y' else 'y'} = {format_quantity(place, 'm', 3)}"
 
     @property
     def largest(self) -> tuple[float, float, float]:
@@ -73,8 +81,8 @@ def stress_section(
     Returns
     -------
     matplotlib.figure.Figure
-        Planes across the contact, along its shorter extent, through the largest pressure; a cross
-        where the stress is largest, and lines at the interfaces of layers.
+        Planes across the contact, along its shorter extent, through the largest pressure, with
+        their position; a cross where the stress is largest, and lines at the interfaces of layers.
 
     Raises
     ------
@@ -110,7 +118,8 @@ def stress_section(
         largest, depth, _ = section.largest
         note = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
         # Below an infinite pressure the largest stress is infinite too.
-        style.add_heading(axes, f"{heading}\n{peak_note([results], [section.time]) or note}")
+        note = peak_note([results], [section.time]) or note
+        style.add_heading(axes, f"{heading}, {section.place_in_words}\n{note}")
     panels[-1].set_xlabel(length.label(sections[-1].axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
     bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
@@ -185,6 +194,7 @@ def _section(
         depths,
         stress[:, near],
         "y" if is_long else "x",
+        next(place for place in _plane(snapshot) if place is not None),
         half_width,
         tuple(depth for depth in source.interfaces if depth < depths[-1]),
     )

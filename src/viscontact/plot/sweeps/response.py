@@ -54,7 +54,8 @@ def response(results: xr.Dataset, *, width: Width | None = None) -> Figure:
         A panel for each chief scalar that differs between the runs. A grid of one or two keys has
         curves, or contours if both keys are numbers with five values or more; other sweeps have
         points over each key. Error bars are those of the results. A hollow marker is a value that
-        depends on the mesh. A cross at the lower edge, or in a map, is a run without a result.
+        depends on the mesh; no curve runs through it. A cross at the lower edge, or in a map, is a
+        run without a result.
 
     Raises
     ------
@@ -188,10 +189,11 @@ class _Values:
         errors = self.unit(self.errors if row is None else self.errors[:, row])
         marked = np.isposinf(errors)
         size = 3.5 if values.size <= _MANY else 2.0
-        axes.plot(
-            places, values, "o-" if joined else "o", color=colour, markersize=size, label=label
-        )
-        axes.plot(places[marked], values[marked], "o", color="white", markersize=0.6 * size)
+        # Values that depend on the mesh of each run are no curve.
+        sure = np.where(marked, np.nan, values)
+        axes.plot(places, sure, "o-" if joined else "o", color=colour, markersize=size, label=label)
+        hollow = {"markerfacecolor": "white", "markeredgecolor": colour, "markersize": size}
+        axes.plot(places[marked], values[marked], "o", color=colour, **hollow)
         missing = places[self.missing if row is None else self.missing[:, row]]
         low = axes.get_xaxis_transform()
         axes.plot(
