@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from textwrap import fill
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -192,7 +193,11 @@ class _Values:
         # Values that depend on the mesh of each run are no curve.
         sure = np.where(marked, np.nan, values)
         axes.plot(places, sure, "o-" if joined else "o", color=colour, markersize=size, label=label)
-        hollow = {"markerfacecolor": "white", "markeredgecolor": colour, "markersize": size}
+        hollow: dict[str, Any] = {
+            "markerfacecolor": "white",
+            "markeredgecolor": colour,
+            "markersize": size,
+        }
         axes.plot(places[marked], values[marked], "o", color=colour, **hollow)
         missing = places[self.missing if row is None else self.missing[:, row]]
         low = axes.get_xaxis_transform()
