@@ -921,6 +921,10 @@ OPTIONS = {
         *("--vary", "--zip", "--table", "--sample", "--range", "--seed", "-j"),
         *("--scheduler", "--array", "--task"),
     ),
+    "design": (
+        *("--change", "--minimise", "--maximise", "--at", "--over", "--constraint"),
+        *("--runs", "-j", "-o", "--resume"),
+    ),
     **{"status": ("DIR", "--watch"), "collect": ("DIR", "-o")},
     # promised, not built yet
     **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast", "-o")},

@@ -8,6 +8,7 @@ import typer
 
 from viscontact import __version__
 from viscontact.cli.commands.cases import demo, example, schema
+from viscontact.cli.commands.designing import design
 from viscontact.cli.commands.drawing import compare, plot
 from viscontact.cli.commands.fitting import fit
 from viscontact.cli.commands.installation import cite, doctor
@@ -37,6 +38,11 @@ _COMMANDS = (
     (compare, "viscontact compare centred halfway end --figure history -o runs.png"),
     (export, "viscontact export heavier -o heavier.csv"),
     (collect, "viscontact collect forces -o forces.nc"),
+    (
+        design,
+        "viscontact design my.yaml --change indenter.crown_radius='20 mm:2 m:log' "
+        "--minimise peak_pressure -o best",
+    ),
     (schema, "viscontact schema > viscontact.schema.json"),
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),

@@ -17,6 +17,10 @@ from viscontact.units.formatting import format_quantity
 AT_BOUND = 0.01
 
 
+class InfeasibleError(ValueError):
+    """No trial of a design keeps all constraints."""
+
+
 def why_infeasible(evaluation: Evaluation, search: Search) -> str:
     """Reason why no trial is feasible, with the closest one."""
     goal, limits = evaluation.goal, evaluation.constraints

@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.case import Case, CaseError, read_case
-from viscontact.design.conclusions import notes_on, why_infeasible
+from viscontact.design.conclusions import InfeasibleError, notes_on, why_infeasible
 from viscontact.design.evaluation import BudgetSpentError, Evaluation, coarse_cells
 from viscontact.design.goals import Goal, constraints_of, goal_of
 from viscontact.design.history import History
 from viscontact.design.parameters import Space, space_of
 from viscontact.design.result import DesignResult, table_of
+from viscontact.design.result_files import write_result
 from viscontact.design.search import Search
 from viscontact.design.trials import Trial
 from viscontact.runs.directory.lock import DirectoryInUse, locked
@@ -77,7 +78,9 @@ def design(
         Number of parallel processes, for the scenarios of a trial; by default as many as there are
         cores. With 1, the runs are computed in this process.
     directory : path-like, optional
-        Keep the trials there. The same call again goes on where the first one was interrupted.
+        Keep the trials there, in ``trials.jsonl``; the same call again goes on where the first one
+        was interrupted. In the end it has the best case, ``best.yaml``, and the table,
+        ``trials.nc``.
     progress : callable, optional
         Called after each trial with the number of runs so far and the most allowed ones.
 
@@ -158,7 +161,10 @@ def design(
             progress or _silent,
             history.recorded if history else {},
         )
-        return _searched(evaluation, space, scenarios, own)
+        found = _searched(evaluation, space, scenarios, own)
+        if directory is not None:
+            write_result(Path(directory), found)
+        return found
 
 
 def _searched(evaluation: Evaluation, space: Space, scenarios: Design, own: Case) -> DesignResult:
@@ -173,7 +179,7 @@ def _searched(evaluation: Evaluation, space: Space, scenarios: Design, own: Case
     search = Search(space, evaluation)
     best = search.run()
     if best is None:
-        raise ValueError(why_infeasible(evaluation, search))
+        raise InfeasibleError(why_infeasible(evaluation, search))
     names = [scenarios.name(row) or "as in the case" for row in range(len(scenarios.rows))]
     table = table_of(
         evaluation.trials, space.keys, _own_values(own, space.keys), names, goal, limits

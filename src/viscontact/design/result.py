@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from viscontact.case import read_case
+from viscontact.case import Case, read_case
 from viscontact.design.goals import Constraint, Goal, Value
 from viscontact.design.trials import Trial, goal_name
 from viscontact.results.formatting import format_with_error
@@ -71,10 +71,15 @@ class DesignResult:
         return self.table.isel(trial=self.number)
 
     @property
-    def case_text(self) -> str:
-        """Best case as YAML, without the values of a scenario."""
+    def best_case(self) -> Case:
+        """Best case, without the values of a scenario."""
         settings = {**self.fixed, **self.settings}
-        return read_case(self.case, [f"{k}={v}" for k, v in settings.items()]).text
+        return read_case(self.case, [f"{key}={value}" for key, value in settings.items()])
+
+    @property
+    def case_text(self) -> str:
+        """Best case as YAML."""
+        return self.best_case.text
 
     def __str__(self) -> str:
         values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())

@@ -188,14 +188,18 @@ def share_a_branch(one: str, other: str) -> bool:
 
 def _axis(text: str) -> tuple[str, list[str]]:
     _, equals, given = text.partition("=")
-    values = _split(given)
+    values = split_values(given)
     if not (key_of(text) and equals and values and all(values)):
         refuse(f"--vary {text}: write KEY=VALUE,VALUE,..., e.g. --vary load.force=5kN,10kN")
     return key_of(text), values
 
 
-def _split(text: str) -> list[str]:
-    """Split at commas outside brackets and quotes."""
+def split_values(text: str) -> list[str]:
+    """Split at commas outside brackets and quotes.
+
+    >>> split_values("[1 mm, 2 mm], 3 mm")
+    ['[1 mm, 2 mm]', '3 mm']
+    """
     pieces, depth, quote = [""], 0, ""
     for letter in text:
         if quote:

@@ -1,0 +1,85 @@
+"""`design`: values of a case for the best scalar."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from viscontact.cli.commands.running import CaseFile, Settings
+
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--change",
+        metavar="KEY=LOW:HIGH[:log]",
+        help="Range of a parameter, e.g. indenter.crown_radius='20 mm:2 m:log', or its values, "
+        "KEY=A,B,...; repeated for each parameter.",
+    ),
+]
+Scenarios = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--over",
+        metavar="KEY=VALUE,VALUE,...",
+        help="Scenarios, of which the worst one counts, e.g. load.eccentricity_x='0 mm,5 mm'.",
+    ),
+]
+Constraints = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--constraint",
+        metavar="SCALAR<=VALUE",
+        help="Bound that is to be kept at all instants, e.g. 'contact_length<=18mm', or with >=.",
+    ),
+]
+
+
+def design(
+    case: CaseFile,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Directory of the design.")
+    ],
+    change: Changes = None,
+    minimise: Annotated[
+        str | None,
+        typer.Option("--minimise", metavar="SCALAR", help="Scalar to make least: peak_pressure."),
+    ] = None,
+    maximise: Annotated[
+        str | None, typer.Option("--maximise", metavar="SCALAR", help="Scalar to make largest.")
+    ] = None,
+    at: Annotated[
+        str,
+        typer.Option(
+            "--at",
+            metavar="worst|end|TIME",
+            help="Instant of the scalar: its worst value, the last one, or a time.",
+        ),
+    ] = "worst",
+    over: Scenarios = None,
+    constraint: Constraints = None,
+    settings: Settings = None,
+    runs: Annotated[int, typer.Option("--runs", min=1, metavar="N", help="Most runs.")] = 60,
+    jobs: Annotated[
+        int,
+        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of scenarios at a time."),
+    ] = 1,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue the design that DIR holds.")
+    ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print the result only.")] = False,
+) -> None:
+    """Find the values of a case for which a scalar is least or largest.
+
+    The search begins on coarse cells; the best trials are computed on the cells of the case. DIR
+    gets best.yaml and trials.nc.
+    """
+    from viscontact.cli.design.execution import execute_design
+    from viscontact.cli.design.options import DesignRequest
+
+    request = DesignRequest(
+        *(case, output, change or (), minimise, maximise, at),
+        *(over or (), constraint or (), settings or (), runs, jobs),
+    )
+    execute_design(request, resume=resume, quiet=quiet)

@@ -1,0 +1,1 @@
+"""Command `design`: its options, its progress and its result."""

@@ -1,0 +1,112 @@
+"""Options of `design`, as the arguments of `viscontact.design`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viscontact.cli.many.design_options import split_values
+from viscontact.cli.terminal.messages import refuse
+from viscontact.units.parsing import parse_quantity
+
+#: Options by the names of the arguments, at the beginning of a message.
+_OPTIONS = {
+    "change": "--change",
+    "over": "--over",
+    "constraints": "--constraint",
+    "minimise": "--minimise",
+    "maximise": "--maximise",
+    "at": "--at",
+    "runs": "--runs",
+    "directory": "-o",
+}
+
+
+@dataclass(frozen=True)
+class DesignRequest:
+    """Options of `design`, as they were typed."""
+
+    case: Path
+    output: Path
+    change: Sequence[str]  # KEY=LOW:HIGH[:log] or KEY=A,B,...
+    minimise: str | None
+    maximise: str | None
+    at: str
+    over: Sequence[str]  # KEY=A,B,...
+    constraints: Sequence[str]
+    settings: Sequence[str]
+    runs: int
+    jobs: int
+
+    def arguments(self) -> dict[str, Any]:
+        """Arguments of `viscontact.design` by name."""
+        if not self.change:
+            refuse(
+                "--change: name a parameter, e.g. --change indenter.crown_radius='20 mm:2 m:log'"
+            )
+        if (self.minimise is None) == (self.maximise is None):
+            refuse("give one of --minimise and --maximise, e.g. --minimise peak_pressure")
+        return {
+            "case": self.case,
+            "change": _keys("--change", self.change, _parameter),
+            "minimise": self.minimise,
+            "maximise": self.maximise,
+            "at": _instant(self.at),
+            "over": _keys("--over", self.over, split_values),
+            "constraints": list(self.constraints),
+            "settings": _keys("--set", self.settings, str),
+            "runs": self.runs,
+            "workers": self.jobs,
+            "directory": self.output,
+        }
+
+
+def as_typed(message: str) -> str:
+    """Message about an argument of `viscontact.design`, with the option that was typed.
+
+    >>> as_typed("constraints: write SCALAR<=VALUE")
+    '--constraint: write SCALAR<=VALUE'
+    """
+    name = re.match(r"\w+(?=: )", message)
+    option = _OPTIONS.get(name.group() if name else "")
+    return message if name is None or option is None else option + message[name.end() :]
+
+
+def _keys(option: str, texts: Sequence[str], read: Any) -> dict[str, Any]:
+    """Values by key, each read from the text behind the equals sign."""
+    found: dict[str, Any] = {}
+    for text in texts:
+        key, equals, given = (part.strip() for part in text.partition("="))
+        if not (key and equals and given):
+            refuse(f"{option} {text}: write KEY=VALUE, with the unit, e.g. {_EXAMPLES[option]}")
+        if key in found:
+            refuse(f"{option} {key}: is given twice; give it once")
+        found[key] = read(given)
+    return found
+
+
+_EXAMPLES = {
+    "--change": "'indenter.crown_radius=20 mm:2 m:log'",
+    "--over": "'load.eccentricity_x=0 mm,5 mm'",
+    "--set": "'load.force=20 kN'",
+}
+
+
+def _parameter(given: str) -> Any:
+    """Bounds of a range as a tuple, or a list of values."""
+    bounds = tuple(part.strip() for part in given.split(":"))
+    if len(bounds) == 1 or given[:1] in "[{":
+        return split_values(given)
+    return bounds
+
+
+def _instant(text: str) -> Any:
+    if text in ("worst", "end"):
+        return text
+    try:
+        return parse_quantity(text, "time")
+    except ValueError as error:
+        refuse(f"--at: write worst, end or a time: {error}")
