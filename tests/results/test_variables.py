@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import io
+import json
 import re
 from importlib.resources import files
 from pathlib import Path
@@ -194,6 +195,29 @@ def test_file_without_a_required_scalar_is_no_result(
     vc.save(ds.drop_vars(name), tmp_path / "result.nc")
     assert main(["show", str(tmp_path / "result.nc")]) == 2
     assert f"not a result of viscontact: it has no {name}" in capsys.readouterr().err
+
+
+def test_table_of_runs_never_cuts_a_number(
+    extended: xr.Dataset,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    name = "roller_force=1000N"
+    limits = json.dumps({"force": {"limit": 1.0}})
+    (tmp_path / name).mkdir()
+    vc.save(extended.assign_attrs(wall_time=1.0, allowable=limits), tmp_path / name / "result.nc")
+    request = RunRequest(tmp_path / f"{name}.yaml")
+    job = Job(request, tmp_path / name, name, Standing.FINISHED, 3, 2.0, 1.0, 1.0)
+    for columns, tables in (("80", 2), ("160", 1)):
+        monkeypatch.setenv("COLUMNS", columns)
+        print_table([Ended(job, "done", 0)])
+        printed = capsys.readouterr().out
+        assert "…" not in printed
+        assert max(map(len, printed.splitlines())) <= int(columns)
+        lines = [line for line in printed.splitlines() if line.startswith(name)]
+        assert len(lines) == tables
+        assert {"50.00", "300.0"} <= set(" ".join(lines).split())
 
 
 def test_table_of_runs_leaves_the_cell_of_an_older_run_empty(

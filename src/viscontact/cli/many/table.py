@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import xarray as xr
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
+from rich.measure import Measurement
 from rich.table import Table
 
 from viscontact.results.formatting import format_percent, format_supported
@@ -45,11 +47,33 @@ class _Found:
     verdict: str  # the worst on the allowable values; empty without any
 
 
+@dataclass(frozen=True)
+class _Column:
+    """A column of the table: heading, and a cell for each run."""
+
+    heading: str
+    cells: Sequence[str]
+    is_number: bool = True
+
+
 def print_table(runs: Sequence[Ended]) -> None:
-    """Print the largest values over time or speed of several runs, and their warnings."""
+    """Print the largest values over time or speed of several runs, and their warnings.
+
+    Where they do not fit in the width of the terminal, the values are a table of their own.
+    """
     found = [_found(each) for each in runs]
     console = Console()
-    console.print(_table(runs, found))
+    over = " or ".join(sorted({each.over for each in found if each})) or "time"
+    states, values = list(_state_columns(runs, found)), list(_value_columns(found))
+    verdicts = list(_verdict_columns(found))
+    names = [each.job.name for each in runs]
+    title = f"largest values over {over}"
+    whole = _table(names, [*states, *values, *verdicts], title)
+    parts = [whole]
+    if values and _width(whole, console) > console.width:
+        parts = [_table(names, [*states, *verdicts]), _table(names, values, title)]
+    for part in parts:
+        console.print(part, end="\n" if part is parts[-1] else "\n\n")
     for line in _warnings(runs, found):
         console.print(f"[yellow]warning:[/] {escape(line)}", highlight=False, soft_wrap=True)
 
@@ -77,42 +101,49 @@ def _of(ds: xr.Dataset) -> _Found:
     return _Found(over, largest, marked, error, seconds, warnings, verdict)
 
 
-def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
-    # Narrow enough for long names on eighty characters.
-    over = " or ".join(sorted({each.over for each in found if each})) or "time"
+def _table(names: Sequence[str], columns: Sequence[_Column], title: str | None = None) -> Table:
+    # A long name goes on in the next line before a number is cut.
     table = Table(
-        box=SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
-        show_edge=False,
-        title=f"largest values over {over}",
-        title_justify="right",
+        box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False, title=title, title_justify="right"
     )
-    table.add_column("run", no_wrap=True)
-    table.add_column("state", no_wrap=True)
-    table.add_column("took", justify="right", no_wrap=True)
-    shown = {name for each in found if each for name in each.largest}
-    names, units = [name for name in shown_in(Place.KEY) if name in shown], {}
-    for name in names:
-        largest = max((each.largest.get(name, 0.0) for each in found if each), default=0.0)
-        units[name] = readable_unit(SCALARS[name].units, largest)
-        heading = f"{name.replace('_', ' ')} [{units[name].symbol}]"
-        table.add_column(heading.replace("[", r"\["), justify="right", vertical="bottom")
-    has_errors = any(each is not None and not math.isnan(each.error) for each in found)
-    if has_errors:
-        table.add_column("largest error", justify="right", vertical="bottom")
-    judged = any(each is not None and each.verdict for each in found)
-    if judged:
-        table.add_column("verdict", no_wrap=True, vertical="bottom")
-    for ended, each in zip(runs, found, strict=True):
-        cells = ["", *("" for _ in names)]
-        if each is not None:
-            values = (_value(each, name, units[name]) for name in names)
-            cells = [format_quantity(each.seconds, "s", 2), *values]
-            if has_errors:
-                cells.append("" if math.isnan(each.error) else format_percent(each.error))
-            cells += [each.verdict] if judged else []
-        table.add_row(escape(ended.job.name), state_at_end(ended).value, *cells)
+    table.add_column("run", overflow="fold", vertical="bottom")
+    for each in columns:
+        justify: Literal["left", "right"] = "right" if each.is_number else "left"
+        table.add_column(escape(each.heading), justify=justify, no_wrap=True, vertical="bottom")
+    for name, *cells in zip(names, *(each.cells for each in columns), strict=True):
+        table.add_row(escape(name), *cells)
     return table
+
+
+def _width(table: Table, console: Console) -> int:
+    """Width of a table in one piece, in characters."""
+    return Measurement.get(console, console.options.update(max_width=10_000), table).maximum
+
+
+def _state_columns(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Iterator[_Column]:
+    yield _Column("state", [state_at_end(each).value for each in runs], is_number=False)
+    yield _Column("took", [format_quantity(each.seconds, "s", 2) if each else "" for each in found])
+
+
+def _value_columns(found: Sequence[_Found | None]) -> Iterator[_Column]:
+    """Largest values, with their units in the heading, and the largest of their errors."""
+    shown = {name for each in found if each for name in each.largest}
+    for name in shown_in(Place.KEY):
+        if name in shown:
+            largest = max((each.largest.get(name, 0.0) for each in found if each), default=0.0)
+            unit = readable_unit(SCALARS[name].units, largest)
+            heading = "\n".join([*name.split("_"), f"[{unit.symbol}]"])
+            yield _Column(heading, [_value(each, name, unit) if each else "" for each in found])
+    errors = [math.nan if each is None else each.error for each in found]
+    if not all(map(math.isnan, errors)):
+        texts = ["" if math.isnan(each) else format_percent(each) for each in errors]
+        yield _Column("largest\nerror", texts)
+
+
+def _verdict_columns(found: Sequence[_Found | None]) -> Iterator[_Column]:
+    worst = [each.verdict if each else "" for each in found]
+    if any(worst):
+        yield _Column("verdict", worst, is_number=False)
 
 
 def _value(found: _Found, name: str, unit: ReadableUnit) -> str:
