@@ -32,8 +32,10 @@ def measured_lines(ds: xr.Dataset, body: str) -> Iterator[Element]:
     """Yield the table of a body's law as it was measured; nothing for other laws."""
     for part, record in measured_tables(ds).items():
         if BODIES.get(part) == body:
-            about = f"Measured: {body.lower()}"
-            yield element("figure", drawn(partial(measured_figure, record), about))
+            drawing = drawn(partial(measured_figure, record), f"Measured: {body.lower()}")
+            # Of one quantity, besides time or frequency, the figure is narrow.
+            look = "single" if len(record["columns"]) == 2 else "several"
+            yield element("figure", drawing, class_=look)
             yield element("p", measured_text(record), class_="faint")
 
 

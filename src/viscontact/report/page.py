@@ -27,7 +27,9 @@ from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 
 #: Titles of the chapters, by their places.
 CHAPTERS = {
+    "allowable": "Allowable values",
     "pressure": "Pressure",
+    "stress": "Stress below the surface",
     "histories": "Over time",
     "inputs": "Inputs",
     "geometry": "Geometry",
@@ -143,7 +145,9 @@ def _body(
     if run_axis(ds) is SPEED:
         histories = chain(input_chapters.speed_table(ds), histories)
     chapters: dict[str, Iterable[Element]] = {
+        "allowable": verdict_chapter(ds),
         "pressure": result_chapters.pressure_chapter(ds, fields),
+        "stress": stress_chapter(ds),
         "histories": histories,
         "inputs": input_chapters.inputs_chapter(ds),
         "geometry": input_chapters.geometry_chapter(ds),
@@ -152,11 +156,9 @@ def _body(
         "limits": input_chapters.limits_chapter(ds),
         "about": input_chapters.about_chapter(ds),
     }
+    contents = {place: found for place, parts in chapters.items() if (found := list(parts))}
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
     yield from title_lines(ds)
-    yield result_chapters.opening(name, ds, titles)
-    yield element("section", *verdict_chapter(ds), id="allowable")
-    for place, parts in chapters.items():
+    yield result_chapters.opening(name, ds, {place: titles[place] for place in contents})
+    for place, parts in contents.items():
         yield element("section", element("h2", titles[place]), *parts, id=place)
-        if place == "pressure":
-            yield element("section", *stress_chapter(ds), id="stress")

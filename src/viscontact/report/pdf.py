@@ -6,7 +6,6 @@ import json
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from importlib.resources import files
-from itertools import chain
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
@@ -102,12 +101,11 @@ def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
     over_speed = run_axis(ds) is SPEED
     yield from title_lines(ds)
     yield result_chapters.opening(name, ds, {})
-    yield from verdict_chapter(ds)
-    yield from _chapter("Pressure", _pressure(ds))
-    yield from stress_chapter(ds)
-    histories = chain(input_chapters.speed_table(ds), _motion(ds)) if over_speed else _history(ds)
-    yield from _chapter("Over speed" if over_speed else CHAPTERS["histories"], histories)
     chapters: dict[str, Callable[[xr.Dataset], Iterable[Element]]] = {
+        "allowable": verdict_chapter,
+        "pressure": _pressure,
+        "stress": stress_chapter,
+        "histories": _over_speed if over_speed else _history,
         "inputs": input_chapters.inputs_chapter,
         "geometry": input_chapters.geometry_chapter,
         "material": input_chapters.material_chapter,
@@ -115,21 +113,22 @@ def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
         "limits": input_chapters.limits_chapter,
         "about": input_chapters.about_chapter,
     }
+    titles = CHAPTERS | ({"histories": "Over speed"} if over_speed else {})
     for place, chapter in chapters.items():
-        yield from _chapter(CHAPTERS[place], chapter(ds))
-
-
-def _chapter(title: str, parts: Iterable[Element]) -> Iterator[Element]:
-    yield element("h2", title)
-    yield from parts
+        if parts := list(chapter(ds)):
+            yield element("h2", titles[place])
+            yield from parts
 
 
 def _pressure(ds: xr.Dataset) -> Iterator[Element]:
     yield _figure(pressure_map, ds, "Pressure")
-    yield _figure(pressure_profile, ds, "Pressure along and across")
-    yield _figure(contact_outline, ds, "Outline of the contact")
+    yield element("h3", "Section through the pressure")
+    yield _figure(pressure_profile, ds, "Section through the pressure")
     if is_long(ds) and "line_load" in ds:
+        yield element("h3", "Line load along x: the pressure integrated over y")
         yield _figure(line_load, ds, "Line load")
+    yield element("h3", "Outline of the contact")
+    yield _figure(contact_outline, ds, "Outline of the contact")
 
 
 def _history(ds: xr.Dataset) -> Iterator[Element]:
@@ -138,7 +137,8 @@ def _history(ds: xr.Dataset) -> Iterator[Element]:
         yield _figure(hysteresis, ds, "Force over approach")
 
 
-def _motion(ds: xr.Dataset) -> Iterator[Element]:
+def _over_speed(ds: xr.Dataset) -> Iterator[Element]:
+    yield from input_chapters.speed_table(ds)
     yield _figure(motion_profile, ds, "Pressure along the motion")
 
 

@@ -24,7 +24,6 @@ MOST_CELLS = 100_000
 def stress_chapter(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the von Mises stress below the largest pressure; nothing where it cannot be shown."""
     if found := stress_below(ds):
-        yield element("h2", "Stress below the surface")
         yield element("p", stress_text(ds, found))
         drawing = drawn(partial(stress_section, ds, times=[found.place]), "Von Mises stress")
         yield element("figure", drawing, class_="single")

@@ -25,18 +25,20 @@ def verdict_chapter(ds: xr.Dataset) -> Iterator[Element]:
     rows = verdict_rows(ds)
     if not rows:
         return
-    yield element("h2", "Allowable values")
     head = element("tr", *(element("th", text) for text in HEADINGS))
     body = (
         element(
             "tr",
             element("th", row[0], scope="row"),
-            *(element("td", text) for text in row[1:-1]),
-            element("td", row[-1], class_=row[-1].split(":")[0]),
+            *(
+                element("td", text, data_head=head)
+                for head, text in zip(HEADINGS[1:-1], row[1:-1], strict=True)
+            ),
+            element("td", row[-1], class_=row[-1].split(":")[0], data_head=HEADINGS[-1]),
         )
         for row in rows
     )
-    table = element("table", element("thead", head), element("tbody", *body))
+    table = element("table", element("thead", head), element("tbody", *body), class_="stacked")
     yield element("div", table, class_="scroll verdicts")
     yield element("p", LEGEND, class_="faint")
 

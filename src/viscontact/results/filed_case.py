@@ -41,6 +41,8 @@ def measured_tables(ds: xr.Dataset) -> Mapping[str, Any]:
 def started_at(ds: xr.Dataset) -> str:
     """Date and time of the start of a run, local with its offset and in UTC; empty if unknown.
 
+    >>> started_at(xr.Dataset(attrs={"started": "2026-03-01T00:30:05+00:00"}))
+    '2026-03-01 00:30:05 UTC'
     >>> started_at(xr.Dataset(attrs={"started": "2026-03-01T00:30:05+01:00"}))
     '2026-03-01 00:30:05 +01:00 (2026-02-28 23:30:05 UTC)'
     """
@@ -50,8 +52,11 @@ def started_at(ds: xr.Dataset) -> str:
         return ""
     if moment.tzinfo is None:
         return ""
+    in_utc = f"{moment.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC"
+    if not moment.utcoffset():
+        return in_utc
     plain, zone = moment.isoformat(" ", "seconds")[:19], moment.isoformat()[-6:]
-    return f"{plain} {zone} ({moment.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC)"
+    return f"{plain} {zone} ({in_utc})"
 
 
 def _attribute(ds: xr.Dataset, name: str, kind: type) -> Any:
