@@ -121,6 +121,7 @@ BENCHMARKS = {
     "memory": "memory.py",
     "long-runs": "long_runs.py",
     "many-runs": "many_runs.py",
+    "page-answer": "page_answer.py",
     "start-up": "start_up.py",
     "storing": "storing.py",
     "steady": "steady.py",

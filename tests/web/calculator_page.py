@@ -38,9 +38,9 @@ LONG_CASE = CASE.replace("steps: 4", "steps: 4000").replace("5 s]}", "5 s], erro
 
 
 @contextmanager
-def asking(folder: Path, at_once: int = 2) -> Iterator[TestClient]:
+def asking(folder: Path, at_once: int = 2, *, keeps_spare: bool = False) -> Iterator[TestClient]:
     """Ask a page that keeps its runs in a folder."""
-    app = new_app(Calculator(Folder(folder), at_once))
+    app = new_app(Calculator(Folder(folder), at_once, keeps_spare=keeps_spare))
     with TestClient(app, base_url=HOST) as client:
         yield client
 

@@ -1,22 +1,57 @@
-"""Run that ends with its parent process: `python -m viscontact.cli.child_run run CASE`.
+"""Process of one run, for its parent: `python -m viscontact.cli.child_run`.
 
-The parent holds the other end of the standard input. When it closes it, or ends for any reason, the
-current step is finished and saved, and the run ends.
+It imports what a run needs, then waits for the arguments of one on its standard input: a line of
+JSON, such as `["run", "case.yaml"]`. The parent holds the other end. When it closes it, or ends for
+any reason, the current step is finished and saved, and the run ends; without a run, the process
+does.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import sys
 import threading
+from contextlib import suppress
 
-from viscontact.cli.entry import main
+from viscontact.cli.entry import has_memory, limit_libraries, main
+from viscontact.cli.terminal.interruption import watched_interruption
+from viscontact.cli.terminal.messages import INTERRUPTED
 
 
-def end_with_parent() -> None:
-    """Stop this process when its standard input is closed."""
-    threading.Thread(target=_stop_at_end_of_input, daemon=True).start()
+def run_of_parent() -> int:
+    """Wait for the arguments of a run, compute it, and return its exit code."""
+    with watched_interruption(until_exit=True) as interruption:
+        try:
+            with interruption.postponed():
+                _import_run()
+            words = _received()
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        if not words:  # the parent needs no run any more
+            return INTERRUPTED
+        threading.Thread(target=_stop_at_end_of_input, daemon=True).start()
+        sys.argv[1:] = words
+        return main()
+
+
+def _import_run() -> None:
+    """Import what `viscontact run` imports; it meets an error again, and reports it."""
+    limit_libraries()
+    if has_memory():
+        with suppress(Exception):
+            import viscontact.cli.many.execution
+            import viscontact.cli.many.job_array
+            import viscontact.cli.many.single_task
+            import viscontact.cli.run.execution
+            import viscontact.cli.shell  # noqa: F401
+
+
+def _received() -> list[str]:
+    line = sys.stdin.buffer.readline()
+    words: list[str] = json.loads(line) if line.endswith(b"\n") else []
+    return words
 
 
 def _stop_at_end_of_input() -> None:
@@ -26,5 +61,4 @@ def _stop_at_end_of_input() -> None:
 
 
 if __name__ == "__main__":
-    end_with_parent()
-    sys.exit(main())
+    sys.exit(run_of_parent())

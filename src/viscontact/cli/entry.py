@@ -40,17 +40,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _watched(arguments: Sequence[str] | None) -> int:
     with watched_interruption(until_exit=arguments is None) as interruption:
-        # Inner products over a contact are too short for several BLAS threads: up to ten times
-        # slower on a busy machine. NumPy reads these variables when it is imported.
-        for library in ("OPENBLAS", "MKL", "OMP", "BLIS"):
-            os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+        limit_libraries()
         code = _exit_code(None if arguments is None else list(arguments), interruption)
         interruption.over = True
         return _flushed(code)
 
 
+def limit_libraries() -> None:
+    """Limit the libraries of linear algebra to one thread, before NumPy is imported."""
+    # Inner products over a contact are too short for several threads: up to ten times slower on a
+    # busy machine. NumPy reads these variables when it is imported.
+    for library in ("OPENBLAS", "MKL", "OMP", "BLIS"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+
+
 def _exit_code(typed: list[str] | None, interruption: Interruption) -> int:
-    if _address_space() < LEAST_MEMORY:
+    if not has_memory():
         return _lacks_memory()
     try:
         # An import that is interrupted may end in any error.
@@ -111,6 +116,11 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
 def _lacks_memory() -> int:
     say("viscontact: there is too little memory; give it more (`ulimit -v` shows a limit)")
     return STOPPED
+
+
+def has_memory() -> bool:
+    """True if the libraries fit into the memory that the process may use."""
+    return _address_space() >= LEAST_MEMORY
 
 
 def _address_space() -> float:

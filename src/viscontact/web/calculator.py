@@ -33,9 +33,9 @@ _GONE = 499
 class Calculator:
     """State of the server that all requests share."""
 
-    def __init__(self, folder: Folder, at_once: int) -> None:
+    def __init__(self, folder: Folder, at_once: int, *, keeps_spare: bool = False) -> None:
         self.folder, self.cases = folder, CaseReader(folder)
-        self.queue = RunQueue(folder, at_once)
+        self.queue = RunQueue(folder, at_once, keeps_spare=keeps_spare)
         self.is_to_end = False
         self._turn = asyncio.Lock()
         # Summaries of results; an entry is dropped with its run.

@@ -58,7 +58,7 @@ def serve(
     """Serve the page until `is_to_stop()`, and until the active runs have saved."""
     path.mkdir(parents=True, exist_ok=True)
     with locked(path) as check, closing(listener):
-        calculator = Calculator(Folder(path), at_once or usual_at_once())
+        calculator = Calculator(Folder(path), at_once or usual_at_once(), keeps_spare=True)
         config = uvicorn.Config(
             new_app(calculator),
             log_level="warning",

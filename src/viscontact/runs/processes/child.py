@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
 import sys
 import tempfile
-from contextlib import ExitStack
+from collections.abc import Iterable
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
-from typing import Any
 
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.progress import Course
@@ -26,44 +27,92 @@ class Ended:
     said: tuple[str, ...] = ()  # lines of its error output
 
 
+class RunProcess:
+    """Process that imports what a run needs, and waits for one.
+
+    An OSError means that the system starts no process.
+    """
+
+    def __init__(self) -> None:
+        # -P: no file of the working directory is imported in place of a library.
+        command = [sys.executable, "-P", "-m", "viscontact.cli.child_run"]
+        environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
+        with ExitStack() as opened:
+            self.said = opened.enter_context(tempfile.TemporaryFile())
+            # The end of its input, also with this process, requests a stop.
+            self.process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=self.said,
+                env=environment,
+            )
+            opened.callback(self.end_input)
+            self._opened = opened.pop_all()
+
+    def begin(self, words: Iterable[str]) -> bool:
+        """Begin a run with these arguments; False if the process has ended meanwhile."""
+        assert self.process.stdin is not None
+        try:
+            self.process.stdin.write(json.dumps(["run", *words]).encode() + b"\n")
+            self.process.stdin.flush()
+        except OSError:
+            return False
+        return self.process.poll() is None
+
+    def end_input(self) -> None:
+        """Request that the run, or the process without one, ends."""
+        if self.process.stdin is not None:
+            with suppress(OSError):  # what has not been sent to a process that has ended
+                self.process.stdin.close()
+
+    def close(self) -> None:
+        """Release what the process needed; one that still waits is ended."""
+        self.process.kill()
+        self.process.wait()
+        self._opened.close()
+
+
 class Child:
     """Process of a run, which locks its directory, saves and handles signals as a single run does.
 
-    Its error output is kept until its end. An OSError means that the system starts no process.
+    `spare` is a process that waits for a run. The error output is kept until the end. An OSError
+    means that the system starts no process.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: Job, spare: RunProcess | None = None) -> None:
         self.job = job
         self.course = Course(job)
         self._asked = False
-        with ExitStack() as opened:
-            self._said = opened.enter_context(tempfile.TemporaryFile())
-            self._process = _started(job, self._said)
-            if self._process.stdin is not None:
-                opened.callback(self._process.stdin.close)
-            self._opened = opened.pop_all()  # until it has ended
+        words = list(replace(job.request, output=job.directory, quiet=True).words())
+        if spare is not None and not spare.begin(words):
+            spare.close()
+            spare = None
+        if spare is None:
+            spare = RunProcess()
+            spare.begin(words)  # one that ends at once says why
+        self._run = spare
 
     def ask_to_stop(self) -> None:
         """Request that the run finishes its step, saves and ends; further calls do nothing."""
         # The end of its input is the request, on any system. Together with a Ctrl-C that has
         # reached the process too, it counts as one request.
         self._asked = True
-        if self._process.stdin is not None:
-            self._process.stdin.close()
+        self._run.end_input()
 
     def ended(self) -> Ended | None:
         """Return how the run has ended; None while it continues."""
-        code = self._process.poll()
+        code = self._run.process.poll()
         return None if code is None else self._ended(code)
 
     def wait(self) -> Ended:
         """Wait for the end of the run."""
-        return self._ended(self._process.wait())
+        return self._ended(self._run.process.wait())
 
     def _ended(self, code: int) -> Ended:
-        self._said.seek(0)
-        lines = tuple(self._said.read().decode("utf-8", errors="replace").splitlines())
-        self._opened.close()
+        self._run.said.seek(0)
+        lines = tuple(self._run.said.read().decode("utf-8", errors="replace").splitlines())
+        self._run.close()
         if code == DONE:
             return Ended(self.job, "done", DONE)
         # Until the process handles signals, they end it at once.
@@ -76,13 +125,3 @@ class Child:
             return Ended(self.job, "killed", STOPPED, (*lines, why, way_on))
         # Not the exit code of a refusal: other runs of the command have begun.
         return Ended(self.job, "refused" if code == REFUSED else "stopped", STOPPED, lines)
-
-
-def _started(job: Job, said: Any) -> subprocess.Popen[bytes]:
-    request = replace(job.request, output=job.directory, quiet=True)
-    # -P: no file of the working directory is imported in place of a library.
-    command = [sys.executable, "-P", "-m", "viscontact.cli.child_run", "run", *request.words()]
-    environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
-    # Nothing is written to its input, whose end, also with this process, requests a stop.
-    held, nowhere = subprocess.PIPE, subprocess.DEVNULL
-    return subprocess.Popen(command, stdin=held, stdout=nowhere, stderr=said, env=environment)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
+from viscontact.runs.processes.child import RunProcess
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.problems import RequestError
@@ -18,10 +21,12 @@ def usual_at_once() -> int:
 
 
 class RunQueue:
-    """All runs of a folder."""
+    """All runs of a folder; with `keeps_spare`, a process waits for the next one."""
 
-    def __init__(self, folder: Folder, at_once: int) -> None:
+    def __init__(self, folder: Folder, at_once: int, *, keeps_spare: bool = False) -> None:
         self._folder, self.at_once, self.is_closing = folder, at_once, False
+        self._keeps_spare = keeps_spare
+        self._spare: RunProcess | None = None
         self._runs = {name: ManagedRun(folder, name, entry) for name, entry in folder.runs()}
         for run in self._runs.values():
             run.restore_state()
@@ -77,7 +82,17 @@ class RunQueue:
             if run.is_deleted and run.is_over:
                 self._remove(run)
         while not self.is_closing and (chosen := self._next()) is not None:
-            chosen.start()
+            spare, self._spare = self._spare, None
+            chosen.start(spare)
+        if self._keeps_spare and self._spare is None and self._has_room():
+            with suppress(OSError):  # no process can be started; the next run reports it
+                self._spare = RunProcess()
+
+    def _has_room(self) -> bool:
+        """True if a further run could begin, and none is held up by the start of a process."""
+        active = [run for run in self._runs.values() if run.is_at_work]
+        is_starting = any(run.is_starting for run in active)
+        return not self.is_closing and len(active) < self.at_once and not is_starting
 
     def _remove(self, run: ManagedRun) -> None:
         """Remove a run, unless its files cannot be removed."""
@@ -91,6 +106,9 @@ class RunQueue:
     def end(self) -> None:
         """Start no further runs, and let the active ones finish their steps and save."""
         self.is_closing = True
+        if self._spare is not None:
+            self._spare.close()
+            self._spare = None
         for run in self._runs.values():
             if not run.is_over:
                 run.stop("interrupted")

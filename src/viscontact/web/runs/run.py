@@ -9,7 +9,7 @@ from dataclasses import replace
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.processes.child import Child, Ended
+from viscontact.runs.processes.child import Child, Ended, RunProcess
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.progress import Course
 from viscontact.runs.processes.request import DONE, INTERRUPTED, RunRequest
@@ -74,13 +74,13 @@ class ManagedRun:
             and (self.directory / STATE_NAME).is_file()
         )
 
-    def start(self) -> None:
-        """Start the process, or note why that failed."""
+    def start(self, spare: RunProcess | None) -> None:
+        """Start the run in a process that waits for one, or note why that failed."""
         saved = (self.directory / STATE_NAME).is_file()
         job = self._job(Standing.STOPPED if saved else Standing.NEW)
         self._pace, self._marched, self._stop_state = None, None, ""
         try:
-            self._child = Child(job)
+            self._child = Child(job, spare)
         except OSError as error:
             self.set_state("failed", f"the run cannot be started: {error}")
             return

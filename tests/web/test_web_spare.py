@@ -1,0 +1,102 @@
+"""The process that waits for the next run of the calculator page, so that it begins at once."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+import xarray as xr
+from fastapi.testclient import TestClient
+
+from viscontact.cli import main
+from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Iterator[TestClient]:
+    with asking(tmp_path / "page", keeps_spare=True) as client:
+        yield client
+
+
+def processes() -> list[psutil.Process]:
+    """Return the processes of runs that this one has started."""
+    found = []
+    for child in psutil.Process().children():
+        if child.status() != psutil.STATUS_ZOMBIE and any(
+            "child_run" in w for w in child.cmdline()
+        ):
+            found.append(child)
+    return found
+
+
+def spare() -> psutil.Process:
+    """Return the only process of a run, once there is one."""
+    until(lambda: len(processes()) == 1)
+    (found,) = processes()
+    return found
+
+
+@pytest.mark.slow
+def test_a_run_is_computed_by_the_process_that_waits_and_gives_the_same_numbers(
+    tmp_path: Path,
+) -> None:
+    with asking(tmp_path / "page", keeps_spare=True) as client:
+        waiting = spare()
+        run = begun(client)
+        assert followed(client, run)[-1]["state"] == "done"
+        until(lambda: not waiting.is_running())  # it is used once,
+        assert spare().pid != waiting.pid  # and replaced
+        (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
+    assert processes() == []
+    (tmp_path / "typed.yaml").write_text(CASE, encoding="utf-8")
+    assert main(["run", str(tmp_path / "typed.yaml"), "-q"]) == 0
+    with (
+        xr.open_dataset(tmp_path / "ours.nc") as ours,
+        xr.open_dataset(tmp_path / "typed" / "result.nc") as typed,
+    ):
+        assert ours.drop_attrs().identical(typed.drop_attrs())
+
+
+def test_a_process_that_was_killed_while_it_waited_is_replaced(client: TestClient) -> None:
+    waiting = spare()
+    waiting.kill()
+    waiting.wait()
+    assert followed(client, begun(client, quality="coarse"))[-1]["state"] == "done"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="there, a killed process has no signal")
+def test_a_run_that_is_killed_takes_neither_the_server_nor_the_next_run_with_it(
+    client: TestClient,
+) -> None:
+    waiting = spare()
+    run = begun(client, LONG_CASE)
+    until(lambda: status(client, run)["step"] > 3)
+    waiting.kill()
+    assert followed(client, run)[-1]["state"] == "failed"
+    assert status(client, run)["resumable"]
+    assert followed(client, begun(client))[-1]["state"] == "done"
+
+
+@pytest.mark.slow
+def test_a_run_in_the_process_that_waited_is_cancelled_as_any_other(client: TestClient) -> None:
+    spare()
+    run = begun(client, LONG_CASE)
+    until(lambda: status(client, run)["step"] > 3)
+    client.post(f"/api/runs/{run}/cancel")
+    last: dict[str, Any] = followed(client, run)[-1]
+    assert (last["state"], last["resumable"]) == ("cancelled", True)
+
+
+# A parent that has ended, also within the line.
+@pytest.mark.parametrize("line", [b"", pytest.param(b'["run"', marks=pytest.mark.slow)])
+def test_a_process_that_waits_ends_with_its_parent(line: bytes) -> None:
+    command = [sys.executable, "-P", "-m", "viscontact.cli.child_run"]
+    done = subprocess.run(command, input=line, capture_output=True, timeout=60, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
