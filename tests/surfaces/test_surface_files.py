@@ -338,7 +338,7 @@ def test_check_reports_levelling_and_warnings(
     assert main(["check", str(case), "--set", "indenter.level=plane"]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "note: map.npz: a tilt of 12.9 mrad was taken off (level: plane)" in said
-    assert "note: map.npz: 32 x 28 points, 1 µm apart; rms height" in said
+    assert "note: map.npz: 32 x 28 points, 1 µm apart; Sa" in said
     assert "note: map.npz is hollow: it would touch along its border first" in said
 
 

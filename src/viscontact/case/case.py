@@ -16,6 +16,7 @@ from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.problem.problem import Problem
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.series_fits.fit import Fit
+from viscontact.surfaces import Surface
 from viscontact.tables import split_sheet
 from viscontact.units.formatting import format_quantity
 
@@ -49,6 +50,8 @@ class Case(DisplayableGroup, Problem):
         Tables of the laws, in the quantities that were measured, by the section of the material.
     fits : mapping of str to Fit
         Series fitted to oscillations that the case names, by the section of the material.
+    surfaces : tuple of Surface
+        Measured surfaces of the indenter, as they are pressed.
     notes : tuple of str
         Notes on contents of the files, and on those that are not used.
     document : Document
@@ -65,6 +68,7 @@ class Case(DisplayableGroup, Problem):
     digests: Mapping[Path, bytes] = field(repr=False)
     measured: Mapping[str, Mapping[str, Any]]
     fits: Mapping[str, Fit] = field(repr=False)
+    surfaces: tuple[Surface, ...] = field(repr=False)
     notes: tuple[str, ...]
     document: Document = field(repr=False)
 

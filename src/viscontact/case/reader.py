@@ -14,6 +14,7 @@ from viscontact.case.case import Case
 from viscontact.case.document import Document, as_written, document_of, read_document
 from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
+from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.shapes import combined
 from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
@@ -162,6 +163,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         digests={path: digest(path) for path in (document.path, *files.values())},
         measured={name: law.measured for name, law in _tables(found).items()},
         fits={name: law.fit for name, law in _tables(found).items() if law.fit is not None},
+        surfaces=tuple(each.surface for each in found.indenter if isinstance(each, HeightMap)),
         notes=(*_notes(found), *([early] if early else [])),
         document=document,
     )

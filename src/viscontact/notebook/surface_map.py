@@ -33,23 +33,28 @@ def surface_card(surface: Surface) -> Card:
     --------
     >>> print(surface_card(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
     Surface: mine.npz
-      points        2 × 2
-      size          20 µm × 20 µm
-      spacing       10 µm × 10 µm
-      rms height    707.1 nm
-      height range  2 µm
-      rms slope     0.1732
-      skewness      0
+      points          2 × 2
+      size            20 µm × 20 µm
+      spacing         10 µm × 10 µm
+      Sa              500 nm
+      Sq, rms height  707.1 nm
+      height range    2 µm
+      rms slope       0.1732
+      skewness        0
+      Sdr             1.5 %
     """
     rows = [
         ("points", " × ".join(map(str, surface.shape))),
         ("size", " × ".join(format_quantity(extent, "m") for extent in surface.size)),
         ("spacing", " × ".join(format_quantity(step, "m") for step in surface.spacing)),
-        ("rms height", format_quantity(surface.rms_height, "m")),
+        ("Sa", format_quantity(surface.mean_deviation, "m")),
+        ("Sq, rms height", format_quantity(surface.rms_height, "m")),
         ("height range", format_quantity(surface.height_range, "m")),
         ("rms slope", format_number(surface.rms_slope)),
         ("skewness", format_number(surface.skewness, 2)),
     ]
+    if not math.isnan(surface.developed_ratio):
+        rows.append(("Sdr", format_percent(surface.developed_ratio)))
     if surface.periodic:
         rows.append(("periodic", "yes"))
     if surface.missing_share > 0:

@@ -20,6 +20,7 @@ from viscontact.plot.film.saving import FILM_SUFFIXES, save_film
 from viscontact.plot.geometry.indenter_drawing import draw_indenter
 from viscontact.plot.geometry.indenter_figure import indenter
 from viscontact.plot.geometry.load_drawing import draw_load
+from viscontact.plot.geometry.power_spectrum import draw_power_spectrum
 from viscontact.plot.histories.contact_area import contact_area
 from viscontact.plot.histories.exact import exact
 from viscontact.plot.histories.history import compare_histories, history
@@ -106,6 +107,7 @@ __all__ = [
     "deformed_surface",
     "draw_indenter",
     "draw_load",
+    "draw_power_spectrum",
     "exact",
     "fitted_indentation",
     "fitted_series",

@@ -20,6 +20,9 @@ from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.surface import Surface, surface_of
+from viscontact.surfaces import Surface as MeasuredSurface
+from viscontact.surfaces import indenter_of
+from viscontact.surfaces.topographies import is_topography
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps, Step, plan_steps
 from viscontact.time_integration.moving_times import CellTimes, moving_times
@@ -56,7 +59,8 @@ class Problem:
     Attributes
     ----------
     indenter : Indenter
-        Shape of the pressed body.
+        Shape of the pressed body; a measured `Surface`, or a map of SurfaceTopography, becomes a
+        `HeightMap`, as it is.
     material : Material or Layered
         Material of the half-space, or a body of layers.
     load : LoadHistory
@@ -89,6 +93,8 @@ class Problem:
     motion: Motion | None = None
 
     def __post_init__(self) -> None:
+        if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
+            object.__setattr__(self, "indenter", indenter_of(self.indenter))
         for name, kinds, optional in (
             ("indenter", (Indenter,), False),
             ("material", (Material, Layered), False),

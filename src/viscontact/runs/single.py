@@ -51,7 +51,8 @@ def simulate(
     Parameters
     ----------
     indenter : Indenter
-        Shape of the pressed body.
+        Shape of the pressed body. A measured `Surface`, or a map of SurfaceTopography, is taken as
+        well, and pressed as it is: level it before.
     material : Material or Layered
         Material of the half-space, or a body of layers.
     load : LoadHistory

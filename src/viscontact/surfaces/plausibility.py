@@ -54,10 +54,10 @@ def surface_doubts(surface: Surface) -> tuple[str, ...]:
 
 
 def described(surface: Surface) -> str:
-    """Describe a surface in a line: points, missing ones, rms height and slope.
+    """Describe a surface in a line: points, missing ones, and its roughness.
 
     >>> described(Surface([[0.0, 1e-6], [1e-6, 0.0]], 1e-5))
-    'surface: 2 x 2 points, 10 µm apart; rms height 500 nm, rms slope 0.14'
+    'surface: 2 x 2 points, 10 µm apart; Sa 500 nm, Sq 500 nm, rms slope 0.14, Sdr 0.995 %'
     """
     nx, ny = surface.shape
     dx, dy = (format_quantity(step, "m", 3) for step in surface.spacing)
@@ -65,10 +65,17 @@ def described(surface: Surface) -> str:
     fits = ", periodic" if surface.periodic else ""
     missing = f", {surface.missing_share:.2%} missing" if surface.missing.any() else ""
     return (
-        f"{surface.name}: {nx} x {ny} points, {apart} apart{fits}{missing}; rms height "
+        f"{surface.name}: {nx} x {ny} points, {apart} apart{fits}{missing}; Sa "
+        f"{format_quantity(surface.mean_deviation, 'm', 3)}, Sq "
         f"{format_quantity(surface.rms_height, 'm', 3)}, rms slope "
-        f"{format_number(surface.rms_slope, 2)}"
+        f"{format_number(surface.rms_slope, 2)}{_developed(surface)}"
     )
+
+
+def _developed(surface: Surface) -> str:
+    """Developed area in words; empty for a line scan."""
+    ratio = surface.developed_ratio
+    return "" if math.isnan(ratio) else f", Sdr {format_number(100 * ratio, 3)} %"
 
 
 def levelling_note(surface: Surface, level: Level) -> str | None:

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from viscontact.indenters import HeightMap
 from viscontact.surfaces.surface import Surface
+from viscontact.surfaces.topographies import surface_of
 from viscontact.units.formatting import format_quantity
 
+if TYPE_CHECKING:
+    from SurfaceTopography import Topography
 
-def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
+
+def indenter_of(surface: Surface | Topography, *, holes: bool = False) -> HeightMap:
     """Return the indenter of a surface that is turned over and pressed, peaks first.
 
     Parameters
     ----------
-    surface : Surface
+    surface : Surface or SurfaceTopography.Topography
         The surface, levelled.
     holes : bool, optional
         True if missing points are holes, which never touch; otherwise they are refused.
@@ -33,6 +39,8 @@ def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
     >>> float(indenter_of(Surface([[0.0, 1e-6], [0.0, 0.0]], 1e-5)).gap(5e-6, -5e-6))
     1e-06
     """
+    if not isinstance(surface, Surface):
+        surface = surface_of(surface)
     require_map(surface)
     if not holes:
         require_complete(surface)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -107,6 +108,11 @@ class Surface(Displayable):
         """Root-mean-square deviation of the known heights from their mean (Sq) [m]."""
         return float(np.nanstd(self.heights))
 
+    @cached_property
+    def mean_deviation(self) -> float:
+        """Mean magnitude of the deviation of the known heights from their mean (Sa) [m]."""
+        return float(np.nanmean(np.abs(self.heights - np.nanmean(self.heights))))
+
     @property
     def height_range(self) -> float:
         """Highest less lowest known height (Sz) [m]."""
@@ -126,6 +132,31 @@ class Surface(Displayable):
     def rms_slope(self) -> float:
         """Root-mean-square gradient, from differences of neighbouring points (Sdq) [-]."""
         return float(np.sqrt(sum(self._mean_square_slope(axis) for axis in (0, 1))))
+
+    @cached_property
+    def developed_ratio(self) -> float:
+        """Area of the surface over that of its plan, less 1 (Sdr, ISO 25178-2) [-].
+
+        From the triangles between neighbouring points, the mean of both diagonals of each cell;
+        cells with a missing point are left out. NaN for a line scan.
+        """
+        heights = self.heights
+        if self.periodic:
+            heights = np.pad(heights, ((0, 1), (0, 1)), mode="wrap")
+        if min(heights.shape) < 2:
+            return math.nan
+        along, across = (
+            np.diff(heights, axis=axis) / step for axis, step in enumerate(self.spacing)
+        )
+        areas = [
+            np.sqrt(1 + x**2 + y**2)
+            for x in (along[:, :-1], along[:, 1:])
+            for y in (across[:-1], across[1:])
+        ]
+        known = np.isfinite(sum(areas))
+        return (
+            float(np.mean([area[known].mean() for area in areas]) - 1) if known.any() else math.nan
+        )
 
     def _mean_square_slope(self, axis: int) -> float:
         steps = np.diff(self.heights, axis=axis)
