@@ -1,5 +1,6 @@
 """Public names of viscontact, for type checkers, editors and the lazy loading in `__init__.py`."""
 
+from . import figures as figures
 from . import notebook as notebook
 from . import plot as plot
 from . import reference as reference

@@ -37,6 +37,11 @@ def result_plots(result: object) -> Any:
     return viscontact.plot.ResultPlots(result)
 
 
+def result_explorer(result: object, **how: Any) -> Any:
+    """Return a result to explore, `viscontact.figures.explore`, imported when first used."""
+    return viscontact.figures.explore(result, **how)
+
+
 class DisplayableGroup(Displayable, ABC):
     """Group of objects that are displayed one below the other."""
 

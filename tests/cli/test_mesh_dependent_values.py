@@ -14,10 +14,10 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from figures.figure_data import figures_in
 from viscontact.cli import main
 from viscontact.plot import FIGURES
 from viscontact.report import report_page
-from viscontact.report.run_data import run_data
 from viscontact.results.summary import headline
 
 CASE = """\
@@ -94,7 +94,9 @@ def test_sentence_tile_and_map_of_the_report(ds: xr.Dataset, peaks: list[str]) -
     assert headline(ds).endswith(f"{largest}.")
     page = report_page(ds).replace("\N{NO-BREAK SPACE}", " ")
     assert f"<dd>&gt;{peaks[-1]} MPa (depends on the mesh)<small" in page
-    assert run_data(ds)["map"]["peaks"] == [f">{peak} MPa" for peak in peaks]
+    frames = figures_in(page)["map"]["frames"]
+    notes = [frame["layout"]["meta"]["note"] for frame in frames]
+    assert notes == [f"Largest pressure >{peak} MPa" for peak in peaks]
 
 
 def test_representation_in_a_notebook(ds: xr.Dataset, peaks: list[str]) -> None:

@@ -18,19 +18,22 @@ import xarray as xr
 from ruamel.yaml import YAML
 
 import viscontact as vc
+from figures.figure_data import Data, array_of, shown_at, title_of
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
+from viscontact.figures.histories import history, panel_names
+from viscontact.figures.look import plain
+from viscontact.figures.pressure_map import pressure_map, strides_of
+from viscontact.figures.shown_fields import shown_fields
 from viscontact.notebook.html import as_script
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
-from viscontact.report.histories import load_panels, response_panels
 from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
-from viscontact.report.map_data import map_data, section_csv, strides_of
 from viscontact.report.recorded_surface import recorded_surface
 from viscontact.report.run_data import run_data
-from viscontact.report.shown_fields import shown_fields
+from viscontact.report.section_csv import section_csv
 from viscontact.results.snapshots import take_snapshots
 from viscontact.results.summary import headline
 
@@ -85,9 +88,8 @@ class _Page(HTMLParser):
         return " ".join(" ".join(self.words).split())
 
     @property
-    def data(self) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(self.scripts[0])
-        return found
+    def figures(self) -> dict[str, Data]:
+        return {each["layout"]["meta"]["name"]: each for each in json.loads(self.scripts[0])}
 
     def download(self, name: str) -> list[list[str]]:
         """Rows of a table that can be downloaded."""
@@ -120,44 +122,52 @@ def test_text_of_users_is_never_markup(page: _Page) -> None:
     assert not any("alert(1)" in script for script in found.scripts)
     assert not [each for each in found.attributes if each[1] == "onerror"]
     assert found.text.count("<img src=x onerror=alert(2)>") >= len(named)
-    assert found.data["map"] is None
+    assert "map" not in found.figures
     assert "No fields are stored" in found.text
     # The run's own warnings come before what the theory always assumes.
     assert 0 < found.text.index("This run warns:") < found.text.index("No friction")
 
 
 def test_a_map_holds_the_pressure(page: _Page) -> None:
-    drawn = page.data["map"]
-    assert (drawn["unit"], drawn["pressureUnit"]) == ("µm", "MPa")
-    x, y = (np.array(drawn[name]) * 1e-6 for name in "xy")
+    drawn = page.figures["map"]
+    assert (title_of(drawn, "x"), title_of(drawn, "y")) == ("x [µm]", "y [µm]")
+    heat = drawn["data"][0]
+    assert heat["colorbar"]["title"]["text"] == "Pressure [MPa]"
+    x, y = (array_of(heat[name]) * 1e-6 for name in "xy")
     radius = np.hypot(x, y[:, None])
-    for part, instant in zip(drawn["parts"], TIMES, strict=True):
-        parts = np.frombuffer(base64.b64decode(part), "<u2").reshape(y.size, x.size)
-        pressure = parts / drawn["steps"] * drawn["peak"] * 1e6
-        # Half a step of 1/65535 of the peak, a whole one at the rim.
+    for index, instant in enumerate(TIMES):
+        shown = shown_at(drawn, str(index))
+        pressure = np.nan_to_num(array_of(shown["data"][0]["z"])) * 1e6
         exact = maxwell_pressure(radius, instant)
-        np.testing.assert_allclose(pressure, exact, atol=1.6e-5 * drawn["peak"] * 1e6)
+        # Half a step of 1/65535 of the peak, a whole one at the rim.
+        np.testing.assert_allclose(pressure, exact, atol=1.6e-5 * heat["zmax"] * 1e6)
+        assert shown["layout"]["meta"]["title"] == f"t = {instant:g} s"
+        peak = float(shown["layout"]["meta"]["note"].split()[-2])
+        assert peak == pytest.approx(pressure.max() * 1e-6, rel=1e-3)
 
 
 def test_outlines_are_the_smooth_rims_of_the_figures(page: _Page) -> None:
     last = take_snapshots(_run(), TIMES[-1], "rim")[0]
     (curve,) = rim_curves(last)
-    drawn = page.data["map"]["rims"][-1]
-    assert (drawn["x"][-1], drawn["y"][-1]) == (None, None)
-    outline = np.array([drawn["x"][:-1], drawn["y"][:-1]]).T * 1e-6
-    np.testing.assert_allclose(outline, curve, atol=1e-4 * np.abs(curve).max())
+    drawn = shown_at(page.figures["map"], "4")["data"][1]
+    x, y = array_of(drawn["x"]), array_of(drawn["y"])
+    assert np.isnan([x[-1], y[-1]]).all()
+    outline = np.array([x[:-1], y[:-1]]).T * 1e-6
+    np.testing.assert_allclose(outline, curve, atol=1e-6 * np.abs(curve).max())
+    lines = page.figures["outlines"]["data"]
+    assert [each["name"] for each in lines] == [f"{t:g} s" for t in TIMES]
+    np.testing.assert_array_equal(array_of(lines[-1]["x"]), x)
 
 
 def test_a_fine_map_shows_means_that_keep_the_force() -> None:
     ds = _described(roller(times=(1000.0,), shape=(900, 32)))
     fields = shown_fields(ds)
-    drawn = map_data(fields)
-    assert (len(drawn["x"]) <= 256, strides_of(fields)) == (True, (4, 1))
-    cell = (drawn["x"][1] - drawn["x"][0]) * (drawn["y"][1] - drawn["y"][0]) * 1e-6
-    parts = np.frombuffer(base64.b64decode(drawn["parts"][0]), "<u2")
-    force = parts.sum() / drawn["steps"] * drawn["peak"] * 1e6 * cell
+    heat = pressure_map(fields).data[0]
+    assert (len(heat.x) <= 256, strides_of(fields)) == (True, (4, 1))
+    cell = (heat.x[1] - heat.x[0]) * (heat.y[1] - heat.y[0]) * 1e-6
+    force = np.nansum(heat.z) * 1e6 * cell
     exact = ds["pressure"].values.sum() * float((ds.x[1] - ds.x[0]) * (ds.y[1] - ds.y[0]))
-    assert force == pytest.approx(exact, rel=1e-4)  # half a step of 1/65535 in each cell
+    assert force == pytest.approx(exact, rel=1e-5)  # seven digits in each cell
 
 
 def test_csv_files_hold_every_digit(page: _Page) -> None:
@@ -178,13 +188,14 @@ def test_a_long_contact_has_its_line_load_on_the_page() -> None:
     page = _Page(report_page(ds))
     dx, dy = (float(ds[way][1] - ds[way][0]) for way in ("x", "y"))
     expected = ds["pressure"].values.sum(axis=2) * dy
-    [curve] = [each for each in page.data["sections"] if each["name"] == "line-load"]
+    curve = page.figures["line-load"]
     assert ("div", "id", "line-load") in page.attributes
-    assert (curve["along"], curve["label"], curve["valueUnit"]) == ("x", "Line load", "kN/m")
+    assert (title_of(curve, "x"), title_of(curve, "y")) == ("x [mm]", "Line load [kN/m]")
     for index, load in enumerate(expected):
-        shown = np.array(curve["values"][index]) * 1e3
+        shown = array_of(curve["data"][index]["y"]) * 1e3
         assert shown.sum() * dx == pytest.approx(ds["pressure"][index].values.sum() * dx * dy)
-        middle = np.interp(0.02, np.array(curve["position"]) * 1e-3, shown)
+        position = array_of(curve["data"][index]["x"]) * 1e-3
+        middle = np.interp(0.02, position, shown)
         assert middle == pytest.approx(np.interp(0.02, ds.x, load), rel=1e-4)
     head, *rows = page.download("line-load.csv")
     assert head == ["x [m]", "line load at 0.0 s [N/m]", "line load at 100.0 s [N/m]"]
@@ -194,28 +205,50 @@ def test_a_long_contact_has_its_line_load_on_the_page() -> None:
 
 
 def test_a_round_contact_has_no_line_load_on_the_page(page: _Page) -> None:
-    assert [each["name"] for each in page.data["sections"]] == ["section-x", "section-y"]
+    assert {"section-x", "section-y"} < set(page.figures)
+    assert "line-load" not in page.figures
     assert not [value for _, _, value in page.attributes if value.startswith("line-load")]
 
 
 def test_bands_are_the_errors_of_the_result(page: _Page) -> None:
-    [panel] = [each for each in page.data["answers"] if each["name"] == "contact_area"]
-    assert panel["unit"] == "mm²"
-    np.testing.assert_allclose(panel["half"], np.array(panel["value"]) * 0.01, rtol=1e-5)
-    assert panel["note"] == ""
-    [panel] = [each for each in page.data["answers"] if each["name"] == "contact_width"]
-    assert (set(panel["half"]), panel["note"]) == ({None}, "error not known")
+    panel = page.figures["history-contact_area"]
+    assert panel["layout"]["meta"] == {
+        "name": "history-contact_area",
+        "title": "Contact area [mm²]",
+        "note": "",
+    }
+    band, line = (array_of(each["y"]) for each in panel["data"])
+    count = len(TIMES)
+    np.testing.assert_allclose(band[:count], 1.01 * line, rtol=1e-6)
+    np.testing.assert_allclose(band[count:-1][::-1], 0.99 * line, rtol=1e-6)
+    for name in ("linear", "log"):
+        band, line = (array_of(each["x"]) for each in shown_at(panel, name)["data"])
+        np.testing.assert_array_equal(band[:-1], [*line, *line[::-1]])
+    panel = page.figures["history-contact_width"]
+    assert np.isnan(array_of(panel["data"][0]["y"])).all()
+    assert panel["layout"]["meta"]["note"] == "error not known"
+
+
+def test_a_logarithmic_axis_has_the_start_half_a_decade_before_the_first_step(page: _Page) -> None:
+    panel = page.figures["history-approach"]
+    linear, log = (shown_at(panel, name) for name in ("linear", "log"))
+    np.testing.assert_array_equal(array_of(linear["data"][1]["x"]), TIMES)
+    places = [-0.5, 0.0, 1.0, 2.0, np.log10(300)]
+    np.testing.assert_allclose(array_of(log["data"][1]["x"]), places, rtol=1e-6)
+    axis = log["layout"]["xaxis"]
+    ticks = dict(zip(axis["ticktext"], array_of(axis["tickvals"]), strict=True))
+    assert ticks == {"0": -0.5, "1": 0.0, "10": 1.0, "100": 2.0}
+    assert (title_of(linear, "x"), title_of(log, "x")) == ("Time [s]", "Time [s], logarithmic")
 
 
 def test_a_peak_that_depends_on_the_mesh_is_marked() -> None:
     ds = _run(fields=False)
     ds["peak_pressure_error"][:] = np.inf
-    [panel] = [each for each in response_panels(ds) if each["name"] == "peak_pressure"]
-    assert (set(panel["half"]), set(panel["value"])) == ({None}, {None})
-    assert (panel["note"], panel["words"]) == (
-        "depends on the mesh",
-        "not drawn: smaller cells give more",
-    )
+    panel = history(ds, "peak_pressure")
+    band, line = panel.data
+    assert np.isnan([*band.y, *line.y]).all()
+    assert panel.layout.meta["note"] == "depends on the mesh"
+    assert panel.layout.annotations[0].text == "not drawn: smaller cells give more"
     assert re.search(r"the peak pressure >[\d.]+ MPa \(depends on the mesh\)\.", headline(ds))
     assert "smaller cells give more" in dict(accuracy_lines(ds))["Depends on the mesh"]
 
@@ -233,8 +266,10 @@ def test_a_lost_contact_is_reported_where_it_was_largest() -> None:
         ds[name][-1] = 0.0
     assert headline(ds).startswith("At t = 100 s, when it is largest, the contact covers")
     assert "from t = 300 s to the end, t = 300 s, they do not touch" in headline(ds)
-    drawn = map_data(shown_fields(ds))
-    assert (drawn["start"], drawn["peaks"][-1]) == (3, "")
+    fields = shown_fields(ds)
+    drawn = pressure_map(fields)
+    assert (fields.start, drawn.layout.meta["title"]) == (3, "t = 100 s")
+    assert drawn.frames[-1].layout["meta"]["note"] == "No contact"
 
 
 def test_a_run_that_ended_early_says_so() -> None:
@@ -264,10 +299,10 @@ def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
     case = json.loads(ds.attrs["case"])
     motion = {"type": "HarmonicHistory", "control": "approach", "mean": 2e-6, "period": 2.0}
     moved = ds.assign_attrs(case=json.dumps(case | {"load": motion}))
-    assert [each["name"] for each in load_panels(ds)] == ["force"]
-    assert "approach" in [each["name"] for each in response_panels(ds)]
-    assert [each["name"] for each in load_panels(moved)] == ["approach"]
-    assert "force" in [each["name"] for each in response_panels(moved)]
+    load, response = panel_names(ds)
+    assert (load, "approach" in response) == (["force"], True)
+    load, response = panel_names(moved)
+    assert (load, "force" in response) == (["approach"], True)
     assert ("mean", "2 µm") in [(each.name, each.value) for each in inputs(moved)]
 
 
@@ -299,7 +334,7 @@ def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
     assert (len(fields.snapshots), fields.stored) == (24, 60)
     rest = sum(map(len, page.scripts[1:])) + sum(len(value) for *_, value in page.attributes)
     sections = sum(len(quote(section_csv(fields, way))) for way in ("x", "y"))
-    assert len(as_script(map_data(fields))) + sections + rest < 13e6
+    assert len(as_script(plain(pressure_map(fields)))) + sections + rest < 13e6
 
 
 def test_the_citation_is_that_of_the_file(page: _Page) -> None:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
 
 import viscontact as vc
+from viscontact.figures.histories import history, panel_names
+from viscontact.figures.look import LIGHT
+from viscontact.figures.loops import loops, loops_of
+from viscontact.figures.pressure_map import pressure_map
+from viscontact.figures.sections import section, section_place
+from viscontact.figures.shown_fields import shown_fields
 from viscontact.loads.motion import Motion
-from viscontact.report.histories import load_panels, response_panels
-from viscontact.report.loops import loops_data
-from viscontact.report.map_data import curves_data, map_data, section_csv, section_place
 from viscontact.report.page import report_page
-from viscontact.report.shown_fields import shown_fields
+from viscontact.report.section_csv import section_csv
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
@@ -36,11 +41,18 @@ def moved() -> xr.Dataset:
 
 
 def test_map_has_axis_and_direction_of_the_body(moved: xr.Dataset) -> None:
-    data = map_data(shown_fields(moved))
-    assert data["unit"] == "mm"
-    axes = [each["axis"] for each in data["body"]]
+    figure = pressure_map(shown_fields(moved))
+    assert figure.layout.yaxis.title.text == "y [mm]"
+    crosses = [frame.data[-1] for frame in figure.frames]
+    axes = [(*cross.x, *cross.y) for cross in crosses]
     np.testing.assert_allclose(axes, [[0, 0], [0, -0.3], [0, -0.6], [0, -0.6]], atol=1e-9)
-    assert [each["direction"] for each in data["body"]] == [(0, -1), (0, -1), (0, -1), None]
+    for frame in figure.frames[:3]:
+        (arrow,) = frame.layout["annotations"]
+        assert (arrow.x, arrow.y) == (*frame.data[-1].x, *frame.data[-1].y)
+        # From its tail to its head [pixel], up the screen: against y.
+        assert (arrow.ax, arrow.ay) == pytest.approx((0, -34))
+        assert (arrow.xshift, arrow.yshift) == pytest.approx((0, -34))
+    assert not figure.frames[3].layout["annotations"]  # at rest
 
 
 def test_sections_follow_the_resultant_of_a_moving_contact(moved: xr.Dataset) -> None:
@@ -54,19 +66,20 @@ def test_sections_follow_the_resultant_of_a_moving_contact(moved: xr.Dataset) ->
 
 
 def test_section_along_the_motion_has_leading_and_trailing_edge(moved: xr.Dataset) -> None:
-    along_x, along_y = curves_data(moved, shown_fields(moved))
-    assert along_x["edges"] == [None] * 4
-    assert along_y["edges"][3] is None
-    leading, trailing = along_y["edges"][1]
+    along_x, along_y = (section(shown_fields(moved), way) for way in ("x", "y"))
+    assert "leading edge" not in str(along_x.data)
+    edges = [list(frame.data[-1].x) for frame in along_y.frames]
+    assert edges[3] == []  # at rest
+    leading, trailing = edges[1]
     pressed = moved.y.values[(moved.pressure[1].values > 0).any(axis=0)]
     assert leading == pytest.approx((pressed.min() - CELL / 2) * 1e3)
     assert trailing == pytest.approx((pressed.max() + CELL / 2) * 1e3)
 
 
 def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) -> None:
-    load, response = load_panels(moved), [each["name"] for each in response_panels(moved)]
-    assert "position_y" in [each["name"] for each in load]
-    assert next(each for each in load if each["name"] == "position_y")["note"] == ""
+    load, response = panel_names(moved)
+    assert "position_y" in load
+    assert history(moved, "position_y").layout.meta["note"] == ""
     assert {"resistance_y", "friction_coefficient", "motion_work", "heat"} <= set(response)
     assert "resistance_x" not in response  # rounding
 
@@ -74,16 +87,16 @@ def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) ->
 def test_elastic_body_has_no_panels_of_resistance() -> None:
     elastic = vc.Material(vc.Elastic(9e6), poisson_ratio=0.5)
     ds = _run(vc.Travel([0.0, 0.6], y=[0.0, -6e-4]), [0.0, 0.3, 0.6], elastic)
-    shown = {each["name"] for each in response_panels(ds)}
-    assert not shown & {"resistance_y", "friction_coefficient", "motion_work", "heat"}
+    _, shown = panel_names(ds)
+    assert not set(shown) & {"resistance_y", "friction_coefficient", "motion_work", "heat"}
 
 
 def test_area_of_the_last_loop_is_the_motion_work_of_a_cycle() -> None:
     ds = _run(vc.reciprocating(3e-4, 1.0, cycles=2), np.linspace(0, 2, 49).tolist(), middle=0.0)
-    (loop,) = loops_data(ds)
-    assert (loop["name"], loop["last"], loop["end"]) == ("loop-y", 24, 48)
-    position = np.array(loop["position"][loop["last"] :]) * loop["lengthFactor"]
-    force = np.array(loop["values"][loop["last"] :]) * loop["valueFactor"]
+    (loop,) = loops_of(ds)
+    assert (loop.name, loop.last, loop.end) == ("loop-y", 24, 48)
+    (figure,) = loops(ds, replace(LIGHT, system="si"))
+    position, force = figure.data[1].x, figure.data[1].y
     work = float(ds.motion_work[-1] - ds.motion_work[24])
     # A polygon of 24 corners in an ellipse has this part of its area; the loop is nearly one.
     polygon = np.sinc(2 / 24)

@@ -19,9 +19,9 @@ from viscontact.accuracy.error_bars import ZERO_WITHOUT_CONTACT
 from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main
 from viscontact.cli.many.table import print_table
+from viscontact.figures.histories import histories, panel_names
 from viscontact.notebook.result_card import result_card
 from viscontact.plot import history
-from viscontact.report.histories import load_panels, response_panels
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
 from viscontact.results import variables
@@ -138,8 +138,9 @@ def test_new_entry_is_in_summary_card_and_tables(
 
 def test_new_entry_is_in_figures_and_report(extended: xr.Dataset) -> None:
     assert f"{LABEL} [mrad]" in [axes.get_ylabel() for axes in history(extended).axes]
-    panels = [*load_panels(extended), *response_panels(extended)]
-    assert LABEL in [panel["label"] for panel in panels]
+    load, response = histories(extended)
+    titles = [figure.layout.meta["title"] for figure in (*load, *response)]
+    assert f"{LABEL} [mrad]" in titles
     assert re.search(rf"<dt>{LABEL}</dt><dd>300 ± 10", report_page(extended).replace("\xa0", " "))
 
 
@@ -277,7 +278,7 @@ def test_line_load_is_shown_of_long_contacts_only(ds: xr.Dataset, roller: xr.Dat
         assert ("peak_line_load" in [row.name for row in summary_rows(run)]) == expected
         assert (label.lower() in [row[0] for row in result_card(run).rows]) == expected
         assert (label in run_data(run)["facts"].values()) == expected
-        assert (label in [panel["label"] for panel in response_panels(run)]) == expected
+        assert ("peak_line_load" in panel_names(run)[1]) == expected
         assert (label in report_page(run)) == expected
         drawn = [axes.get_ylabel() for axes in history(run).axes]
         assert (f"{label} [N/m]" in drawn) == expected
@@ -301,7 +302,7 @@ def test_page_receives_the_list_of_scalars(extended: xr.Dataset, tmp_path: Path)
 def test_scripts_of_the_page_have_no_list_of_scalars() -> None:
     labels = {variable.label for variable in SCALARS.values() if " " in variable.label}
     scripts = [*files("viscontact.web").joinpath("static").iterdir()]
-    scripts += [files("viscontact.report").joinpath("page.js")]
+    scripts += [files("viscontact.figures").joinpath("linked.js")]
     for script in scripts:
         if script.name.endswith(".js") and "plotly" not in script.name:
             text = script.read_text(encoding="utf-8")

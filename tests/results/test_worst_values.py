@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,8 @@ import xarray as xr
 import viscontact as vc
 from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
-from viscontact.report.loops import loops_data
+from viscontact.figures.look import LIGHT
+from viscontact.figures.loops import loops, loops_of
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
 from viscontact.results.summary import headline
@@ -74,12 +76,11 @@ def test_the_last_whole_cycle_gives_least_and_largest_values(cyclic: xr.Dataset)
 
 
 def test_the_loss_of_the_headline_is_the_area_of_the_drawn_loop(cyclic: xr.Dataset) -> None:
-    [loop] = loops_data(cyclic)
-    assert (loop["title"], loop["across"], loop["area"]) == ("Force", "Approach", "loss")
-    part = slice(loop["last"], loop["end"] + 1)
-    approach = np.array(loop["position"][part]) * loop["lengthFactor"]
-    force = np.array(loop["values"][part]) * loop["valueFactor"]
-    area = np.trapezoid(force, approach)
+    [figure] = loops(cyclic, replace(LIGHT, system="si"))
+    assert figure.layout.meta["title"] == "Force over approach [N]"
+    assert figure.layout.meta["note"].endswith("The area inside is the loss of a cycle.")
+    _, last, _ = figure.data
+    area = np.trapezoid(last.y, last.x)
     found = re.search(r"the loss per cycle is ([\d.]+) µJ", headline(cyclic))
     assert found is not None
     # A polygon of 32 corners in an ellipse has this part of its area.
@@ -98,7 +99,7 @@ def test_a_single_cycle_is_a_loop_but_no_last_cycle() -> None:
     )
     assert last_cycle(ds) is None
     assert "last cycle" not in headline(ds)
-    assert [loop["name"] for loop in loops_data(ds)] == ["loop-force"]
+    assert [loop.name for loop in loops_of(ds)] == ["loop-force"]
 
 
 def test_the_fields_of_the_end_are_kept_and_early_ones_are_noted(tmp_path: Path) -> None:

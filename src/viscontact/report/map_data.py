@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import base64
-import csv
-import io
 import math
 from typing import Any, Literal
 
@@ -12,9 +10,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from viscontact.figures.shown_fields import ShownFields
 from viscontact.plot.layout.style import time_colours
 from viscontact.plot.pressure.rim_polygons import rim_curves
-from viscontact.report.shown_fields import ShownFields
 from viscontact.results.recorded_motion import contact_edges
 from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import Snapshot, labels_of
@@ -105,49 +103,6 @@ def line_load_data(fields: ShownFields) -> dict[str, Any]:
 
 def _unit_of_values(si: str, unit: ReadableUnit) -> dict[str, Any]:
     return {"valueUnit": unit.symbol, "valueFactor": unit.factor, "si": si}
-
-
-def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
-    """Position of a section, such as ``"at y = 0 mm"``."""
-    unit, crossings = fields.window.unit, _crossings(fields, along)
-    if len(set(crossings)) > 1:
-        return "through each resultant"
-    other = "y" if along == "x" else "x"
-    return f"at {other} = {format_compact(float(unit(crossings[0])), 4)} {unit.symbol}"
-
-
-def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
-    """Write the section at every instant shown as CSV, in SI units."""
-    crossings, other = _crossings(fields, along), "y" if along == "x" else "x"
-    places = [f", {other} = {at!r} m" if fields.body else "" for at in crossings]
-    return _csv(fields, along, "pressure", "Pa", _lines(fields, along), places)
-
-
-def line_load_csv(fields: ShownFields) -> str:
-    """Write the line load at every instant shown as CSV, in SI units."""
-    lines = [each.line_load() for each in fields.snapshots]
-    return _csv(fields, "x", "line load", "N/m", lines, [""] * len(lines))
-
-
-def _csv(
-    fields: ShownFields,
-    along: str,
-    quantity: str,
-    units: str,
-    lines: list[tuple[Floats, Floats]],
-    places: list[str],
-) -> str:
-    """Write positions, and a column of values for each instant, with its place in the heading."""
-    heads = [
-        f"{quantity} at {each.time!r} {each.axis.unit}{place} [{units}]"
-        for each, place in zip(fields.snapshots, places, strict=True)
-    ]
-    file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow([f"{along} [m]", *heads])
-    columns = [lines[0][0].tolist(), *(values.tolist() for _, values in lines)]
-    writer.writerows(zip(*columns, strict=True))
-    return file.getvalue()
 
 
 def strides_of(fields: ShownFields) -> tuple[int, int]:

@@ -7,19 +7,21 @@ from importlib.resources import files
 from itertools import chain
 from pathlib import Path
 from string import Template
-from typing import Any
 from xml.etree.ElementTree import Element
 
 import xarray as xr
+from plotly.graph_objects import Figure
 from plotly.offline import get_plotlyjs
 
 from viscontact import __version__
+from viscontact.figures.histories import histories
+from viscontact.figures.look import plain
+from viscontact.figures.loops import loops
+from viscontact.figures.pressure_map import outlines, pressure_map
+from viscontact.figures.sections import sections
+from viscontact.figures.shown_fields import ShownFields, shown_fields
 from viscontact.notebook.html import as_script, element, written
 from viscontact.report import input_chapters, result_chapters
-from viscontact.report.histories import load_panels, response_panels, time_axis
-from viscontact.report.loops import loops_data
-from viscontact.report.map_data import curves_data, map_data
-from viscontact.report.shown_fields import ShownFields, shown_fields
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
@@ -104,17 +106,18 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         )
     ds = in_order(ds)
     fields = _fields(ds)
-    data = _data(ds, fields)
+    over_run = *histories(ds), loops(ds)
+    drawn = [*_over_surface(ds, fields), *chain(*over_run)]
     folder, name = files("viscontact.report"), result_chapters.heading_of(ds, label)
     template = Template((folder / "page.html").read_text(encoding="utf-8"))
     return template.substitute(
         generator=f"viscontact {__version__}",
         title=written(element("title", name)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, _body(name, ds, fields, data))),
-        data=as_script(data),
+        body="\n".join(map(written, _body(name, ds, fields, over_run))),
+        figures=as_script([plain(each) for each in drawn]),
         plotly=get_plotlyjs(),
-        script=(folder / "page.js").read_text(encoding="utf-8"),
+        linked=(files("viscontact.figures") / "linked.js").read_text(encoding="utf-8"),
     )
 
 
@@ -125,22 +128,15 @@ def _fields(ds: xr.Dataset) -> ShownFields | None:
         return None
 
 
-def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
-    """Data of the page's figures."""
-    return {
-        "time": time_axis(ds),
-        "load": load_panels(ds),
-        "answers": response_panels(ds),
-        "loops": loops_data(ds),
-        "map": None if fields is None else map_data(fields),
-        "sections": [] if fields is None else curves_data(ds, fields),
-    }
+def _over_surface(ds: xr.Dataset, fields: ShownFields | None) -> list[Figure]:
+    """Figures of the pressure, from top to bottom; none without fields."""
+    return [] if fields is None else [pressure_map(fields), *sections(ds, fields), outlines(fields)]
 
 
 def _body(
-    name: str, ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]
+    name: str, ds: xr.Dataset, fields: ShownFields | None, over_run: tuple[list[Figure], ...]
 ) -> Iterable[Element]:
-    histories = result_chapters.history_chapter(ds, data)
+    histories = result_chapters.history_chapter(ds, *over_run)
     titles = CHAPTERS if run_axis(ds) is TIME else CHAPTERS | {"histories": "Over speed"}
     if run_axis(ds) is SPEED:
         histories = chain(input_chapters.speed_table(ds), histories)

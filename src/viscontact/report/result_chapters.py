@@ -5,23 +5,23 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
-from typing import Any, Literal
+from typing import Literal
 from urllib.parse import quote
 from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
+from plotly.graph_objects import Figure
 
+from viscontact.figures.histories import LINEAR, LOGARITHMIC
+from viscontact.figures.look import LIGHT
+from viscontact.figures.pressure_map import MOST_CELLS, strides_of
+from viscontact.figures.run_scale import run_scale
+from viscontact.figures.sections import section_place
+from viscontact.figures.shown_fields import ShownFields
 from viscontact.notebook.html import element
 from viscontact.report.limits import notices
-from viscontact.report.map_data import (
-    MOST_CELLS,
-    line_load_csv,
-    section_csv,
-    section_place,
-    strides_of,
-)
-from viscontact.report.shown_fields import ShownFields
+from viscontact.report.section_csv import line_load_csv, section_csv
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_motion import motion_axis
@@ -99,30 +99,29 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
     yield element("figure", element("div", "", id="outlines", class_="plot"))
 
 
-def history_chapter(ds: xr.Dataset, data: dict[str, Any]) -> Iterator[Element]:
+def history_chapter(
+    ds: xr.Dataset, load: list[Figure], response: list[Figure], loops: list[Figure]
+) -> Iterator[Element]:
     """Yield the panels of load and motion, of the contact's response, and loops."""
-    axis, answers = data["time"], data["answers"]
-    other = f"Show the other scale of {run_axis(ds).name}"
-    button = element("button", other, type="button", id="time-scale")
     csv = io.StringIO()
     write_history(ds, csv)
     yield element(
         "div",
-        button if axis["log"] is not None else None,
+        _scale_button(ds),
         _download("Download the history (CSV)", "history.csv", csv.getvalue()),
         class_="downloads",
     )
     yield element("h3", "Load" if motion_axis(ds) is None else "Load and motion")
-    yield element("div", *map(_panel, data["load"]), class_="panels")
+    yield element("div", *map(_panel, load), class_="panels")
     yield element("h3", "Contact")
-    yield element("div", *map(_panel, answers), class_="panels")
+    yield element("div", *map(_panel, response), class_="panels")
     legend = "Shaded: the error of each value. "
-    if any(panel["note"] == MESH_DEPENDENT for panel in answers):
+    if any(each.layout.meta["note"] == MESH_DEPENDENT for each in response):
         legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
     yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
-    if data["loops"]:
+    if loops:
         yield element("h3", "Loops")
-        yield element("div", *map(_loop, data["loops"]), class_="panels")
+        yield element("div", *map(_loop, loops), class_="panels")
 
 
 def _facts(ds: xr.Dataset) -> Element:
@@ -191,10 +190,10 @@ def _map(fields: ShownFields) -> Element:
         "div",
         element("button", "Play", type="button", id="play"),
         slider,
-        element("output", "", id="instant", for_="slider"),
+        element("output", "", id="instant", for_="slider", data_title="map"),
         class_="controls",
     )
-    account = element("span", "", id="map-account")
+    account = element("span", "", data_note="map")
     caption = element("figcaption", account, f". {_remarks(fields)}")
     return element(
         "figure", controls, element("div", "", id="map", class_="plot"), caption, class_="map"
@@ -238,24 +237,37 @@ def _line_load(fields: ShownFields) -> Element:
     )
 
 
-def _panel(panel: dict[str, Any]) -> Element:
-    note = element("span", f" ({panel['note']})") if panel["note"] else None
-    unit = f" [{panel['unit']}]" if panel["unit"] else ""
+def _scale_button(ds: xr.Dataset) -> Element | None:
+    """Button that shows the other scale of time or speed, where there is one."""
+    scale = run_scale(ds, LIGHT)
+    if not scale.has_log:
+        return None
+    shown = LOGARITHMIC if scale.starts_log else LINEAR
+    words = {
+        "data_linear": f"Show linear {scale.axis.name}",
+        "data_log": f"Show logarithmic {scale.axis.name}",
+    }
+    text = words["data_linear" if scale.starts_log else "data_log"]
+    return element("button", text, type="button", id="time-scale", data_shown=shown, **words)
+
+
+def _panel(figure: Figure) -> Element:
+    about = figure.layout.meta
+    note = element("span", f" ({about['note']})") if about["note"] else None
     return element(
         "div",
-        element("p", panel["label"] + unit, note, class_="panel-title"),
-        element("div", "", id=f"history-{panel['name']}", class_="plot"),
+        element("p", about["title"], note, class_="panel-title"),
+        element("div", "", id=about["name"], class_="plot"),
     )
 
 
-def _loop(loop: dict[str, Any]) -> Element:
-    title = f"{loop['title']} over {loop['across'].lower()} [{loop['valueUnit']}]"
-    earlier = "Bold: the last cycle. " if loop["last"] else ""
+def _loop(figure: Figure) -> Element:
+    about = figure.layout.meta
     return element(
         "figure",
-        element("p", title, class_="panel-title"),
-        element("div", "", id=loop["name"], class_="plot"),
-        element("figcaption", f"{earlier}The area inside is the {loop['area']} of a cycle."),
+        element("p", about["title"], class_="panel-title"),
+        element("div", "", id=about["name"], class_="plot"),
+        element("figcaption", about["note"]),
     )
 
 

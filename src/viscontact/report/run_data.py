@@ -7,15 +7,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from viscontact.figures.histories import panel_names
+from viscontact.figures.look import LIGHT
+from viscontact.figures.run_scale import run_scale
+from viscontact.figures.shown_fields import shown_fields
 from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.plot.motion.friction import friction_limits, limit_speeds
 from viscontact.report.accuracy import accuracy_lines
-from viscontact.report.histories import panel_labels, time_axis
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.loops import loops_data
 from viscontact.report.map_data import curves_data, finite_or_none, map_data, rounded
 from viscontact.report.result_chapters import title_of
-from viscontact.report.shown_fields import shown_fields
 from viscontact.results.run_axis import TIME, in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import drawn_values, errors_of
@@ -44,7 +46,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
     if not ds.sizes.get(axis.name):
         raise ValueError(f"figures need one {axis.row} at least, got a result without any; run it")
     ds = in_order(ds)
-    given, answers = panel_labels(ds)
+    given, answers = ({name: SCALARS[name].label for name in names} for names in panel_names(ds))
     return {
         "title": title_of(ds),
         "axis": _axis(ds),
@@ -76,7 +78,7 @@ def _axis(ds: xr.Dataset) -> dict[str, Any]:
     return {
         **{"name": axis.name, "unit": axis.unit, "symbol": axis.symbol, "row": axis.row},
         "values": rounded(axis.values(ds), 12),
-        "startsLog": bool(suits_log_time(ds) if axis is TIME else time_axis(ds)["startsLog"]),
+        "startsLog": bool(suits_log_time(ds) if axis is TIME else run_scale(ds, LIGHT).starts_log),
     }
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.display import Displayable, result_plots
+from viscontact.display import Displayable, result_explorer, result_plots
 
 
 @xr.register_dataset_accessor("viscontact")
@@ -38,6 +38,10 @@ class ResultAccessor(Displayable):
     def plot(self) -> Any:
         """Its figures: ``plot.pressure_map()`` and the like, each of which returns axes."""
         return result_plots(self.result)
+
+    def explore(self, *, dark: bool = False, units: str = "auto") -> Any:
+        """Pressure map and sections with a slider, see `viscontact.figures.explore`."""
+        return result_explorer(self.result, dark=dark, units=units)
 
     def __repr__(self) -> str:
         return str(self)
