@@ -14,8 +14,7 @@ from viscontact.cli import main
 
 pytest.importorskip("afmformats")
 
-# Curve of a cell on a JPK CellHesion 200, from the tests of afmformats (MIT license), where it is
-# tests/data/fmt-jpk-fd_spot3-0192.jpk-force.
+# Curve of a cell on a JPK CellHesion 200; cell.jpk-force.txt has its source and license.
 CELL = Path(__file__).with_name("cell.jpk-force")
 
 
