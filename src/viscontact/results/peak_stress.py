@@ -120,12 +120,14 @@ def _largest(field: xr.Dataset, depths: Array, name: str) -> _Found:
     close = np.linspace(depths[max(at - 1, 0)], depths[min(at + 1, depths.size - 1)], _CLOSE)
     finer = _over(field, close, name)
     best = int(finer.argmax())
-    value, error = float(finer[best]), 0.0
+    value, depth, error = float(finer[best]), float(close[best]), 0.0
     if 0 < best < _CLOSE - 1:  # up to the vertex of the parabola through three depths
         before, here, after = finer[best - 1 : best + 2].tolist()
         bend = 2 * here - before - after
-        error = (after - before) ** 2 / (8 * bend) if bend > 0 else 0.0
-    return _Found(value + error, float(close[best]), error, close)
+        if bend > 0:
+            error = (after - before) ** 2 / (8 * bend)
+            depth += float(close[1] - close[0]) * (after - before) / (2 * bend)
+    return _Found(value + error, depth, error, close)
 
 
 def _over(field: xr.Dataset, depths: Array, name: str) -> Array:
