@@ -70,8 +70,9 @@ def _image(part: Element) -> Iterator[dict[str, Any]]:
     source = part.get("src", "")
     if source.startswith(_SVG):
         svg = base64.b64decode(source.removeprefix(_SVG)).decode("utf-8")
-        width = float(part.get("width", "600")) * _POINTS
-        yield {"kind": "image", "svg": svg, "about": part.get("alt", ""), "width": width}
+        width, height = (float(part.get(side, "600")) * _POINTS for side in ("width", "height"))
+        size = {"width": width, "height": height}
+        yield {"kind": "image", "svg": svg, "about": part.get("alt", ""), **size}
 
 
 def _text(part: Element) -> str:

@@ -17,6 +17,9 @@ from viscontact import __version__
 from viscontact.notebook.html import element, written
 from viscontact.plot.layout.saving import as_svg
 from viscontact.plot.sweeps.response import response
+from viscontact.report.result_chapters import heading_of
+from viscontact.report.title_block import file_lines, title_lines
+from viscontact.report.verdict_chapter import LEGEND
 from viscontact.results.formatting import format_with_error_in
 from viscontact.results.largest_values import (
     compared_scalars,
@@ -28,6 +31,7 @@ from viscontact.results.largest_values import (
 )
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT
 from viscontact.results.variables import SCALARS
+from viscontact.results.verdicts import stated_limits
 from viscontact.units.formatting import format_compact, readable_unit
 
 #: Most rows of the table, and most runs with a message.
@@ -45,26 +49,48 @@ def write_sweep_report(ds: xr.Dataset, path: str | Path, *, title: str) -> None:
 def sweep_page(ds: xr.Dataset, *, title: str) -> str:
     """Return the runs of a sweep as one page of HTML that needs nothing from outside.
 
-    It has the number of runs in each state, a figure of the chief scalars over the varied keys, and
-    a row for each run.
+    It has the title block, the number of runs in each state, a figure of the chief scalars over the
+    varied keys, a row for each run, and the input files.
     """
     folder = files("viscontact.report")
     template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
     return template.substitute(
         generator=f"viscontact {__version__}",
-        title=written(element("title", title)),
+        title=written(element("title", sweep_heading(ds, title))),
         style=(folder / "page.css").read_text(encoding="utf-8"),
         body="\n".join(map(written, sweep_chapters(ds, title))),
     )
 
 
 def sweep_chapters(ds: xr.Dataset, title: str) -> Iterator[Element]:
-    """Yield the states, the figure of the response, and the table of the runs."""
-    yield element("header", element("h1", title), _states(ds), _reasons(ds), _changes(ds))
+    """Yield title block, states, figure of the response, table of the runs, and input files."""
+    heading = element("h1", sweep_heading(ds, title))
+    yield from title_lines(ds, "First run started")
+    yield element("header", heading, _states(ds), _reasons(ds), _changes(ds))
     if (ds["state"] == "done").any():
         yield element("section", element("h2", "Response"), *_figure(ds))
-    yield element("section", element("h2", "Runs"), *_table(ds))
+    yield element("section", element("h2", "Runs"), *_limits(ds), *_table(ds))
+    if files := list(file_lines(ds)):
+        yield element("section", *files)
     yield element("p", f"Made by viscontact {__version__}.", class_="faint")
+
+
+def sweep_heading(ds: xr.Dataset, title: str) -> str:
+    """Heading of a sweep: the title of its case with that of the sweep, or the latter alone.
+
+    >>> sweep_heading(xr.Dataset(attrs={"title": "Ball"}), "forces")
+    'Ball (forces)'
+    """
+    return heading_of(ds, title) if ds.attrs.get("title") else title
+
+
+def _limits(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the allowable values with which all runs were compared, and what a verdict means."""
+    if "verdict" in ds:
+        given = (" ".join(each) for each in stated_limits(ds))
+        allowed = "; ".join(given) or "of each run"
+        yield element("p", f"Allowable: {allowed}. The verdict of a run is its worst.")
+        yield element("p", LEGEND, class_="faint")
 
 
 def _states(ds: xr.Dataset) -> Element:
@@ -119,22 +145,26 @@ def _listed(lines: list[str]) -> Element | None:
 
 def _table(ds: xr.Dataset) -> Iterator[Element]:
     columns = [*_key_columns(ds), *_scalar_columns(ds)]
-    if "verdict" in ds:
-        columns.append(("Verdict", ds["verdict"].values.ravel().tolist()))
+    judged = ds["verdict"].values.ravel().tolist() if "verdict" in ds else None
     states, runs = ds["state"].values.ravel(), ds["run"].values.ravel()
     rows = [
         element(
             "tr",
             element("th", str(runs[run])),
-            element("td", str(states[run])),
-            *(element("td", texts[run], class_="number") for _, texts in columns),
+            element("td", str(states[run]), data_head="state"),
+            *(
+                element("td", texts[run], class_="number", data_head=heading)
+                for heading, texts in columns
+            ),
+            element("td", judged[run], class_=judged[run], data_head="verdict") if judged else None,
         )
         for run in range(min(states.size, MOST_ROWS))
     ]
     heads = (element("th", heading, class_="number") for heading, _ in columns)
-    head = element("tr", element("th", "run"), element("th", "state"), *heads)
-    table = element("table", element("thead", head), element("tbody", *rows))
-    yield element("div", table, class_="scroll")
+    last = element("th", "verdict") if judged else None
+    head = element("tr", element("th", "run"), element("th", "state"), *heads, last)
+    table = element("table", element("thead", head), element("tbody", *rows), class_="stacked runs")
+    yield element("div", table, class_="scroll verdicts" if judged else "scroll")
     more = "" if states.size <= MOST_ROWS else f"The first {MOST_ROWS} of {states.size} runs. "
     collect = element("code", "viscontact collect")
     legend = f"{more}Largest values over {over_of(ds)}, with their errors. "

@@ -11,20 +11,20 @@ from viscontact.notebook.html import element
 from viscontact.results.filed_case import input_files, started_at, title_block
 
 
-def title_entries(ds: xr.Dataset) -> list[tuple[str, str]]:
-    """Entries of the title block, and date and time of the run, those that are known.
+def title_entries(ds: xr.Dataset, start: str = "Run started") -> list[tuple[str, str]]:
+    """Entries of the title block, and date and time of the start, those that are known.
 
     >>> title_entries(xr.Dataset(attrs={"title_block": '{"project": "P-7", "revision": "B"}'}))
     [('Project', 'P-7'), ('Revision', 'B')]
     """
     entries = [(name.capitalize(), value) for name, value in title_block(ds).items()]
     started = started_at(ds)
-    return [*entries, ("Run started", started)] if started else entries
+    return [*entries, (start, started)] if started else entries
 
 
-def title_lines(ds: xr.Dataset) -> Iterator[Element]:
+def title_lines(ds: xr.Dataset, start: str = "Run started") -> Iterator[Element]:
     """Yield the title block, if it has entries."""
-    if entries := title_entries(ds):
+    if entries := title_entries(ds, start):
         pairs = (
             element("div", element("dt", name), element("dd", value)) for name, value in entries
         )

@@ -79,6 +79,16 @@ def verdicts(ds: xr.Dataset) -> list[Verdict]:
     return [_so_far(each) for each in found] if not ds.attrs.get("complete", 1) else list(found)
 
 
+def stated_limits(ds: xr.Dataset) -> list[tuple[str, str]]:
+    """Return names of the limited quantities and the limits with their units.
+
+    >>> stated_limits(xr.Dataset(attrs={"allowable": '{"peak_pressure": {"limit": 65e6}}'}))
+    [('Peak pressure', '65 MPa')]
+    """
+    limits = (Verdict(name, each["limit"], "undecided") for name, each in _given(ds).items())
+    return [(each.label, each.allowed) for each in limits]
+
+
 def final_verdicts(ds: xr.Dataset) -> list[Verdict]:
     """Return the verdicts on a run whose last row is there, whatever the result states so far."""
     return [verdict_on(ds, name, float(each["limit"])) for name, each in _given(ds).items()]

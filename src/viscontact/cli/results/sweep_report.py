@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.cli.terminal.messages import refuse
+from viscontact.runs.sweep.filed_sweep import filed_attributes
 from viscontact.runs.sweep.open_many import open_many
 
 
@@ -14,6 +15,7 @@ def write_page(package: Any, directory: Path, page: Path) -> None:
     try:
         as_pdf = page.suffix.lower() == ".pdf"
         write = package.write_sweep_pdf if as_pdf else package.write_sweep_report
-        write(open_many(directory), page, title=directory.resolve().name)
+        runs = open_many(directory).assign_attrs(filed_attributes(directory))
+        write(runs, page, title=directory.resolve().name)
     except (ValueError, OSError) as error:
         refuse(f"{page}: {error}")
