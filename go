@@ -53,11 +53,13 @@ def test(args: list[str]) -> int:
 
 
 def lint(args: list[str]) -> int:
-    """Check style, format and types; `--fix` corrects the first two."""
+    """Check style, format and types, and the JavaScript; `--fix` corrects the first two."""
     fix = "--fix" in args
     style = ["ruff", "check", "--fix"] if fix else ["ruff", "check"]
     layout = ["ruff", "format"] if fix else ["ruff", "format", "--check"]
-    return max([run(["-m", *check]) for check in (style, layout, ["mypy"])])
+    scripts = ["--deny-warnings", "-c", ".ci/oxlint.json", "src/viscontact"]
+    checks = [run(["-m", *check]) for check in (style, layout, ["mypy"])]
+    return max(*checks, run(scripts, program=PYTHON.with_name(f"oxlint{PYTHON.suffix}")))
 
 
 def docs(args: list[str]) -> int:
@@ -208,9 +210,9 @@ def clean() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name not in foreign}
 
 
-def run(args: list[str], folder: Path = ROOT) -> int:
-    """Run the Python of the environment in a folder, and return its exit status as a shell does."""
-    child = subprocess.Popen([str(PYTHON), *args], cwd=folder, env=clean())
+def run(args: list[str], folder: Path = ROOT, program: Path = PYTHON) -> int:
+    """Run a program of the environment in a folder, and return its exit status as a shell does."""
+    child = subprocess.Popen([str(program), *args], cwd=folder, env=clean())
     # The child receives Ctrl-C, too; it finishes its step and saves: wait for it.
     signal.signal(signal.SIGINT, lambda *_: None)
     for name in ("SIGTERM", "SIGHUP"):

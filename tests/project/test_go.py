@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -189,6 +190,33 @@ def test_arguments_reach_pytest_and_slow_means_all(
     monkeypatch.setattr(go, "run", lambda args: ran.append(args) or 0)
     go.main(["test", "--slow", "-x"])
     assert ran[0][-3:] == ["-m", "", "-x"]
+
+
+def test_lint_finds_a_name_that_no_script_defines(tmp_path: Path) -> None:
+    linter = shutil.which("oxlint", path=Path(sys.executable).parent)
+    if linter is None:
+        pytest.skip("there is no oxlint beside this Python")
+    options = ("--deny-warnings", "-c", str(ROOT / ".ci" / "oxlint.json"))
+    script = tmp_path / "a.js"
+    for text, code in (("document.title = titel;\n", 1), ("document.title = 'a';\n", 0)):
+        script.write_text(text, encoding="utf-8")
+        done = subprocess.run([linter, *options, script], capture_output=True, text=True)
+        assert done.returncode == code, done.stdout
+        assert ("'titel' is not defined" in done.stdout) == bool(code)
+
+
+def test_lint_checks_python_and_javascript(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[str] = []
+
+    def run(args: list[str], program: Path | None = None) -> int:
+        ran.append(args[1] if program is None else program.stem)
+        return 0
+
+    monkeypatch.setattr(go, "run", run)
+    assert go.main(["lint"]) == 0
+    assert ran == ["ruff", "ruff", "mypy", "oxlint"]
 
 
 def test_the_manual_is_built_strictly_and_without_what_is_gone(

@@ -14,7 +14,7 @@ export function chosen(path, anew = null) {
 
 // Called before a choice: values that were set aside are tried again.
 export function putBack(path) {
-  for (const [name, { group, key, value }] of [...aside]) {
+  for (const [name, { group, key, value }] of aside) {
     if (group !== dotted(path)) continue;
     aside.delete(name);
     if (valueAt([...path, key]) === undefined) setValue([...path, key], value);
