@@ -21,9 +21,11 @@ version = release = viscontact.__version__
 extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
+    "sphinx.ext.intersphinx",
     "sphinx.ext.viewcode",
     "numpydoc",
     "myst_parser",
+    "sphinx_copybutton",
     "sphinx_gallery.gen_gallery",
     "equations",
     "line_breaks",
@@ -35,7 +37,14 @@ numfig = math_numfig = True  # (4.2) is the second equation of the fourth page o
 numfig_secnum_depth = 1
 numfig_format = {"figure": "%.0s", "table": "%.0s", "code-block": "%.0s"}  # no numbers
 templates_path = ["_templates"]
-exclude_patterns = ["_ext", "_static", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
+exclude_patterns = [
+    "_ext",
+    "_inventories",
+    "_static",
+    "_templates",
+    "gallery",
+    "generated/gallery/**/*.ipynb",
+]
 nitpicky = True
 suppress_warnings = ["config.cache"]  # due to the gallery's scraper, a function
 
@@ -48,12 +57,12 @@ myst_dmath_double_inline = True
 # --- the API ------------------------------------------------------------------------------------
 
 default_role = "autolink"  # links names in docstrings if they are public
-nitpick_ignore_regex = [("py:obj", r"functools\..*")]  # the manual points to no other one
+nitpick_ignore_regex = [("py:obj", r"functools\..*")]  # not in an inventory below
 autosummary_generate = True
 autodoc_preserve_defaults = True  # as they are written: some are long
 autodoc_typehints = "none"  # numpydoc's sections say it
 numpydoc_show_class_members = False
-# Types of ours are links; other words are not, as the manual points to no other one.
+# Types of ours, of NumPy and of xarray are links; other words are not.
 numpydoc_xref_param_type = True
 numpydoc_xref_ignore = "all"
 numpydoc.xref.DEFAULT_LINKS.clear()
@@ -62,7 +71,24 @@ numpydoc_xref_aliases = {
     for package in (viscontact.verify, viscontact.reference, identification, viscontact)
     for name in package.__all__
     if name[0].isupper()
-} | {"Film": "viscontact.plot.Film", "Richardson": "viscontact.accuracy.richardson.Richardson"}
+} | {
+    "Film": "viscontact.plot.Film",
+    "Richardson": "viscontact.accuracy.richardson.Richardson",
+    "ndarray": "numpy.ndarray",
+    # numpydoc links no name that is its own alias; the dot changes nothing else.
+    "xarray.DataArray": ".xarray.DataArray",
+    "xarray.DataTree": ".xarray.DataTree",
+    "xarray.Dataset": ".xarray.Dataset",
+}
+# The names that are linked, so that the build needs no network; by hand from the manuals at these
+# addresses.
+intersphinx_mapping = {
+    "numpy": ("https://numpy.org/doc/stable/", "_inventories/numpy.inv"),
+    "xarray": ("https://docs.xarray.dev/en/stable/", "_inventories/xarray.inv"),
+}
+# What is copied are the commands, without their prompts and what they print.
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
 add_module_names = False
 toc_object_entries_show_parents = "hide"  # the page says whose they are
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from bibliography import bibliography
 from case_file import case_file_reference
 from command_line import command_line_reference
 from sphinx.application import Sphinx
@@ -106,6 +107,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "changes": _changes,
     "contributing": _contributing,
     "citation": _citation,
+    "bibliography": bibliography,
     "a roller in a notebook": _roller,
     "a result in a notebook": _result,
 }
