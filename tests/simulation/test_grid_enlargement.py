@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -155,7 +156,10 @@ def test_run_continues_to_the_same_bits_before_and_after_its_grid_grows(kind: st
         assert differing(whole[count:], steps_of(March(run, restart_data))) == []
 
 
-def test_result_is_on_the_last_grid_and_records_when_it_grew() -> None:
+def test_result_is_on_the_last_grid_and_records_when_it_grew(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    caplog.set_level(logging.INFO, logger="viscontact")
     prepare, small = RUNS["sphere"]
     run = growing(prepare(small))
     states = states_of(run)
@@ -175,6 +179,9 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew() -> None:
     lines = ds.attrs["grid_enlarged"].splitlines()
     assert lines[0].startswith("t = 250 ms: from 20 x 20 cells on 800 µm x 800 µm to 30 x 30")
     assert len(lines) == len({state.grid.shape for state in states}) - 1
+    said = [record.getMessage() for record in caplog.records]
+    assert said[0] == "t = 0.25 s: grid enlarged to 30 x 30 cells"
+    assert len(said) == len(lines)
 
 
 def test_contact_beyond_the_automatic_extent_is_followed(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from dataclasses import dataclass, replace
 
@@ -49,6 +50,8 @@ from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_
 from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact, MeshTrial
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
+
+_LOG = logging.getLogger("viscontact")
 
 #: Upper limit on cells for a contact that is small at first only.
 MAX_CELLS_EARLY = 2**18
@@ -100,10 +103,20 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     mesh = _refined_for_largest(indenter, request, largest, size, choice)
     mesh = _refined_for_ring(problem, end, largest, choice, mesh)
     mesh = _limited_by_map(indenter, largest, mesh)
+    _log(mesh)
     if request.largest_cell is None:
         return mesh
     ends = straight_ends(indenter, mesh.grid.size, largest.estimate.reach_from(centre), centre)
     return replace(mesh, grid=with_small_cells(mesh.grid, request.largest_cell, ends))
+
+
+def _log(mesh: Mesh) -> None:
+    errors = ", ".join(f"{name} {error:.2g}" for name, error in mesh.errors.items())
+    (nx, ny), (length, width) = mesh.grid.shape, mesh.grid.size
+    _LOG.info(
+        "automatic grid: %d x %d cells over %.4g x %.4g m; expected errors: %s",
+        *(nx, ny, length, width, errors or "unknown"),
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,6 +26,8 @@ from scipy import fft
 
 from viscontact.grid import GRID_QUANTITIES
 from viscontact.meshing.trial_mesh import ElasticContact, MeshTrial, try_mesh
+
+_LOG = logging.getLogger("viscontact")
 
 #: Tolerance of a trial solve: this part of the tolerance, at most the second value.
 TRIAL_TOLERANCE_SHARE, MAX_TRIAL_TOLERANCE = 0.01, 1e-4
@@ -94,6 +97,7 @@ def refine_mesh(
     while True:
         # Step 1: errors on this mesh.
         trial = try_mesh(pressing, shape, exact)
+        _LOG.debug("trial grid: %d x %d cells", *trial.shape)
         trials.append(trial)
         is_last = _is_last(trial, _refined(trial, names, tolerance, finest), most_cells)
         is_exact = PEAK not in names or (_factors(trial, (PEAK,), tolerance) == 1).all()

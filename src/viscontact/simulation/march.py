@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 
 from viscontact.contact.domain import ContactDomain
@@ -18,6 +19,8 @@ from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
+
+_LOG = logging.getLogger("viscontact")
 
 
 class March:
@@ -115,6 +118,7 @@ class March:
             failed = trial.outcome is Outcome.NOT_CONVERGED
             if failed or self._steps.accept_step(trial.error.relative):
                 return step, trial
+            _LOG.debug("step to t = %.6g s: error %.2g, repeated", step.time, trial.error.relative)
 
     def _outgrows(self, step: Step, trial: TrialStep) -> bool:
         """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
@@ -126,6 +130,7 @@ class March:
         larger = next_grid(self._run.grid, *over)
         if larger is None:
             raise DomainError(_too_large(self._run, step))
+        _LOG.info("t = %.6g s: grid enlarged to %d x %d cells", step.time, *larger.shape)
         self._enlarge(larger)
         return True
 
@@ -142,6 +147,10 @@ class March:
         self.outcome = trial.outcome
         _refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
+        _LOG.debug(
+            "step to t = %.6g s: %d iterations, residual %.2g",
+            *(step.time, solution.iterations, solution.residual),
+        )
         if step.requested is None:
             return None
         self.done += 1

@@ -10,6 +10,7 @@ import typer
 
 from viscontact.cli.commands.drawing import Width
 from viscontact.cli.terminal.interruption import watched_interruption
+from viscontact.cli.terminal.log import logged
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, stop
 from viscontact.runs.processes.request import RunRequest
 
@@ -100,6 +101,16 @@ TaskNumber = Annotated[
         help="Compute run N, from 0, of a manifest: run --task N DIR/runs.jsonl.",
     ),
 ]
+Verbose = Annotated[
+    int,
+    typer.Option(
+        "--verbose",
+        "-v",
+        count=True,
+        show_default=False,
+        help="Print the choice of the grid and other steps of the work; -vv prints each time step.",
+    ),
+]
 Threads = Annotated[int, typer.Option(min=1, help="Number of threads of a Fourier transform.")]
 
 
@@ -137,6 +148,7 @@ def run(
     ] = None,
     threads: Threads = 1,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
+    verbose: Verbose = 0,
 ) -> None:
     """Run a case and write its result to a directory; several runs get a directory each.
 
@@ -144,7 +156,7 @@ def run(
     """
     common = RunRequest(cases[0], output, overwrite, resume, tuple(settings or ()), threads, quiet)
     try:
-        with watched_interruption() as interruption:
+        with watched_interruption() as interruption, logged(verbose):
             # An import that is interrupted may end in any error: the request waits for its end.
             with interruption.postponed():
                 from viscontact.cli.many.design_options import DesignOptions
@@ -192,6 +204,7 @@ def check(
     plot: Annotated[bool, typer.Option("--plot", help="Draw the indenter as well.")] = False,
     width: Width = None,
     settings: Settings = None,
+    verbose: Verbose = 0,
 ) -> None:
     """Check a case, and estimate its size, its computing time and its results."""
     from viscontact.cli.run.check import print_forecast
@@ -204,8 +217,9 @@ def check(
         from viscontact.cli.results.figures import chosen_width
 
         page = chosen_width(width, drawn=plot, switch="--plot")
-    prepared = prepare(case, settings or [])
-    expected = print_forecast(prepared)
+    with logged(verbose):
+        prepared = prepare(case, settings or [])
+        expected = print_forecast(prepared)
     if plot:
         from viscontact.cli.run.drawing import draw_body
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
@@ -24,6 +25,8 @@ from viscontact.runs.directory.recorded import Marching, Recorded, remove_restar
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.simulation.state_generator import Progress
 from viscontact.state import ContactState, Outcome
+
+_LOG = logging.getLogger("viscontact")
 
 #: Least time between two checkpoints: in seconds, and as a multiple of what the last one took.
 PAUSE, SHARE = 1.0, 20.0
@@ -92,6 +95,7 @@ class Recorder:
                 on_begin()
             opened.pop_all()
         record._rows, record._place = int(saved.result["rows"]), saved.reached
+        _LOG.info("%s: resumed after %d states", recorded.directory, record._rows)
         record.saved = record.shown = record.resumed = record._reached
         return record
 
