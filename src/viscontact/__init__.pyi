@@ -4,6 +4,7 @@ from . import figures as figures
 from . import notebook as notebook
 from . import plot as plot
 from . import reference as reference
+from . import report as report
 from . import surfaces as surfaces
 from . import verify as verify
 from .case import shipped_material as shipped_material

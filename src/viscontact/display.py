@@ -42,6 +42,11 @@ def result_explorer(result: object, **how: Any) -> Any:
     return viscontact.figures.explore(result, **how)
 
 
+def write_design_report(*arguments: object, **options: object) -> None:
+    """Write the report of a design, by `viscontact.report`, imported when first used."""
+    viscontact.report.write_design_report(*arguments, **options)
+
+
 class DisplayableGroup(Displayable, ABC):
     """Group of objects that are displayed one below the other."""
 

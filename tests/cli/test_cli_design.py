@@ -34,6 +34,9 @@ def test_a_design_writes_the_best_case_and_the_trials(capsys: pytest.CaptureFixt
         read_case("found/best.yaml").indenter
         == read_case("ball.yaml", ["indenter.radius=6 mm"]).indenter
     )
+    page = Path("found/report.html").read_text(encoding="utf-8")
+    assert "Before and after" in page
+    assert page.count("data:image/svg+xml") == 3  # pressure, line load and trials
     with xr.open_dataset("found/trials.nc") as table:
         assert table["indenter.radius"].values.tolist() == [5e-3, 4e-3, 6e-3]
         assert table.peak_pressure.attrs["units"] == "Pa"

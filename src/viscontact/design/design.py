@@ -184,16 +184,19 @@ def _searched(evaluation: Evaluation, space: Space, scenarios: Design, own: Case
     table = table_of(
         evaluation.trials, space.keys, _own_values(own, space.keys), names, goal, limits
     )
-    notes = tuple(notes_on(best, search))
+    notes, number = tuple(notes_on(best, search)), evaluation.trials.index(best)
+    about = {"goal": goal.scalar, "sense": "least" if goal.least else "largest", "at": str(goal.at)}
+    about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
     return DesignResult(
-        table,
+        table.assign_attrs(about, best=number),
         dict(best.settings),
         notes,
         evaluation.runs,
         evaluation.case,
         evaluation.settings,
         goal,
-        evaluation.trials.index(best),
+        number,
+        tuple(evaluation.scenarios),
     )
 
 

@@ -13,8 +13,8 @@ from typing import Any
 import xarray as xr
 
 from viscontact.case import Case, read_case
-from viscontact.design.goals import Constraint, Goal
-from viscontact.design.trials import Level, ScenarioResult, Trial, goal_name
+from viscontact.design.goals import Constraint, Goal, magnitude
+from viscontact.design.trials import REACH, Level, ScenarioResult, Trial, goal_name
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.indenters import (
@@ -112,6 +112,7 @@ class Evaluation:
             raise found
         values = {goal_name(self.goal): self.goal.value(found)}
         values |= {str(each): each.value(found) for each in self.constraints}
+        values[REACH] = magnitude(found, REACH, "worst", largest=True)
         warned = str(found.attrs.get("warnings", ""))
         if AT_THE_END in warned and ends_sharply(read_case(run.case, run.assignments).indenter):
             peaks = [goal_name(self.goal)] * (self.goal.scalar == PEAK)

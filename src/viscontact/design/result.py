@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +14,12 @@ import xarray as xr
 from viscontact.case import Case, read_case
 from viscontact.design.goals import Constraint, Goal, Value
 from viscontact.design.trials import Trial, goal_name
+from viscontact.display import write_design_report
+from viscontact.errors import AccuracyWarning
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.runs.sweep.axes import coordinate
+from viscontact.runs.sweep.varied_runs import VariedRun
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,7 @@ class DesignResult:
     fixed: Mapping[str, str]
     goal: Goal
     number: int  # of the best trial
+    scenarios: tuple[Mapping[str, str], ...]
 
     @property
     def best(self) -> xr.Dataset:
@@ -80,6 +86,48 @@ class DesignResult:
     def case_text(self) -> str:
         """Best case as YAML."""
         return self.best_case.text
+
+    def report(self, path: str | PathLike[str]) -> None:
+        """Write a page of HTML: pressures before and after, gains, and all trials.
+
+        The case and the best one are computed once more, in the scenario that decides.
+
+        Parameters
+        ----------
+        path : path-like
+            The page, by custom ending in ``.html``.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If the packages of figures are not installed.
+        OSError
+            If the file cannot be written.
+        """
+        title = f"Design of {self.case.stem}: {self.goal}"
+        runs = self.before_and_after()
+        write_design_report(self.table, runs, path, title=title, headline=str(self))
+
+    def before_and_after(self) -> dict[str, xr.Dataset]:
+        """Results of the case and of the best one, in the scenario that decides.
+
+        Fields are kept at the first and at the last instant. The case is left out if it fails.
+        """
+        runs = {"case": self._run({})} if not self.table["message"].values[0] else {}
+        return runs | {"best": self._run(self.settings)}
+
+    def _run(self, settings: Mapping[str, str]) -> xr.Dataset:
+        values = self.best[f"{self.goal.scalar}_of_scenarios"].values
+        number = values.argmax() if self.goal.least else values.argmin()
+        scenario = self.scenarios[int(number)]
+        whole = {**self.fixed, **scenario, **settings}
+        texts = [f"{key}={value}" for key, value in whole.items()]
+        instants = read_case(self.case, [*texts, "output.fields=none"]).instants
+        ends = dict.fromkeys((float(instants[0]), float(instants[-1])))
+        whole["output.fields"] = f"[{', '.join(f'{time!r} s' for time in ends)}]"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
+            return VariedRun(self.case, whole, tuple(settings), "", "", "cases")()
 
     def __str__(self) -> str:
         values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())

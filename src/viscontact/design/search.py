@@ -21,11 +21,14 @@ Point = tuple[float, ...]
 #: Cost of a relative excess over a bound, in parts of the objective: an exact penalty, as long as
 #: the objective changes less than this for a given relative change of the bound.
 PENALTY = 10.0
-#: Cost of a value without a limit, in parts of it.
-UNLIMITED = 0.2
+#: Most that the reach of a contact adds to the cost of a value without a limit. A contact that
+#: reaches the sharp end of a body has a smaller cost the less it reaches.
+MOST_REACH = 5.0
+#: Times the patience of a search that has found no feasible trial.
+NOTHING_FEASIBLE = 3
 #: Trials in which a search must gain something, for each parameter and for the search itself: of
 #: the whole space, and of the surroundings of the best trial.
-PATIENCE, LOCAL_PATIENCE = 6, 2
+PATIENCE, LOCAL_PATIENCE = 6, 3
 #: Least gain that counts, relative to the objective, where the error is not known or smaller.
 LEAST_GAIN = 1e-3
 #: Most trials that are certified on the cells of the case, before the local search.
@@ -169,7 +172,7 @@ class _Watched:
 
     def __init__(self, search: Search, level: Level, patience: int) -> None:
         self._search, self._level, self._patience = search, level, patience
-        self._scale = 0.0  # size of the first objective
+        self._scale = self._reach = 0.0  # sizes of the first objective, and of the first reach [m]
         self._mark = math.inf  # best cost when something was gained last
         self._tried, self._last = 0, 0
 
@@ -186,10 +189,11 @@ class _Watched:
         if not math.isfinite(value.value):
             return 2 * PENALTY
         self._scale = self._scale or abs(value.value) or 1.0
-        cost = (
-            evaluation.goal.cost(value.value) + UNLIMITED * abs(value.value) * value.depends_on_mesh
-        )
-        return cost / self._scale + PENALTY * min(trial.violation(evaluation.constraints), 1.0)
+        self._reach = self._reach or trial.reach() or 1.0
+        if value.depends_on_mesh:
+            return PENALTY + min(trial.reach() / self._reach, MOST_REACH)
+        cost = evaluation.goal.cost(value.value) / self._scale
+        return cost + PENALTY * min(trial.violation(evaluation.constraints), 1.0)
 
     def _watch(self, trial: Trial, cost: float, *, is_new: bool) -> None:
         self._tried += is_new
@@ -197,7 +201,10 @@ class _Watched:
         least = max(LEAST_GAIN, error / self._scale if math.isfinite(error) else 0.0)
         if cost < self._mark - least:
             self._mark, self._last = cost, self._tried
-        if self._tried - self._last >= self._patience:
+        patience = self._patience
+        if self._search.best(self._level) is None:
+            patience *= NOTHING_FEASIBLE
+        if self._tried - self._last >= patience:
             raise _NothingGainedError
 
 

@@ -9,6 +9,9 @@ from typing import Literal
 
 from viscontact.design.goals import Constraint, Goal, Value
 
+#: Scalar that shows how far a contact reaches, where it reaches a sharp end.
+REACH = "contact_length"
+
 #: Cells of a run: coarse ones of the search, or those of the case.
 Level = Literal["coarse", "case"]
 
@@ -48,6 +51,11 @@ class Trial:
             return _NONE
         # A value without a limit is worse than any number.
         return max(values, key=lambda each: (each.depends_on_mesh, goal.cost(each.value)))
+
+    def reach(self) -> float:
+        """Largest extent of a contact along x [m]; zero if it is not known."""
+        lengths = [each.values.get(REACH, _NONE).value for each in self.results]
+        return max((each for each in lengths if not math.isnan(each)), default=0.0)
 
     def extreme(self, constraint: Constraint) -> Value:
         """Value of a constraint in the scenario that comes closest to its bound, or exceeds it."""

@@ -43,6 +43,7 @@ from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces,
 from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
 from viscontact.plot.sweeps.response import response
+from viscontact.plot.sweeps.trials import trials
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,
@@ -128,5 +129,6 @@ __all__ = [
     "save_figure",
     "save_film",
     "stress_section",
+    "trials",
     "von_mises_history",
 ]

@@ -1,6 +1,13 @@
 """A run as one self-contained page of HTML, to look at and to send."""
 
+from viscontact.report.design_page import write_design_report
 from viscontact.report.page import report_page, write_report
 from viscontact.report.sweep_page import sweep_page, write_sweep_report
 
-__all__ = ["report_page", "sweep_page", "write_report", "write_sweep_report"]
+__all__ = [
+    "report_page",
+    "sweep_page",
+    "write_design_report",
+    "write_report",
+    "write_sweep_report",
+]

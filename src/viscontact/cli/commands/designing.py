@@ -73,7 +73,7 @@ def design(
     """Find the values of a case for which a scalar is least or largest.
 
     The search begins on coarse cells; the best trials are computed on the cells of the case. DIR
-    gets best.yaml and trials.nc.
+    gets best.yaml, trials.nc and report.html.
     """
     from viscontact.cli.design.execution import execute_design
     from viscontact.cli.design.options import DesignRequest

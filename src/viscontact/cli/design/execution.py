@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 from viscontact.case import CaseError
 from viscontact.cli.design.options import DesignRequest, as_typed
@@ -14,7 +15,10 @@ from viscontact.design.design import design
 from viscontact.design.history import HISTORY_NAME
 from viscontact.design.result import DesignResult
 from viscontact.design.result_files import BEST_NAME
+from viscontact.errors import ConvergenceError, DomainError
 
+#: Report in the directory of a design.
+REPORT_NAME = "report.html"
 #: Runs between two lines of progress, where the output is no terminal.
 _LINE_RUNS = 10
 
@@ -49,6 +53,7 @@ def execute_design(request: DesignRequest, *, resume: bool, quiet: bool) -> None
             code=INTERRUPTED,
         )
     _print(found)
+    _report(found, request.output / REPORT_NAME)
     print(request.output / BEST_NAME)
 
 
@@ -63,6 +68,20 @@ def _lines() -> Callable[[int, int], None]:
             say(f"{done} runs of at most {allowed}")
 
     return line
+
+
+def _report(found: DesignResult, page: Path) -> None:
+    """Write the report where the packages of figures are installed."""
+    try:
+        found.report(page)
+    except ModuleNotFoundError as error:
+        if error.name not in ("matplotlib", "contourpy", "plotly"):
+            raise
+        say(f"without a report: it needs {error.name}: pip install 'viscontact[plot]'")
+    except (ConvergenceError, DomainError, ValueError, OSError) as error:
+        say(f"without a report: {error}")
+    else:
+        print(page)
 
 
 def _print(found: DesignResult) -> None:

@@ -1,0 +1,171 @@
+"""Design of a case as one page of HTML: before and after, and the trials."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterator, Mapping
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from viscontact import __version__
+from viscontact.notebook.html import element, written
+from viscontact.plot.histories.history import compare_histories
+from viscontact.plot.layout.saving import as_svg
+from viscontact.plot.pressure.line_load import compare_line_loads
+from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
+from viscontact.plot.sweeps.trials import parameters_of, trials
+from viscontact.results.formatting import format_percent, format_with_error
+from viscontact.results.largest_values import key_label
+from viscontact.results.variables import SCALARS, error_name
+from viscontact.units.formatting import format_quantity
+
+
+def write_design_report(
+    table: xr.Dataset,
+    runs: Mapping[str, xr.Dataset],
+    path: str | Path,
+    *,
+    title: str,
+    headline: str,
+) -> None:
+    """Write the trials of a design, and its runs before and after, as one page of HTML.
+
+    `runs` are results with fields by their names, in the scenario that decides; `headline` is the
+    sentence of the result. OSError if the file cannot be written.
+    """
+    folder = files("viscontact.report")
+    template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
+    page = template.substitute(
+        generator=f"viscontact {__version__}",
+        title=written(element("title", title)),
+        style=(folder / "page.css").read_text(encoding="utf-8"),
+        body="\n".join(map(written, _chapters(table, runs, title, headline))),
+    )
+    Path(path).write_text(page, encoding="utf-8")
+
+
+def _chapters(
+    table: xr.Dataset, runs: Mapping[str, xr.Dataset], title: str, headline: str
+) -> Iterator[Element]:
+    yield element(
+        "header", element("h1", title), element("p", headline, class_="headline"), _notes(table)
+    )
+    yield element("section", element("h2", "Before and after"), *_values(table), *_figures(runs))
+    yield element("section", element("h2", "Trials"), _trials_figure(table), *_trials(table))
+    yield element("p", f"Made by viscontact {__version__}.", class_="faint")
+
+
+def _notes(table: xr.Dataset) -> Element | None:
+    notes = [line for line in str(table.attrs.get("notes", "")).splitlines() if line]
+    if not notes:
+        return None
+    return element(
+        "div", element("ul", *(element("li", text) for text in notes)), class_="warnings"
+    )
+
+
+def _values(table: xr.Dataset) -> Iterator[Element]:
+    """Parameters, and the goal in each scenario, before and after."""
+    goal, best = str(table.attrs["goal"]), int(table.attrs["best"])
+    rows = [
+        (key_label(key), *(_parameter(table[key], trial) for trial in (0, best)), "")
+        for key in parameters_of(table)
+    ]
+    worst = f"{SCALARS[goal].label}, worst scenario"
+    rows.append(
+        (worst, *(_goal(table, goal, trial) for trial in (0, best)), _gain(table, goal, best))
+    )
+    if table.sizes["scenario"] > 1:
+        for number, name in enumerate(table["scenario"].values.tolist()):
+            one = table.isel(scenario=number)
+            columns = [_goal(one, goal, trial, "_of_scenarios") for trial in (0, best)]
+            gain = _gain(one, goal, best, "_of_scenarios")
+            rows.append((f"{SCALARS[goal].label}, {name}", *columns, gain))
+    for text in filter(None, str(table.attrs.get("constraints", "")).split("; ")):
+        name = text.split()[0]
+        rows.append((text, *(_goal(table, name, trial) for trial in (0, best)), ""))
+    yield _made_table(("", "case", "best", "change"), rows)
+
+
+def _goal(table: xr.Dataset, name: str, trial: int, suffix: str = "") -> str:
+    column = f"{name}{suffix}"
+    value, error = (float(table[each].values[trial]) for each in (column, error_name(column)))
+    return "" if np.isnan(value) else format_with_error(value, error, SCALARS[name].units)
+
+
+def _gain(table: xr.Dataset, name: str, best: int, suffix: str = "") -> str:
+    """Relative change; empty where a value is not known or has no limit."""
+    column = f"{name}{suffix}"
+    before, after = (float(table[column].values[trial]) for trial in (0, best))
+    has_limit = not np.isposinf(table[error_name(column)].values[[0, best]]).any()
+    if not (np.isfinite(before) and before and has_limit):
+        return ""
+    part = after / before - 1
+    return f"{'+' if part > 0 else '−'}{format_percent(abs(part))}"
+
+
+def _parameter(column: xr.DataArray, trial: int) -> str:
+    value: Any = column.values[trial]
+    if not np.issubdtype(column.dtype, np.number):
+        return str(value)
+    return format_quantity(float(value), str(column.attrs.get("units", "1")), 5)
+
+
+def _figures(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
+    """Pressure and line load at the first and the last instant, and the scalars over time."""
+    if not runs:
+        return
+    for draw, caption in (
+        (
+            compare_pressure_profiles,
+            "Pressure along x in the scenario that decides, first and last instant.",
+        ),
+        (compare_line_loads, "Line load: the pressure integrated over y."),
+        (compare_histories, "Over time, as the body creeps."),
+    ):
+        is_history = draw is compare_histories
+        if is_history and any(run.sizes.get("time", 1) < 3 for run in runs.values()):
+            continue
+        try:
+            yield _figure(draw(runs), caption)
+        except ValueError as error:  # no contact at these instants
+            yield element("p", f"{caption} Not drawn: {error}", class_="faint")
+
+
+def _trials_figure(table: xr.Dataset) -> Element:
+    return _figure(trials(table), "The goal in the worst scenario over each parameter.")
+
+
+def _figure(drawn: Figure, caption: str) -> Element:
+    drawing = base64.b64encode(as_svg(drawn)).decode()
+    image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt=caption)
+    frame = element("div", image, class_="scroll")
+    return element("figure", frame, element("figcaption", caption))
+
+
+def _trials(table: xr.Dataset) -> Iterator[Element]:
+    """Table of all trials."""
+    goal, keys = str(table.attrs["goal"]), parameters_of(table)
+    rows = []
+    for trial in range(table.sizes["trial"]):
+        values = [_parameter(table[key], trial) for key in keys]
+        level, message = (str(table[name].values[trial]) for name in ("level", "message"))
+        why = "no limit" if np.isposinf(table[error_name(goal)].values[trial]) else "not feasible"
+        state = "feasible" if table["feasible"].values[trial] else message or why
+        rows.append((str(trial), level, *values, _goal(table, goal, trial), state))
+    head = ("trial", "cells", *map(key_label, keys), SCALARS[goal].label, "")
+    yield _made_table(head, rows)
+
+
+def _made_table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> Element:
+    heads = element("tr", *(element("th", text) for text in head))
+    body = [element("tr", *(element("td", text) for text in row)) for row in rows]
+    table = element("table", element("thead", heads), element("tbody", *body))
+    return element("div", table, class_="scroll")
