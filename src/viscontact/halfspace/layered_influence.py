@@ -11,14 +11,19 @@ with M = R/π, that of 1/(π r), this is Love's X asinh(Y/X)/π. The integrand i
 of half width π/2, whatever the thickness of the layers. Farther away, a Gauss rule over the cell.
 
 Far away a surface is a half-space of L(0) times the compliance. Along a period the coefficients are
-those of this half-space (`periodic_influence`), and the sum over the images of the rest, which
-decays exponentially on a rigid base and as c/r³ on an elastic one. The images beyond a distance R,
-on both sides, add (2 c/l) ∫_R^∞ (x² + y²)^(-3/2) dx per unit area.
+those of this half-space (`periodic_influence`), and the sum over the images of the rest f, which
+decays exponentially on a rigid base and as c/r³ on an elastic one. The images of a period l beyond
+a distance R, on both sides, add per unit area, by Euler's and Maclaurin's formula at midpoints,
+
+    (2/l) ∫_R^∞ f dx - l B_2(1/2 + x/l) f'(R) - (l³/12) B_4(1/2 + x/l) f'''(R)
+
+for an offset x along the period, with Bernoulli's polynomials (Abramowitz & Stegun 1964, 23.1.30).
 """
 
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,9 +47,15 @@ LONGEST_PIECE, SHORT_PIECE, ON_EDGE = 3.0, 0.6, 1e-12
 #: Ratio of the distances up to which tables of the kernel reach, and its largest power.
 REACHES, MOST_REACHES = 16.0, 7
 
+#: Gauss nodes over each piece of the sum over far images, and relative step of a derivative there.
+TAIL_RULE, SLOPE_STEP = np.polynomial.legendre.leggauss(6), 0.02
+
 #: Rest of π r k(r) below which images are left out, and its part of L(0) below which they decay as
-#: 1/r³; the farthest and the least distance of that in thicknesses, and the fewest images.
-REST_VANISHED, REST_DECAYED, FARTHEST, LEAST_REACH, LEAST_IMAGES = 1e-12, 1e-4, 1e5, 80.0, 6
+#: 1/r³; the farthest and the least distance of that in thicknesses.
+REST_VANISHED, REST_DECAYED, FARTHEST, LEAST_REACH = 1e-12, 1e-4, 1e5, 1e3
+
+#: Distance in thicknesses up to which images are summed one by one, and the fewest of them.
+NEAR, LEAST_IMAGES = 40.0, 6
 
 
 def layered_influence_table(
@@ -126,8 +137,9 @@ def periodic_layered_coefficient(
         return table
     if nx == 1:
         return table + strip_coefficient(y, dy, response)
-    reach, cubic = _reach_of_rest(response, nx * dx)
-    images = math.ceil(reach / (nx * dx))
+    period = nx * dx
+    reach, cubic = _reach_of_rest(response, period)
+    images = math.ceil(max(min(reach, NEAR * response.length), LEAST_IMAGES * period) / period)
     count = nx * images + nx // 2 + 1
     rest = layered_influence_coefficient(y, count, (dy, dx), response)
     if response.long_waves:
@@ -136,10 +148,52 @@ def periodic_layered_coefficient(
     # Offsets i + m nx of all images, those of x < 0 by symmetry.
     offsets = np.abs(np.arange(-images, images + 1)[:, None] * nx + np.arange(nx // 2 + 1))
     folded = rest.T[offsets].sum(axis=0)
-    # The images beyond.
-    last = (images + 0.5) * nx * dx
-    folded += 2 * cubic * dy / nx / (last * np.hypot(last, y) + last**2 + y**2)
+    last = (images + 0.5) * period
+    cells = (places[:, 0], y)
+    folded += dx * dy * _images_beyond(last, (reach, cubic), cells, (dx, dy), period, response)
     return np.asarray(table + folded)
+
+
+def _images_beyond(
+    last: float,
+    far: tuple[float, float],
+    offsets: tuple[Array, Array],
+    cell_size: tuple[float, float],
+    period: float,
+    response: SurfaceResponse,
+) -> Array:
+    """Sum of the rest over the images beyond a distance `last`, mean over cells [1/m].
+
+    `far`: where the decay as c/r³ begins [m], and c [m²]; `offsets`: x and y of the cells [m].
+    """
+    (reach, cubic), (x, y), (nodes, weights) = far, offsets, CELL_RULE
+    end = max(reach, last)
+    kernel = smooth_kernel(response, 2 * (end + float(np.abs(y).max())))
+    excess = response.long_waves - response.short_waves
+    north = y + nodes[:, None] * cell_size[1] / 2
+
+    def rest(along: Array | float) -> Array:
+        r = np.hypot(along, north)
+        return np.asarray(weights @ (kernel.value(r) - excess / (np.pi * r)) / 2)
+
+    # Panels that grow with the distance.
+    total = np.zeros(y.shape)
+    edges = np.geomspace(last, end, 2 + int(4 * math.log(end / last)))
+    for begin, stop in pairwise(edges):
+        for node, weight in zip(*TAIL_RULE, strict=True):
+            total += (stop - begin) / 2 * weight * rest((begin + stop + node * (stop - begin)) / 2)
+    total += cubic / (end * np.hypot(end, y) + end**2 + y**2)
+    # Euler's and Maclaurin's corrections, with derivatives by central differences.
+    step = SLOPE_STEP * last
+    two_back, back, on, two_on = (rest(last + k * step) for k in (-2, -1, 1, 2))
+    first = (8 * (on - back) - (two_on - two_back)) / (12 * step)
+    third = ((two_on - two_back) - 2 * (on - back)) / (2 * step**3)
+    place = 0.5 + (x + nodes[:, None] * cell_size[0] / 2) / period
+    second_polynomial = weights @ (place**2 - place + 1 / 6) / 2
+    fourth_polynomial = weights @ (place**4 - 2 * place**3 + place**2 - 1 / 30) / 2
+    corrections = np.outer(period * second_polynomial, first)
+    corrections += np.outer(period**3 / 12 * fourth_polynomial, third)
+    return np.asarray(2 / period * total - corrections)
 
 
 def _reach_of_rest(response: SurfaceResponse, period: float) -> tuple[float, float]:
