@@ -72,7 +72,7 @@ numpydoc_xref_aliases = {
     for name in package.__all__
     if name[0].isupper()
 } | {
-    "Film": "viscontact.plot.Film",
+    "Animation": "viscontact.plot.Animation",
     "Richardson": "viscontact.accuracy.richardson.Richardson",
     "ndarray": "numpy.ndarray",
     # numpydoc links no name that is its own alias; the dot changes nothing else.

@@ -130,8 +130,8 @@ def linked_back(body: str) -> str:
 
     Examples
     --------
-    >>> linked_back("../generated/viscontact.plot.Film.html#viscontact.Film.seconds")
-    '../generated/viscontact.plot.Film.html#viscontact.plot.Film.seconds'
+    >>> linked_back("../generated/viscontact.plot.Animation.html#viscontact.Animation.seconds")
+    '../generated/viscontact.plot.Animation.html#viscontact.plot.Animation.seconds'
     """
 
     def relinked(found: re.Match[str]) -> str:

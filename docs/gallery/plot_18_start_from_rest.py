@@ -2,8 +2,8 @@
 A cylinder starts from rest
 ===========================
 
-A rigid cylinder is pressed on a viscoelastic half-space and starts at once at a constant speed. The
-contact is left behind until it has formed anew under the moving cylinder, and the friction
+A rigid cylinder is pressed on a viscoelastic half-space and starts suddenly at a constant speed.
+The contact is left behind until it has formed anew under the moving cylinder, and the friction
 coefficient settles to that of steady motion, Hunter's exact solution (1961).
 """
 

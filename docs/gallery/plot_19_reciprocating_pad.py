@@ -25,7 +25,7 @@ rubber = vc.Material(law, poisson_ratio=0.5)
 pad = vc.Paraboloid(20e-3, 20e-3)
 held = vc.step(2.0, tilt_x=0.0, tilt_y=0.0)
 grid = vc.Grid((36, 56), (7.2e-3, 11.2e-3))
-# The force is applied at once and then held: the first steps are long against the law.
+# The force is applied instantly and then held: the first steps are long against the law.
 warnings.simplefilter("ignore", vc.AccuracyWarning)
 
 runs = {

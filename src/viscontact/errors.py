@@ -55,7 +55,7 @@ class ConvergenceError(RunError):
 
 
 class DomainError(RunError):
-    """The grid does not fit the contact: pressure at its rim, or too few cells across.
+    """The grid does not fit the contact: pressure at its edge, or too few cells across.
 
     Attributes
     ----------

@@ -173,7 +173,7 @@ LINE = "case.yaml:3: "
         ),
         ({**SWING, "approach": "1 mm"}, "load.mean: mean and approach exclude each other"),
         ({**SWING, "amplitude": "2 mm"}, "load.amplitude: must be a force, as the mean is"),
-        ({**SWING, "amplitude": "4 N"}, "load.mean: the force must never be negative, but swings"),
+        ({**SWING, "amplitude": "4 N"}, "load.mean: the force must never be negative, but varies"),
         ({**SWING, "amplitude": "2 Pa"}, "load.amplitude: cannot read '2 Pa' as a force or a leng"),
         ({**SWING, "cycles": 0}, "load.cycles: must be greater than or equal to 1, got 0"),
         ({**SWING, "cycles": 1.5}, "load.cycles: must be a whole number, got 1.5"),

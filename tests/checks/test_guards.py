@@ -160,9 +160,9 @@ on_map: dict[str, Any] = {
 }
 
 GUARDS = {
-    "contact at the grid's rim": Guard(
+    "contact at the edge of the grid": Guard(
         vc.DomainError,
-        "the contact reaches the grid's rim at t = 0 s; enlarge grid.size",
+        "the contact reaches the edge of the grid at t = 0 s; enlarge grid.size",
         met=Job(grid=vc.Grid((40, 40), (0.2, 0.2))),
         missed=Job(grid=vc.Grid((40, 40), (0.22, 0.22))),
     ),
@@ -292,7 +292,7 @@ GUARDS = {
             times=[0.0, *np.geomspace(0.02, 6, 160), *np.linspace(6, 6.2, 41)[1:]],
         ),
     ),
-    "a load that swings between the instants asked for": Guard(
+    "a load that cycles between the instants asked for": Guard(
         vc.AccuracyWarning,
         "between the requested times the peak pressure reaches",
         met=Job(load=vc.harmonic(5e3, 4e3, 1.0, 2), times=[0.0, 1.0, 2.0]),
@@ -492,7 +492,7 @@ def test_rim_is_guarded_on_every_side(shift: tuple[float, float]) -> None:
     # Free tilts would bring the contact under the force.
     load, grid = vc.step(hertz_force(0.1), tilt_x=0.0, tilt_y=0.0), vc.Grid((50, 50), (0.25, 0.25))
     assert Job(Shifted(0.0, 0.0), load, grid).run() == []
-    with pytest.raises(vc.DomainError, match="grid's rim"):
+    with pytest.raises(vc.DomainError, match="edge of the grid"):
         Job(Shifted(*shift), load, grid).run()
 
 
@@ -542,7 +542,7 @@ EXPECTED = {
     "rim": (
         ["grid.size=[2.1 mm, 2.1 mm]"],
         "will probably overrun the grid",
-        "the contact reaches the grid's rim",
+        "the contact reaches the edge of the grid",
     ),
     "cells": (["grid.shape=[10, 10]"], "fewer than 10 cells across", "only 8 cells lie across"),
     "thickness of the half-space": (["material.thickness=5 mm"], "of the body's thickness"),

@@ -280,10 +280,10 @@ def test_run_that_fails_is_listed_and_the_others_are_collected(
     counts, listed = lines(capsys)
     assert counts == "all: 3 runs: 2 done, 1 failed"
     assert listed.startswith("  failed  force=400N  ")
-    assert "the contact reaches the grid's rim" in listed
+    assert "the contact reaches the edge of the grid" in listed
     ds = vc.open_many("all")
     assert ds.state.values.tolist() == ["done", "failed", "done"]
-    assert "the contact reaches the grid's rim" in ds.message.values[1]
+    assert "the contact reaches the edge of the grid" in ds.message.values[1]
     assert np.isnan(ds.approach).all("time").values.tolist() == [False, True, False]
 
 

@@ -108,7 +108,7 @@ def test_two_crossed_cylinders_need_none():
 
 
 def test_contact_at_the_free_rim_stops_the_run():
-    with pytest.raises(vc.DomainError, match="the contact reaches the grid's rim"):
+    with pytest.raises(vc.DomainError, match="the contact reaches the edge of the grid"):
         run(grid=Grid((1, 16), (PERIOD, 1e-3), periodic=(True, False)))
 
 

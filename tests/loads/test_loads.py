@@ -421,7 +421,7 @@ def test_harmonic_force_that_is_rounding_is_no_load():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"mean": 4.0}, "swings between -1 N and 9 N; give a mean of at least"),
+        ({"mean": 4.0}, "varies between -1 N and 9 N; give a mean of at least"),
         ({"cycles": 0}, "cycles must be a whole number from 1"),
         ({"cycles": 1.5}, "cycles must be a whole number from 1"),
         ({"period": 0.0}, "period must be a positive finite number"),

@@ -450,7 +450,7 @@ def test_what_is_no_series_is_refused_with_a_remedy() -> None:
         with pytest.raises(ValueError, match=r"takes a Prony series.* fit one first"):
             write(card, **IN_MPA)
     sloped = vc.TabulatedCreep([1.0, 2.0], [1e-9, 2e-9], before="slope")
-    with pytest.raises(ValueError, match="needs the modulus at once"):
+    with pytest.raises(ValueError, match="needs the instantaneous modulus"):
         write_abaqus(Card("T", vc.Material(sloped, 0.5)), **IN_MPA)
     with pytest.raises(ValueError, match="instant"):  # a Kelvin body has no modulus at once
         write_ansys(Card("K", vc.Material(vc.CreepSeries(0.0, [1e-9], [1.0]), 0.5)), **IN_MPA)

@@ -18,7 +18,7 @@ from PIL import Image
 import viscontact as vc
 from synthetic_results import maxwell_sphere, roller
 from viscontact.cli import main
-from viscontact.plot import COMPARISONS, FIGURES, Film, ResultPlots, draw_indenter, save_figure
+from viscontact.plot import COMPARISONS, FIGURES, Animation, ResultPlots, draw_indenter, save_figure
 
 assert vc.open_results  # from here on results have their figures
 
@@ -72,7 +72,7 @@ def test_axes_of_ones_own_are_drawn_into_and_returned(sphere: xr.Dataset) -> Non
 
 def test_a_film_is_made_from_a_result(sphere: xr.Dataset) -> None:
     film = sphere.viscontact.plot.animation(seconds=1.0, fps=5.0)
-    assert isinstance(film, Film)
+    assert isinstance(film, Animation)
     assert film.instants.size == 5
 
 

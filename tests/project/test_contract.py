@@ -535,7 +535,9 @@ def test_tolerance_bounds_the_residual() -> None:
 
 def test_contact_at_the_rim_is_a_domain_error_that_keeps_the_completed_steps() -> None:
     small = vc.Grid((32, 32), (1.35e-3, 1.35e-3))  # 1.1 mm at first, 1.4 mm in the end
-    with pytest.raises(vc.DomainError, match=r"reaches the grid's rim at t = .*grid\.size") as stop:
+    with pytest.raises(
+        vc.DomainError, match=r"reaches the edge of the grid at t = .*grid\.size"
+    ) as stop:
         vc.simulate(BALL, RUBBER, vc.step(0.1), small, vc.uniform_times(20.0, 20))
     partial = stop.value.partial
     assert 1 <= partial.sizes["time"] < 21

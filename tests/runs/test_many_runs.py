@@ -112,9 +112,9 @@ def test_varied_values_have_directories_of_their_own_and_the_rim_stops_only_one(
         assert [path.name for path in directory.iterdir()] == ["failure.json"]
         failure = json.loads((directory / "failure.json").read_text(encoding="utf-8"))
         assert (failure["outcome"], failure["code"]) == ("stopped", 1)
-        assert "the contact reaches the grid's rim" in failure["message"][0]
+        assert "the contact reaches the edge of the grid" in failure["message"][0]
     said = capsys.readouterr().err
-    assert "--vary grid: the contact reaches the grid's rim" in said
+    assert "--vary grid: the contact reaches the edge of the grid" in said
     assert "2 of 4 runs failed: zener_force=2N_size=1mm-1mm, zener_force=4N_size=1mm-1mm" in said
     for name, force in zip(names, (2.0, 4.0), strict=True):
         with vc.open_results(Path("forces") / name) as ds:

@@ -23,7 +23,7 @@ PROMISE = 1.01
 
 #: What a run may say instead of a result: the grid that was drawn does not suit the contact, or
 #: a tilt presses at once on a law that cannot follow.
-REFUSALS = ("the contact reaches the grid's rim", "largest contact", "presses from time 0 on")
+REFUSALS = ("the contact reaches the edge of the grid", "largest contact", "presses from time 0 on")
 
 
 def findings(seeds):

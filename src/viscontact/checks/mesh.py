@@ -36,9 +36,9 @@ def layer_warnings(thickness: float, cell_size: tuple[float, float]) -> dict[str
     return {
         "layers": (
             f"the shorter edges of the cells are {shorter:.2g} times the thickness of the thinnest "
-            "layer: near the rim the gap is not that of a half-space, so that the contact area may "
-            "be off by about 1 %, and the approach on a nearly incompressible layer more; use "
-            "smaller cells"
+            "layer: near the edge of the contact the gap is not that of a half-space, so that the "
+            "contact area may be off by about 1 %, and the approach on a nearly incompressible "
+            "layer more; use smaller cells"
         )
     }
 

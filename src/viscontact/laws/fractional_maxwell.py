@@ -170,7 +170,7 @@ class FractionalMaxwell(Law):
 
     def _relaxation(self, t: Floats) -> Floats:
         a, b, ratio = self.exponent, self.second_exponent, t / self.time
-        with np.errstate(divide="ignore"):  # infinite at once
+        with np.errstate(divide="ignore"):  # infinite at t = 0
             early = ratio**-b
         relaxed = mittag_leffler(ratio ** (a - b), a - b, 1 - b)
         return np.asarray(self.shear_modulus * early * relaxed)

@@ -27,7 +27,7 @@ class FractionalZener(Law):
     Parameters
     ----------
     shear_modulus : float
-        Modulus at once (glassy), G_g [Pa], above `equilibrium_modulus`.
+        Instantaneous (glassy) modulus G_g [Pa], above `equilibrium_modulus`.
     equilibrium_modulus : float
         Modulus left after all relaxation, G_e >= 0 [Pa].
     time : float

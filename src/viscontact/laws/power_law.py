@@ -33,7 +33,7 @@ class PowerLaw(Law):
     reference_time : float
         τ > 0 [s].
     instant : float, optional
-        Compliance at once, J_0 >= 0 [1/Pa]. Zero, as in atomic force microscopy of cells, is a
+        Instantaneous compliance J_0 >= 0 [1/Pa]. Zero, as in atomic force microscopy of cells, is a
         law that cannot follow a jump of the load.
 
     Raises
@@ -166,7 +166,7 @@ class PowerLaw(Law):
                 "dashpot (exponent 1), got 0.0 1/Pa; without one a step in strain takes an "
                 "infinite stress (a Dirac impulse)"
             )
-        with np.errstate(divide="ignore"):  # infinite at once
+        with np.errstate(divide="ignore"):  # infinite at t = 0
             powers = ratio**-n
         gammas = scipy.special.rgamma(1 + n) * scipy.special.rgamma(1 - n)
         return np.asarray(powers * (gammas / (2 * self.compliance)))

@@ -70,7 +70,7 @@ class CreepSeries(SeriesLaw):
     Parameters
     ----------
     instant : float
-        Compliance at once, J_0 = 1/(2 G_0) >= 0 [1/Pa]. Zero is a law that cannot follow a
+        Instantaneous compliance J_0 = 1/(2 G_0) >= 0 [1/Pa]. Zero is a law that cannot follow a
         jump of the load.
     amplitudes : sequence of float
         Delayed compliances J_i >= 0 [1/Pa].

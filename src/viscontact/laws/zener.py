@@ -19,7 +19,7 @@ class Zener(SeriesLaw):
     Parameters
     ----------
     shear_modulus : float
-        G_1 > 0 of the spring, the modulus at once [Pa].
+        G_1 > 0 of the spring, the instantaneous modulus [Pa].
     delayed_modulus : float
         G_2 > 0 of the Kelvin unit's spring [Pa].
     viscosity : float

@@ -46,7 +46,7 @@ class ApproachHistory(PiecewiseHistory):
 
     Examples
     --------
-    Pressed in by 1 um in 1 s, held for 2 s, withdrawn at once:
+    Pressed in by 1 um in 1 s, held for 2 s, withdrawn instantly:
 
     >>> history = ApproachHistory(times=[0, 1, 3, 3], approach=[0, 1e-6, 1e-6, -1e-6])
     >>> history.approach_at([0.5, 2.0, 3.0, 9.0]).tolist()

@@ -45,7 +45,7 @@ class ForceHistory(PiecewiseHistory):
 
     Examples
     --------
-    Up to 10 N in 1 s, held for 2 s, dropped to 4 N at once:
+    Up to 10 N in 1 s, held for 2 s, dropped to 4 N instantly:
 
     >>> history = ForceHistory(times=[0, 1, 3, 3], force=[0, 10, 10, 4])
     >>> history.force_at([0.5, 2.0, 3.0, 9.0]).tolist()

@@ -166,7 +166,7 @@ def harmonic(
     deviation = _number("amplitude", amplitude, control)
     if control == "force" and abs(deviation) > middle:
         raise ValueError(
-            "harmonic: the force must never be negative, but swings between "
+            "harmonic: the force must never be negative, but varies between "
             f"{format_quantity(middle - deviation, 'N', 9)} and "
             f"{format_quantity(middle + deviation, 'N', 9)}; give a mean of at least the amplitude"
         )

@@ -15,8 +15,8 @@ except ModuleNotFoundError as error:
         name="matplotlib",
     ) from error
 
-from viscontact.plot.film.animation import Film, animation
-from viscontact.plot.film.saving import FILM_SUFFIXES, save_film
+from viscontact.plot.animations.animation import Animation, animation
+from viscontact.plot.animations.saving import ANIMATION_SUFFIXES, save_animation
 from viscontact.plot.geometry.indenter_drawing import draw_indenter
 from viscontact.plot.geometry.indenter_figure import indenter
 from viscontact.plot.geometry.load_drawing import draw_load
@@ -84,12 +84,12 @@ COMPARISONS: dict[str, Callable[..., Figure]] = {
 """Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
 
 __all__ = [
+    "ANIMATION_SUFFIXES",
     "COMPARISONS",
     "FIGURES",
     "FIGURE_SUFFIXES",
-    "FILM_SUFFIXES",
     "STEADY_FIGURES",
-    "Film",
+    "Animation",
     "ResultPlots",
     "animation",
     "compare_contact_outlines",
@@ -126,8 +126,8 @@ __all__ = [
     "pressure_surface",
     "require_suffix",
     "response",
+    "save_animation",
     "save_figure",
-    "save_film",
     "stress_section",
     "trials",
     "von_mises_history",

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from viscontact.plot.film.animation import Film, animation
+from viscontact.plot.animations.animation import Animation, animation
 from viscontact.plot.geometry.indenter_figure import indenter
 from viscontact.plot.histories.contact_area import contact_area
 from viscontact.plot.histories.exact import exact
@@ -61,13 +61,13 @@ class ResultPlots:
 
     result: xr.Dataset
 
-    def __call__(self, figure: str, **how: Any) -> Panels | Film:
+    def __call__(self, figure: str, **how: Any) -> Panels | Animation:
         """Draw a figure by its name on the command line, such as ``"pressure-map"``."""
         method = getattr(self, figure.replace("-", "_"), None)
         if figure.startswith("_") or figure == "result" or method is None:
             names = [name.replace("_", "-") for name in vars(type(self)) if name[0] != "_"]
             raise ValueError(f"no figure is called {figure!r}; there are {', '.join(names)}")
-        drawn: Panels | Film = method(**how)
+        drawn: Panels | Animation = method(**how)
         return drawn
 
     def pressure_map(self, **how: Any) -> Panels:
@@ -95,7 +95,7 @@ class ResultPlots:
         return self._panels(line_load, how)
 
     def contact_outline(self, **how: Any) -> Panels:
-        """Draw the rim of the contact at several instants: `viscontact.plot.contact_outline`."""
+        """Draw outlines of the contact at several instants: `viscontact.plot.contact_outline`."""
         return self._panels(contact_outline, how)
 
     def contact_area(self, **how: Any) -> Panels:
@@ -138,8 +138,8 @@ class ResultPlots:
         """Draw sections and plan of the indenter: `viscontact.plot.indenter`."""
         return self._panels(indenter, how)
 
-    def animation(self, **how: Any) -> Film:
-        """Make an animation: `viscontact.plot.animation`; `viscontact.plot.save_film` saves it."""
+    def animation(self, **how: Any) -> Animation:
+        """Make an animation, for `viscontact.plot.save_animation`: `viscontact.plot.animation`."""
         return animation(self.result, **how)
 
     def _panels(self, draw: Callable[..., Figure], how: dict[str, Any]) -> Panels:

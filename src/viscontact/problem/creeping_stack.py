@@ -27,7 +27,7 @@ Array = NDArray[Any]
 class CreepingStack:
     """Compliance C(q, s) of a body of layers whose laws are Prony series.
 
-    A rubber layer on a rigid base under waves much shorter than it is thick, at once and late:
+    A rubber layer on a rigid base under waves much shorter than it is thick, at first and late:
 
     >>> from viscontact.laws import Zener
     >>> from viscontact.materials.layers import Layer

@@ -212,7 +212,7 @@ def constant_poisson_ratio(material: Material) -> float | None:
 
 
 def _growth(compliance: ContactCompliance) -> float:
-    """Creep function after all creep, or a long time, over the one at once [-]."""
+    """Creep function after all creep, or a long time, over the instantaneous one [-]."""
     if compliance.is_elastic:
         return 1.0
     late = min(compliance.settled_after, LATE)

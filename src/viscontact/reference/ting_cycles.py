@@ -194,7 +194,7 @@ def ting_cycles(
     rise : float
         Duration of each loading, and of each unloading [s].
     modulus : float
-        M(0), the contact modulus at once, 1/J(0) [Pa].
+        M(0), the instantaneous contact modulus, 1/J(0) [Pa].
     relaxation_time : float
         τ of M(t) = M(0) exp(-t/τ) [s].
 

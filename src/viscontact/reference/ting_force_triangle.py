@@ -177,7 +177,7 @@ def ting_force_triangle(
     radius : float
         Radius of the sphere [m].
     modulus : float
-        M(0), the contact modulus at once, 1/J(0) [Pa].
+        M(0), the instantaneous contact modulus, 1/J(0) [Pa].
     relaxation_time : float
         τ of M(t) = M(0) exp(-t/τ) [s].
 

@@ -40,7 +40,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Time steps", _steps(ds)
     yield "Cells", _cells(ds)
     if memory := str(ds.attrs.get("memory", "")):
-        yield "Memory of the past", memory
+        yield "History integral", memory
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"

@@ -173,9 +173,9 @@ def _refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
     if not any(over and not repeats for over, repeats in reached):
         return
     raise DomainError(
-        f"grid: the contact reaches the grid's rim at t = {format_quantity(step.time, 's', 6)}; "
-        f"enlarge grid.size, now {format_quantity(run.grid.size[0], 'm')} x "
-        f"{format_quantity(run.grid.size[1], 'm')}"
+        "grid: the contact reaches the edge of the grid at "
+        f"t = {format_quantity(step.time, 's', 6)}; enlarge grid.size, now "
+        f"{format_quantity(run.grid.size[0], 'm')} x {format_quantity(run.grid.size[1], 'm')}"
     )
 
 

@@ -115,7 +115,7 @@ class SurfaceHistory:
             return (values,)
         pressure = values[0]
         others = [self._unit_displacement(pressure, each) for each in self._responses[1:]]
-        if step.weights[0] == 0:  # a law that does not yield at once
+        if step.weights[0] == 0:  # a law that does not yield instantly
             first = self._unit_displacement(pressure, self._responses[0])
         else:  # what the others leave of the whole
             weighted = zip(step.weights[1:], others, strict=True)

@@ -189,8 +189,8 @@ def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
             else f"Enlarge grid.size, now {size}, move grid.centre, or leave the grid out"
         )
         raise DomainError(
-            f"grid: the contact reaches the grid's rim at {speed}; it need not lie at the body's "
-            f"centre. {remedy}"
+            f"grid: the contact reaches the edge of the grid at {speed}; it need not lie at the "
+            f"body's centre. {remedy}"
         )
     if not solution.converged:
         raise ConvergenceError(

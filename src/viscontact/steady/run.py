@@ -107,7 +107,7 @@ def steady(
     ValueError
         If an argument is invalid, or there is no steady state; the message says what to change.
     ConvergenceError, DomainError
-        If a contact is not found, or reaches the rim of a given grid; ``partial`` holds the speeds
+        If a contact is not found, or reaches the edge of a given grid; ``partial`` holds the speeds
         before that one as a dataset, or None.
 
     Warns

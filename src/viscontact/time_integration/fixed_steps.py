@@ -136,11 +136,11 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
     """Times that divide intervals longer than the load allows, while it moves."""
     if math.isinf(longest_step):
         return
-    swings = min(instants[-1], load.curved_until) / longest_step
-    if swings > MAX_STEPS:
+    cycle_steps = min(instants[-1], load.curved_until) / longest_step
+    if cycle_steps > MAX_STEPS:
         raise ValueError(
-            f"load: takes {swings:.3g} steps of {format_quantity(longest_step, 's', 3)} for "
-            f"its swings, and {MAX_STEPS} at most can be taken; give fewer cycles, or end the run "
+            f"load: takes {cycle_steps:.3g} steps of {format_quantity(longest_step, 's', 3)} for "
+            f"its cycles, and {MAX_STEPS} at most can be taken; give fewer cycles, or end the run "
             "earlier"
         )
     for begin, end in itertools.pairwise(instants):

@@ -3,8 +3,8 @@
 Over a step that is long against the law the field first rises from its last value, and then takes a
 straight line to its new one. After a kink that line is level, which is of first order in the step.
 Otherwise it continues from the mean over the same part of the step before, which is of second
-order: where the body relaxes at once, the backward difference formula of two steps (Hairer & Wanner
-1996, Solving Ordinary Differential Equations II, section V.1).
+order: where the body relaxes instantly, the backward difference formula of two steps (Hairer &
+Wanner 1996, Solving Ordinary Differential Equations II, section V.1).
 """
 
 from __future__ import annotations

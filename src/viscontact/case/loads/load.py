@@ -23,7 +23,7 @@ from viscontact.units.dimensions import DIMENSIONS
 
 
 class Step(Controlled):
-    """A force or an approach applied at once, then held."""
+    """A force or an approach applied instantly, then held."""
 
     kind: Literal["step"]
 

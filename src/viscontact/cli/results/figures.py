@@ -50,7 +50,7 @@ def draw(
     folder = directory if directory.is_dir() else directory.parent
     moves = figure == ANIMATION
     file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
-    _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
+    _require_suffix(plot, file, plot.ANIMATION_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
     place = next(
         (name for name in ("times", "speeds") if name in signature(draw_it).parameters), ""
     )
@@ -261,15 +261,15 @@ def _labels(directories: Sequence[Path]) -> list[str]:
 def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
     """Draw and write an animation, and print the name of its file."""
     try:
-        film = plot.animation(ds, **options)
-        stored = len(set(film.instants.tolist()))
-        if stored < film.instants.size / 4:
+        moving = plot.animation(ds, **options)
+        stored = len(set(moving.instants.tolist()))
+        if stored < moving.instants.size / 4:
             say(
-                f"{film.instants.size} frames show {stored} stored instants; for smooth motion run "
-                "again with --set output.fields=all"
+                f"{moving.instants.size} frames show {stored} stored instants; for smooth motion "
+                "run again with --set output.fields=all"
             )
         with counted("frame") as progress:
-            plot.save_film(film, file, progress)
+            plot.save_animation(moving, file, progress)
     except (ValueError, OSError) as error:
         refuse(f"{file}: {error}")
     print(file)

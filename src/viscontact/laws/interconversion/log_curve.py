@@ -33,9 +33,9 @@ _NARROW = 1.0
 class LogCurve:
     """Monotone curve through points in log time.
 
-    `times` >= 0 ascend, at least two of them positive [s]; a point at 0 is the value at once, and
-    up to the first positive time the curve is then straight in t. `values` are monotone. The rules
-    `before` the first point (if not at 0) and `beyond` the last are named in `Before` and
+    `times` >= 0 ascend, at least two of them positive [s]; a point at 0 is the instantaneous
+    value, and up to the first positive time the curve is then straight in t. `values` are monotone.
+    The rules `before` the first point (if not at 0) and `beyond` the last are named in `Before` and
     `Beyond`; `steepest` bounds the exponent of a power before the first point.
 
     >>> curve = LogCurve([1.0, 10.0, 100.0], [1.0, 2.0, 3.0], beyond="line")
@@ -141,7 +141,7 @@ class LogCurve:
         ratio = t / self.times[0]
         if self.at_once is not None:
             return np.asarray(self.at_once + (self.values[0] - self.at_once) * ratio)
-        with np.errstate(divide="ignore"):  # infinite at once
+        with np.errstate(divide="ignore"):  # infinite at t = 0
             return np.asarray(self.values[0] * ratio**self.exponent)
 
     def _head_mean(self, start: Floats, end: Floats) -> Floats:

@@ -101,7 +101,7 @@ def _law(
         values = [value * at_once for value in relative]
         return TabulatedRelaxation(times, values, beyond=beyond)
     except ValueError as error:
-        lines = [f"1 at once ({block.where})", *(line.where for line in block.data)]
+        lines = [f"1 at time 0 ({block.where})", *(line.where for line in block.data)]
         raise ValueError(
             f"{block.where}: "
             + re.sub(r"\brow (\d+)", lambda match: lines[int(match[1])], str(error))

@@ -109,8 +109,8 @@ def _test_data(
         raise ValueError("a table has no long-term modulus; write instantaneous ones")
     if not law(0.0) > 0:
         raise ValueError(
-            "a card needs the modulus at once, and this table has none; give it a row at 0 s, or "
-            "before='first'"
+            "a card needs the instantaneous modulus, and this table has none; give it a row at "
+            "0 s, or before='first'"
         )
     at_once = law.relaxation(0.0)
     start = 1 / (2 * at_once) if creep else at_once

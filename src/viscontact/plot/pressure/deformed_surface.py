@@ -76,7 +76,7 @@ def deformed_surface(
     -------
     matplotlib.figure.Figure
         Panels with common axes. Colour and depth are the displacement of the surface; the dark
-        line on it is the rim of the contact, the orange ones are the lower side of the indenter on
+        line on it is the edge of the contact, the orange ones are the lower side of the indenter on
         its two middle lines, where it is. The stretch of heights and of y is given below.
 
     Raises
@@ -117,7 +117,7 @@ def deformed_surface(
     add_side_bar(figure, _COLOURS, norm, unit.label("Displacement"), downwards=True)
     heights = f"heights {format_compact(stretch_of_heights(panels[0], window, unit), 2)}×"
     stretches = "; ".join(filter(None, (heights, window.note)))
-    add_note(figure, "black: rim of the contact; orange: lower side of the indenter", stretches)
+    add_note(figure, "black: edge of the contact; orange: lower side of the indenter", stretches)
     return figure
 
 

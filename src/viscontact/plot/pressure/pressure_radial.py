@@ -142,7 +142,7 @@ def _panels(width: float, *, with_difference: bool) -> tuple[Figure, Axes, Axes 
         style.dress(panel)
     below.axhline(0.0, color=style.INK, linewidth=style.THIN_LINE)
     below.set_ylabel("Difference\n[% of peak]")
-    style.add_heading(below, "cells at the rim left out", aside=True)
+    style.add_heading(below, "cells at the edge left out", aside=True)
     return figure, axes, below
 
 

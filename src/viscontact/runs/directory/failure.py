@@ -16,9 +16,9 @@ def write_failure(directory: Path, outcome: str, code: int, message: Sequence[st
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write_failure(Path(folder), "stopped", 1, ["contact at the rim"])
+    ...     write_failure(Path(folder), "stopped", 1, ["contact at the edge"])
     ...     (Path(folder) / FAILURE_NAME).read_text(encoding="utf-8")
-    '{"outcome": "stopped", "code": 1, "message": ["contact at the rim"]}\n'
+    '{"outcome": "stopped", "code": 1, "message": ["contact at the edge"]}\n'
     """
     entry = {"outcome": outcome, "code": code, "message": list(message)}
     text = json.dumps(entry, ensure_ascii=False) + "\n"

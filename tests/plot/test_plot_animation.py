@@ -14,8 +14,8 @@ from PIL import Image
 
 from synthetic_results import maxwell_sphere, roller
 from viscontact.cli import main
-from viscontact.plot import animation, save_film
-from viscontact.plot.film import saving
+from viscontact.plot import animation, save_animation
+from viscontact.plot.animations import saving
 from viscontact.results.variables import SCALARS
 
 
@@ -93,7 +93,7 @@ def test_a_gif_has_the_requested_length_and_a_frame_for_each_instant(
     film = animation(sphere, seconds=3.1, fps=7.0)
     shown = len(set(film.instants.tolist()))
     assert shown >= 5
-    save_film(film, path, lambda *done: seen.append(done))
+    save_animation(film, path, lambda *done: seen.append(done))
     with Image.open(path) as read:
         assert read.n_frames == shown
         durations = []
@@ -111,7 +111,7 @@ def test_a_gif_has_the_requested_length_and_a_frame_for_each_instant(
 
 def test_an_mp4_has_the_requested_frames(sphere: xr.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "film.mp4"
-    save_film(animation(sphere, seconds=2.0, fps=5.0, width=0.12), path)
+    save_animation(animation(sphere, seconds=2.0, fps=5.0, width=0.12), path)
     frames, seconds = imageio_ffmpeg.count_frames_and_secs(path)
     assert frames == 10
     assert seconds == pytest.approx(2.0, abs=0.05)
@@ -155,10 +155,10 @@ def test_invalid_animation_is_refused(
 def test_a_film_that_cannot_be_written_leaves_nothing(sphere: xr.Dataset, tmp_path: Path) -> None:
     film = animation(sphere, seconds=1.0, fps=3.0)
     with pytest.raises(ValueError, match=r"must end in \.gif or \.mp4"):
-        save_film(film, tmp_path / "film.png")
+        save_animation(film, tmp_path / "film.png")
     for name in ("no/film.gif", "no/film.mp4"):
         with pytest.raises(OSError, match="no"):
-            save_film(film, tmp_path / name)
+            save_animation(film, tmp_path / name)
     assert not list(tmp_path.iterdir())
 
 
@@ -168,8 +168,8 @@ def test_a_missing_encoder_is_named_with_its_extra(
     monkeypatch.setattr(saving, "write_frames", None)
     film = animation(sphere, seconds=1.0, fps=3.0)
     with pytest.raises(ValueError, match=r"pip install 'viscontact\[animation\]'"):
-        save_film(film, tmp_path / "film.mp4")
-    save_film(film, tmp_path / "film.gif")
+        save_animation(film, tmp_path / "film.mp4")
+    save_animation(film, tmp_path / "film.gif")
     assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
 
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.plot.film.sheet import Sheet, new_sheet
+from viscontact.plot.animations.sheet import Sheet, new_sheet
 from viscontact.plot.histories.history import draw_scalars, drawn_scalars, needed_variables
 from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time, within_span
 from viscontact.plot.layout import style
@@ -44,7 +44,7 @@ _MOST_FRAMES = 5000
 
 
 @dataclass(frozen=True, eq=False)
-class Film:
+class Animation:
     """Animation: a figure that shows one instant after the other.
 
     Parameters
@@ -64,8 +64,8 @@ class Film:
     >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
     >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
-    >>> film = animation(ds, seconds=2.0, fps=5.0)
-    >>> film.seconds, film.instants.size
+    >>> moving = animation(ds, seconds=2.0, fps=5.0)
+    >>> moving.seconds, moving.instants.size
     (2.0, 10)
     """
 
@@ -107,7 +107,7 @@ def animation(
     seconds: float = 8.0,
     fps: float = 15.0,
     width: Width | None = None,
-) -> Film:
+) -> Animation:
     """Animate a run: pressure map, section and markers on the histories.
 
     Of a moving contact, the map has the body's axis and the direction of its motion. The section is
@@ -117,12 +117,12 @@ def animation(
     ----------
     results : xarray.Dataset
         From `viscontact.simulate` or `viscontact.open_results`, with fields stored; at
-        all instants for a film that runs smoothly.
+        all instants for a smooth animation.
     times : array_like, optional
         Show the span between the least and the largest of these instants [s]; by default all of
         the run.
     seconds : float, optional
-        Duration of the film [s].
+        Duration of the animation [s].
     fps : float, optional
         Frames a second [1/s].
     width : {"single", "double"} or float, optional
@@ -130,8 +130,8 @@ def animation(
 
     Returns
     -------
-    Film
-        To be written by `save_film`. Frames are at equal steps along the time axis of the
+    Animation
+        To be written by `save_animation`. Frames are at equal steps along the time axis of the
         histories, which is logarithmic where the run's steps are and the load is held; each
         shows the stored instant that is nearest there, and names it. Nothing is interpolated in
         time.
@@ -148,8 +148,8 @@ def animation(
     >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
     >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
-    >>> film = animation(ds, seconds=2.0, fps=5.0)
-    >>> film.instants[[0, -1]].tolist()
+    >>> moving = animation(ds, seconds=2.0, fps=5.0)
+    >>> moving.instants[[0, -1]].tolist()
     [0.0, 1.0]
     """
     count = _frames(seconds, fps)
@@ -170,7 +170,7 @@ def animation(
     show = _stage(sheet, scene, run, names)
     chosen = _spread_evenly(shown, run, count)
     show(float(chosen[0]))
-    return Film(sheet.figure, chosen, fps, show)
+    return Animation(sheet.figure, chosen, fps, show)
 
 
 def _frames(seconds: float, fps: float) -> int:

@@ -19,11 +19,11 @@ try:
 except ModuleNotFoundError:  # needed for MP4 only
     write_frames = None
 
-from viscontact.plot.film.animation import Film
+from viscontact.plot.animations.animation import Animation
 from viscontact.plot.layout.saving import require_suffix
 
-#: Formats of films.
-FILM_SUFFIXES = (".gif", ".mp4")
+#: Formats of animations.
+ANIMATION_SUFFIXES = (".gif", ".mp4")
 
 #: Dots per inch: fewer for GIF, to limit its size.
 _DOTS = {".gif": 100, ".mp4": 150}
@@ -38,14 +38,14 @@ Progress = Callable[[int, int], None]
 Picture = NDArray[np.uint8]
 
 
-def save_film(
-    film: Film, path: str | PathLike[str], progress: Progress = lambda done, total: None
+def save_animation(
+    animation: Animation, path: str | PathLike[str], progress: Progress = lambda done, total: None
 ) -> None:
     """Write an animation to a file.
 
     Parameters
     ----------
-    film : Film
+    animation : Animation
         Result of `animation`.
     path : path-like
         The file, in the format of its suffix: .gif or .mp4.
@@ -68,43 +68,43 @@ def save_film(
     >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
     >>> from viscontact.plot import animation
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     save_film(animation(ds, seconds=1.0, fps=2.0), Path(folder) / "ball.gif")
+    ...     save_animation(animation(ds, seconds=1.0, fps=2.0), Path(folder) / "ball.gif")
     ...     (Path(folder) / "ball.gif").read_bytes()[:6]
     b'GIF89a'
     """
-    suffix = require_suffix(path, FILM_SUFFIXES)
+    suffix = require_suffix(path, ANIMATION_SUFFIXES)
     write = {".gif": _write_gif, ".mp4": _write_mp4}[suffix]
     # Written to another file first, so that an interrupted animation leaves none.
     aside = Path(path).with_name(f".{Path(path).stem}.part{suffix}")
     try:
-        write(film, aside, _pictures(film, _DOTS[suffix], progress))
+        write(animation, aside, _pictures(animation, _DOTS[suffix], progress))
         aside.replace(path)
     finally:
         aside.unlink(missing_ok=True)
 
 
-def _pictures(film: Film, dots: int, progress: Progress) -> Iterator[tuple[Picture, int]]:
+def _pictures(animation: Animation, dots: int, progress: Progress) -> Iterator[tuple[Picture, int]]:
     """Draw each picture once, with the number of its frames."""
-    film.figure.set_dpi(dots)
-    canvas: Any = FigureCanvasAgg(film.figure)  # not typed by its authors
+    animation.figure.set_dpi(dots)
+    canvas: Any = FigureCanvasAgg(animation.figure)  # not typed by its authors
     done = 0
-    for instant, same in itertools.groupby(film.instants.tolist()):
-        film.show(instant)
+    for instant, same in itertools.groupby(animation.instants.tolist()):
+        animation.show(instant)
         canvas.draw()
         count = len(list(same))
         yield np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3]), count
         done += count
-        progress(done, film.instants.size)
+        progress(done, animation.instants.size)
 
 
-def _write_gif(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) -> None:
+def _write_gif(animation: Animation, path: Path, pictures: Iterator[tuple[Picture, int]]) -> None:
     shown = list(pictures)
     palette = _palette([picture for picture, _ in shown])
     frames = [
         Image.fromarray(picture).quantize(palette=palette, dither=Image.Dither.NONE)
         for picture, _ in shown
     ]
-    ends = np.cumsum([count for _, count in shown]) / film.frames_per_second
+    ends = np.cumsum([count for _, count in shown]) / animation.frames_per_second
     ticks = np.diff(np.rint(_TICKS * ends).astype(int), prepend=0)
     frames[0].save(
         path,
@@ -127,7 +127,7 @@ def _palette(pictures: list[Picture]) -> Image.Image:
     return palette
 
 
-def _write_mp4(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) -> None:
+def _write_mp4(animation: Animation, path: Path, pictures: Iterator[tuple[Picture, int]]) -> None:
     if write_frames is None:
         raise ValueError(
             "MP4 needs imageio-ffmpeg: pip install 'viscontact[animation]'; or name a file .gif"
@@ -140,7 +140,7 @@ def _write_mp4(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) 
     encoder = write_frames(
         str(path),
         (width, height),
-        fps=film.frames_per_second,
+        fps=animation.frames_per_second,
         codec="libx264",
         quality=None,
         # Quality for clean thin lines; playable while loading.
