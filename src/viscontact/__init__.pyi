@@ -83,6 +83,7 @@ from .materials.layers import Layer as Layer
 from .materials.layers import Layered as Layered
 from .materials.material import Material as Material
 from .report import write_report as write_report
+from .results.contact_spots import contact_spots as contact_spots
 from .results.interface_stresses import interface_stresses as interface_stresses
 from .results.netcdf import open_results as open_results
 from .results.netcdf import save as save

@@ -34,6 +34,7 @@ from viscontact.plot.materials.material_curves import material_curves
 from viscontact.plot.motion.friction import friction
 from viscontact.plot.motion.motion_profile import motion_profile
 from viscontact.plot.pressure.contact_outline import compare_contact_outlines, contact_outline
+from viscontact.plot.pressure.contact_spots import contact_spots
 from viscontact.plot.pressure.deformed_surface import deformed_surface
 from viscontact.plot.pressure.line_load import compare_line_loads, line_load
 from viscontact.plot.pressure.pressure_map import compare_pressure_maps, pressure_map
@@ -54,6 +55,7 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "surface-3d": deformed_surface,
     "contact-outline": contact_outline,
     "contact-area": contact_area,
+    "contact-spots": contact_spots,
     "history": history,
     "hysteresis": hysteresis,
     "creep": creep,
@@ -103,6 +105,7 @@ __all__ = [
     "compare_von_mises",
     "contact_area",
     "contact_outline",
+    "contact_spots",
     "creep",
     "creep_curve",
     "deformed_surface",

@@ -23,6 +23,7 @@ from viscontact.plot.materials.creep import creep
 from viscontact.plot.motion.friction import friction
 from viscontact.plot.motion.motion_profile import motion_profile
 from viscontact.plot.pressure.contact_outline import contact_outline
+from viscontact.plot.pressure.contact_spots import contact_spots
 from viscontact.plot.pressure.deformed_surface import deformed_surface
 from viscontact.plot.pressure.line_load import line_load
 from viscontact.plot.pressure.pressure_map import pressure_map
@@ -101,6 +102,10 @@ class ResultPlots:
     def contact_area(self, **how: Any) -> Panels:
         """Draw the contact area over time: `viscontact.plot.contact_area`."""
         return self._panels(contact_area, how)
+
+    def contact_spots(self, **how: Any) -> Panels:
+        """Draw the sizes of the contact spots: `viscontact.plot.contact_spots`."""
+        return self._panels(contact_spots, how)
 
     def history(self, **how: Any) -> Panels:
         """Draw area, approach, tilts and peak pressure over time: `viscontact.plot.history`."""

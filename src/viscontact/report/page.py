@@ -22,6 +22,7 @@ from viscontact.figures.sections import sections
 from viscontact.figures.shown_fields import ShownFields, shown_fields
 from viscontact.notebook.html import as_script, element, written
 from viscontact.report import input_chapters, result_chapters
+from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
@@ -31,6 +32,7 @@ from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 CHAPTERS = {
     "allowable": "Allowable values",
     "pressure": "Pressure",
+    "spots": "Contact spots",
     "stress": "Stress below the surface",
     "histories": "Over time",
     "inputs": "Inputs",
@@ -143,6 +145,7 @@ def _body(
     chapters: dict[str, Iterable[Element]] = {
         "allowable": verdict_chapter(ds),
         "pressure": result_chapters.pressure_chapter(ds, fields),
+        "spots": spots_chapter(ds),
         "stress": stress_chapter(ds),
         "histories": histories,
         "inputs": input_chapters.inputs_chapter(ds),

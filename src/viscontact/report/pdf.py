@@ -31,6 +31,7 @@ from viscontact.report import input_chapters, result_chapters
 from viscontact.report.drawings import drawn
 from viscontact.report.page import CHAPTERS
 from viscontact.report.pdf_blocks import blocks
+from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.sweep_page import sweep_chapters, sweep_heading
 from viscontact.report.title_block import title_lines
@@ -105,6 +106,7 @@ def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
     chapters: dict[str, Callable[[xr.Dataset], Iterable[Element]]] = {
         "allowable": verdict_chapter,
         "pressure": _pressure,
+        "spots": spots_chapter,
         "stress": stress_chapter,
         "histories": _over_speed if over_speed else _history,
         "inputs": input_chapters.inputs_chapter,

@@ -69,9 +69,9 @@ def plot(
         typer.Argument(
             metavar="FIGURE",
             help="pressure-map, pressure-3d, pressure-profile, pressure-radial, line-load, "
-            "surface-3d, contact-outline, contact-area, history, hysteresis, exact, creep, "
-            "stress-section, von-mises, indenter, or animation; of a sweep: response; of steady "
-            "motion: friction, motion-profile.",
+            "surface-3d, contact-outline, contact-area, contact-spots, history, hysteresis, exact, "
+            "creep, stress-section, von-mises, indenter, or animation; of a sweep: response; of "
+            "steady motion: friction, motion-profile.",
         ),
     ],
     times: Instants = None,

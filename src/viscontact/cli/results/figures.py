@@ -28,7 +28,7 @@ ANIMATION = "animation"
 RESPONSE = "response"
 #: Figures of the fields at single instants; the others take times as a span.
 _OF_INSTANTS = (
-    *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
+    *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline", "contact-spots"),
     *("line-load", "pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
     "motion-profile",
 )

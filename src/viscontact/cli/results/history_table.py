@@ -26,6 +26,7 @@ from viscontact.cli.results.accuracy import (
 from viscontact.cli.results.stored import early_end
 from viscontact.cli.results.verdict_lines import verdict_lines
 from viscontact.cli.terminal.messages import refuse
+from viscontact.results.contact_spots import last_spots
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_case import prescribes_approach
@@ -64,6 +65,8 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
         console.print(f"{len(rows)} of {count} {axis.row}s; --all shows every one")
     for line in _footers(ds, shown, errors=errors):
         console.print(line, highlight=False)
+    if spots := last_spots(ds):
+        console.print(spots.text, highlight=False, soft_wrap=True)
     for line in verdict_lines(ds):
         console.print(line, highlight=False)
     if ended := early_end(ds):
