@@ -57,3 +57,19 @@ def test_page_of_many_runs_has_the_first_rows() -> None:
     page = sweep_page(hertz_sweep(load__force=(forces, "N")), title="many")
     assert len(cells(page)) == 1 + MOST_ROWS
     assert f"The first {MOST_ROWS} of {MOST_ROWS + 5} runs" in page
+
+
+def test_a_single_finished_run_has_its_values_and_no_figure() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    ds["state"] = "load.force", ["failed", "done", "failed"]
+    for name in ("approach", "contact_area", "peak_pressure", "force"):
+        ds[name][[0, 2]] = np.nan
+    page = sweep_page(ds, title="one")
+    assert "Not drawn: One run is finished." in page
+    assert [row[2:4] for row in cells(page)[1:]] == [["1", ""], ["8", "400 ± 40"], ["2", ""]]
+
+
+def test_runs_of_no_varied_key_have_their_names() -> None:
+    page = sweep_page(hertz_sweep(load__force=([8e3], "N")), title="one")
+    assert cells(page)[0][:4] == ["run", "state", "Name", "Force [kN]"]
+    assert cells(page)[1][:4] == ["0", "done", "run 0", "8.00 ± 0.80"]

@@ -22,6 +22,7 @@ from viscontact.report.title_block import file_lines, title_lines
 from viscontact.report.verdict_chapter import LEGEND
 from viscontact.results.formatting import format_with_error_in
 from viscontact.results.largest_values import (
+    chief_scalars,
     compared_scalars,
     key_label,
     largest_values,
@@ -108,7 +109,9 @@ def _figure(ds: xr.Dataset) -> Iterator[Element]:
     try:
         drawing = base64.b64encode(as_svg(response(ds))).decode()
     except ValueError:
-        yield element("p", "The finished runs do not differ in their chief values.", class_="faint")
+        few = int((ds["state"] == "done").sum()) < 2
+        why = "One run is finished." if few else "The finished runs have the same chief values."
+        yield element("p", f"Not drawn: {why}", class_="faint")
         return
     image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt="Response over the keys")
     said = f"Largest values over {over_of(ds)}; bars are their errors. "
@@ -172,8 +175,11 @@ def _table(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def _key_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
-    """Heading and cells of each varied key."""
-    for key in varied_keys(ds):
+    """Heading and cells of each varied key; names where no key is varied."""
+    keys = varied_keys(ds)
+    if not keys:
+        yield "Name", [str(name) for name in ds["name"].values.ravel()]
+    for key in keys:
         values = xr.broadcast(ds[key], ds["state"])[0].transpose(*run_dims(ds)).values.ravel()
         if not np.issubdtype(values.dtype, np.number):
             yield key_label(key), [str(value) for value in values]
@@ -184,8 +190,8 @@ def _key_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
 
 
 def _scalar_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
-    """Heading and cells of each chief scalar."""
-    for name in compared_scalars(ds):
+    """Heading and cells of each chief scalar, of those that differ if there are any."""
+    for name in compared_scalars(ds) or chief_scalars(ds):
         values, errors = (each.values.ravel() for each in largest_values(ds, name))
         unit = readable_unit(SCALARS[name].units, values)
         texts = [

@@ -7,6 +7,7 @@ from collections.abc import Hashable
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from viscontact.results.shown_scalars import LONG, OF_LONG_CONTACTS
 from viscontact.results.variables import Place, error_name, shown_in
@@ -71,15 +72,24 @@ def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArra
 
 def compared_scalars(ds: xr.Dataset) -> list[str]:
     """Names of the chief scalars of a sweep that differ between its runs, and are not varied."""
+    sizes = {name: largest_values(ds, name)[0] for name in chief_scalars(ds)}
+    return [name for name, each in sizes.items() if np.ptp(_known(each)) > 1e-6 * each.max()]
+
+
+def chief_scalars(ds: xr.Dataset) -> list[str]:
+    """Names of the chief scalars of the finished runs of a sweep that are not varied."""
     given = {key.rpartition(".")[2] for key in varied_keys(ds)}
     found = []
     for name in shown_in(Place.KEY, ds):
         if name in given or (name in OF_LONG_CONTACTS and not _has_long_contact(ds)):
             continue
-        values = largest_values(ds, name)[0].values
-        values = values[np.isfinite(values)]
-        if values.size and np.ptp(values) > 1e-6 * values.max():
+        if _known(largest_values(ds, name)[0]).size:
             found.append(name)
+    return found
+
+
+def _known(values: xr.DataArray) -> NDArray[np.float64]:
+    found: NDArray[np.float64] = values.values[np.isfinite(values.values)]
     return found
 
 

@@ -87,3 +87,14 @@ def test_report_of_a_sweep_without_any_result(
         shutil.rmtree(run)
     assert main(["report", str(sweep)]) == 0
     assert "<h1>sweep</h1>" in (sweep / "report.html").read_text(encoding="utf-8")
+
+
+def test_comparison_names_the_only_run(sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = runs(sweep)
+    shutil.rmtree(first)
+    assert main(["compare", str(sweep)]) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert f"compare needs two runs or more, got {second} alone; `viscontact plot DIR`" in said
+    shutil.rmtree(second)
+    assert main(["compare", str(sweep)]) == 2
+    assert "got none with a result" in " ".join(capsys.readouterr().err.split())

@@ -98,7 +98,8 @@ def draw_comparison(
     draw_it = _named(figure, plot.COMPARISONS)
     wanted, chosen = _wanted(times, speeds), _chosen(options or {}, figure, draw_it)
     if len(directories) < 2:
-        refuse("compare needs two runs or more")
+        one = f"got {directories[0]} alone" if directories else "got none with a result"
+        refuse(f"compare needs two runs or more, {one}; `viscontact plot DIR` draws a single run")
     file = output or Path(f"compare-{figure}.png")
     _require_suffix(plot, file, plot.FIGURE_SUFFIXES)
     with ExitStack() as stack:

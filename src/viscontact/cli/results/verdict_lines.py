@@ -20,7 +20,7 @@ def verdict_lines(ds: xr.Dataset) -> Iterator[str]:
 
 
 def _compared(ds: xr.Dataset, each: Verdict) -> str:
-    name = each.name.replace("_", " ")
+    name = each.label[:1].lower() + each.label[1:]
     found = f" {each.found} at {run_axis(ds).place(each.at)}" if each.found else ""
     reason = f"; {each.reason}" if each.reason else ""
     return f"{name}{found}, allowable {each.allowed}{reason}"
