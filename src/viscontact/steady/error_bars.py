@@ -89,10 +89,15 @@ def error_bars(
     forces = bars[along_motion]
     if fine.against.slope_weight and not fine.against.at_end:
         forces = max(forces, FORMS * fine.against.difference)
-    # The error of layers' compliance, of which the loss is a part only.
-    splitting = problem.contact.surface.splitting_error
-    if splitting and fine.against.value:
+    if math.isfinite(problem.contact.thinnest_layer) and fine.against.value:
+        # The error of layers' compliance, of which the loss is a part only.
+        splitting = problem.contact.surface.splitting_error
         forces += splitting / fine.against.loss_share * abs(fine.against.value)
+        # The eccentricity is a moment of the pressure, as the resistance by the slope is.
+        eccentricity = f"eccentricity_{problem.along}"
+        relative = max(forces, FORMS * fine.against.difference) / abs(fine.against.value)
+        moment = relative * abs(float(getattr(state, eccentricity)))
+        bars[eccentricity] = max(bars[eccentricity], moment)
     if singular:
         bars["peak_pressure"] = math.inf
     return bars | {
