@@ -247,7 +247,8 @@ def test_report_and_response_of_a_sweep(sweep: Path, capsys: pytest.CaptureFixtu
     assert main(["report", "sweep"]) == 0
     assert main(["plot", "sweep", "response"]) == 0
     assert lines(capsys) == ["sweep/report.html", "sweep/response.png"]
-    assert "<h1>sweep</h1>" in Path("sweep/report.html").read_text(encoding="utf-8")
+    page = Path("sweep/report.html").read_text(encoding="utf-8")
+    assert "<h1>Sphere on a Zener half-space (sweep)</h1>" in page
 
 
 @pytest.mark.parametrize("words", [["show"], ["export"], ["plot", "history"]])
