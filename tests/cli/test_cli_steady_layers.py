@@ -1,4 +1,4 @@
-"""Cases of rolls with a cover that creeps: checked, run, resumed, shown, drawn, varied."""
+"""Cases of rolls with a cover that creeps: checked, run, resumed, shown, drawn, varied, in time."""
 
 import json
 from pathlib import Path
@@ -125,3 +125,23 @@ def test_the_thickness_of_a_cover_is_varied(folder: Path) -> None:
     ds = vc.open_many("two")
     thick, thin = ds.peak_pressure.isel(speed=0).values
     assert thin > 1.2 * thick
+
+
+def test_a_case_moves_over_layers_in_time_as_in_python(folder: Path) -> None:
+    travel = "{kind: travel, points: [[0 s, 0 mm], [2 ms, 1.6 mm]], along: y, rolling: true}"
+    words = ["--set", f"motion={travel}", "--set", "time={end: 2 ms, steps: 4}"]
+    assert main(["run", "case.yaml", "-q", *words]) == 0
+    bodies, options = problem()
+    motion = vc.Travel([0.0, 2e-3], y=[0.0, 1.6e-3], rolling=True)
+    whole = vc.simulate(
+        *bodies,
+        vc.Grid((32, 32), (18e-3, 18e-3)),
+        vc.uniform_times(2e-3, 4),
+        motion=motion,
+        indenter_material=options["indenter_material"],
+        errors=False,
+    )
+    with vc.open_results("case") as ds:
+        for name in ("friction_coefficient", "peak_pressure", "dissipation", "heat"):
+            assert np.array_equal(ds[name], whole[name], equal_nan=True), name
+        assert float(ds.heat[-1]) > 0

@@ -57,6 +57,18 @@ def test_speeds_go_into_the_form_and_back(client: TestClient, speed: str) -> Non
     assert "steps" not in checked
 
 
+def test_layers_go_into_the_form_and_are_checked(client: TestClient) -> None:
+    lines = BALL.splitlines()
+    law = ", ".join(each.strip() for each in lines[3:8])
+    layered = f"material: {{layers: [{{thickness: 4 mm, {law}}}], base: rigid}}"
+    text = "\n".join([*lines[:2], layered.replace("0.5}", "0.45}"), *lines[8:]])
+    given = client.post("/api/case", json={"yaml": text}).json()["case"]
+    written = client.post("/api/yaml", json={"case": given, "yaml": "", "titled": True}).json()
+    checked = client.post("/api/check", json={"yaml": written["yaml"]}).json()
+    assert checked["speeds"] == 3
+    assert given["material"]["layers"][0]["thickness"] == "4 mm"
+
+
 def test_example_of_a_rolling_roller_is_checked(client: TestClient) -> None:
     examples = client.get("/api/examples").json()
     (rolling,) = (each["yaml"] for each in examples if each["name"] == "roller-rolling")
