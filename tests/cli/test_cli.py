@@ -219,7 +219,7 @@ def test_contact_that_overruns_the_grid_stops_the_run_and_keeps_its_steps(
     assert main(["run", "case.yaml", "-q", "--set", "grid.size=[2.1 mm, 2.1 mm]"]) == 1
     message = capsys.readouterr().err
     assert "case.yaml" in message or "--set grid" in message
-    assert "rim" in message
+    assert "edge of the grid" in message
     assert "keeps" in message
     with vc.open_results("case") as ds:
         assert 1 <= ds.sizes["time"] < 7

@@ -204,7 +204,7 @@ def test_progress_counts_the_speeds_in_their_order():
 
 def test_a_contact_at_the_rim_of_a_given_grid_is_refused_with_the_speeds_before():
     grid = vc.Grid((48, 48), (0.8, 0.8))
-    with pytest.raises(vc.DomainError, match="rim at 100 mm/s") as stop:
+    with pytest.raises(vc.DomainError, match="edge of the grid at 100 mm/s") as stop:
         steady([100.0, 0.1], grid=grid)
     assert stop.value.partial.speed.values.tolist() == [100.0]
 

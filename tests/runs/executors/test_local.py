@@ -225,7 +225,7 @@ def test_a_bad_case_among_ten_fails_alone_and_is_repeated_when_it_is_corrected(c
     failure = json.loads((case.parent / "run7" / FAILURE_NAME).read_text(encoding="utf-8"))
     assert (failure["outcome"], failure["code"]) == ("stopped", 1)
     assert failure["message"] == list(ends["run7"].said)
-    assert "rim" in failure["message"][0]
+    assert "edge of the grid" in failure["message"][0]
     again = replace(jobs[0], request=replace(jobs[0].request, output=case.parent / "run7"))
     corrected = Task(again.request, case.parent / "run7", "another command")
     assert perform(corrected).word == "done"

@@ -116,7 +116,7 @@ def test_recorded_runs_are_not_repeated_and_a_failed_one_is_not_a_number(tmp_pat
     given = runs(0.05, 0.1, 50.0)  # the contact of the last comes to the rim
     sweep = tmp_path / "sweep"
     with ThreadPoolExecutor(1) as pool:
-        with pytest.raises(RuntimeError, match=r"1 of 3 runs failed\nrun2: .*rim"):
+        with pytest.raises(RuntimeError, match=r"1 of 3 runs failed\nrun2: .*edge of the grid"):
             vc.simulate_many(given, executor=pool, directory=sweep)
         failure = json.loads((sweep / "run2" / FAILURE_NAME).read_text(encoding="utf-8"))
         assert (failure["outcome"], failure["code"]) == ("stopped", 1)
@@ -124,7 +124,7 @@ def test_recorded_runs_are_not_repeated_and_a_failed_one_is_not_a_number(tmp_pat
         ds = vc.simulate_many(given, executor=pool, directory=sweep, return_exceptions=True)
         assert before == [(sweep / f"run{n}" / RESULT_NAME).stat().st_mtime_ns for n in range(2)]
         assert ds.state.values.tolist() == ["done", "done", "failed"]
-        assert "rim" in str(ds.message[2].values)
+        assert "edge of the grid" in str(ds.message[2].values)
         assert np.isnan(ds.approach[2]).all()
         assert np.isfinite(ds.approach[:2]).all()
         with pytest.raises(ValueError, match="run1 has results, and is none of these"):
