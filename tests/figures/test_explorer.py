@@ -70,6 +70,7 @@ def test_units_of_a_system_are_those_of_its_standard() -> None:
     assert unit_in("us", "Pa", 1.0).factor == pytest.approx(6894.757, rel=1e-7)
     assert unit_in("us", "N/m", 1.0).factor == pytest.approx(175.1268, rel=1e-6)
     assert unit_in("us", "m2", 1.0).factor == pytest.approx(6.4516e-4, rel=1e-12)
+    assert unit_in("us", "J", 1.0).factor == pytest.approx(0.1129848, rel=1e-6)
     for system in set(SYSTEMS) - {"auto"}:
         force, length, area, line = (
             unit_in(system, si, 1.0).factor for si in ("N", "m", "m2", "N/m")

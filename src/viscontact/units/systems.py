@@ -55,6 +55,8 @@ SYSTEMS: dict[str, dict[str, ReadableUnit]] = {
         "Pa": ReadableUnit("psi", 4.4482216152605 / 0.0254**2),
         "N": ReadableUnit("lbf", 4.4482216152605),
         "N/m": ReadableUnit("lbf/in", 4.4482216152605 / 0.0254),
+        "J": ReadableUnit("in·lbf", 0.0254 * 4.4482216152605),
+        "W": ReadableUnit("in·lbf/s", 0.0254 * 4.4482216152605),
     },
     "si": {
         si: ReadableUnit("m²" if si == "m2" else si, 1.0)

@@ -34,7 +34,7 @@ function hint(node) {
   if (node.many && node.kind !== "axes") hints.push("several with commas between");
   const usual = node.default;
   if (usual !== null && usual !== undefined && !["", true, false].includes(usual) && typeof usual !== "object")
-    hints.push(`${asText(usual)} when left out`);
+    hints.push(`${asText(usual)} if empty`);
   return hints.filter(Boolean).join("; ");
 }
 

@@ -161,7 +161,7 @@ function variantOptions(node, chosen, required) {
   const known = chosen === undefined || node.named.includes(chosen) || node.options.has(chosen);
   const grouped = (label, options) => make("optgroup", { label }, options);
   return [
-    !required && option("", "left out"),
+    !required && option("", "none"),
     required && chosen === undefined && option("", "choose…"),
     !known && option(chosen, String(chosen)),
     named.length ? [grouped("Library", named), grouped("By its numbers", tagged)] : tagged,

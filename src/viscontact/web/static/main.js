@@ -35,7 +35,7 @@ function notify(text, undo = null) {
   place("notice").replaceChildren(make("p", {}, text,
     undo && make("button", { type: "button", class: "small", textContent: "Undo", onclick: () => { close(); undo(); } }),
     make("button", { type: "button", class: "small", textContent: "Close", onclick: close })));
-  if (undo) setTimeout(close, 12000);
+  if (undo) setTimeout(close, 6000);
 }
 
 async function write(yaml, how) {

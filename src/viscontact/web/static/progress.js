@@ -72,9 +72,9 @@ const buttonsFor = (run, { load, complain }) => [
   run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
   run.resumable && act(onward(run), "Continue this run", () => resume(run.id), complain),
-  run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
+  run.figures.length > 0 && act(isReference(run) ? "Drop reference" : "Reference", "Compare with this answer",
     () => refer(isReference(run) ? null : run.id), complain),
-  act("Its case", "Write this run’s case into the form",
+  act("Load case", "Write this run’s case into the form",
     async () => load((await get(`/api/runs/${run.id}/given`)).yaml, run.label), complain),
   act("Delete", "Delete this run and its files", () => forget(run.id), complain),
 ];

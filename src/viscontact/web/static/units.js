@@ -21,7 +21,8 @@ const TINY = {
 };
 const IMPERIAL = {
   m: ["in", 0.0254], m2: ["in²", 0.00064516], Pa: ["psi", 6894.757293168], N: ["lbf", 4.4482216152605],
-  "N/m": ["lbf/in", 175.12683524647636], "m/s": ["in/s", 0.0254],
+  "N/m": ["lbf/in", 175.12683524647636], "m/s": ["in/s", 0.0254], J: ["in·lbf", 0.11298482902761668],
+  W: ["in·lbf/s", 0.11298482902761668],
 };
 export const SYSTEMS = {
   auto: { name: "readable units", units: {} },
