@@ -138,3 +138,19 @@ def test_the_best_crown_of_an_elastic_roller_is_that_of_a_fine_scan(tmp_path: Pa
     assert float(found.best.peak_pressure) == pytest.approx(min(free), rel=0.01)
     assert found.runs <= 60
     assert bool(found.best.feasible)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_a_crown_without_an_end_has_its_optimum_at_the_upper_bound(tmp_path: Path) -> None:
+    path = tmp_path / "roller.yaml"
+    load = "{kind: step, force: 10 kN, eccentricity_x: 4.7825 mm}"
+    endless = CROWNED.replace(", length: 30 mm", "").replace("{kind: step, force: 10 kN}", load)
+    path.write_text(endless[: endless.index("grid:")])
+    change = {"indenter.crown_radius": ("100 mm", "8 m", "log")}
+    found = vc.design(path, change, minimise="peak_pressure", runs=40, workers=1)
+    # The peak under eq. 13 of Spinu & Cerlinca (2018), which has no end, falls for ever.
+    assert found.settings == {"indenter.crown_radius": "8000 mm"}
+    table = found.table.sel(trial=found.table.level == "case").sortby("indenter.crown_radius")
+    assert (np.diff(table.peak_pressure) < 0).all()
+    assert any("lies at the upper bound of indenter.crown_radius" in note for note in found.notes)

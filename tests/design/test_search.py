@@ -150,3 +150,17 @@ def test_an_infeasible_design_names_the_constraint_and_the_closest_trial() -> No
     why = why_infeasible(search.evaluation, search)
     assert why.startswith("no feasible design in ")
     assert "contact_length <= 1 m is not kept; the closest is 1.5" in why
+
+
+@pytest.mark.parametrize("budget", [6, 9, 20])
+def test_few_runs_still_give_a_certified_trial_and_a_note(budget: int) -> None:
+    search, best = searched(
+        lambda v: exact(2 + (v["load.x"] - 0.2) ** 2 + (v["load.y"] - 0.9) ** 2),
+        TWO,
+        budget=budget,
+        is_coarse=True,
+    )
+    assert best is not None
+    assert best.level == "case"
+    assert search.evaluation.runs <= budget
+    assert any(f"{budget} runs are too few" in note for note in notes_on(best, search))

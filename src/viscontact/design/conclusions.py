@@ -58,8 +58,8 @@ def notes_on(best: Trial, search: Search) -> Iterator[str]:
             )
     for limit in evaluation.constraints:
         yield from _undecided(best, limit)
-    if evaluation.runs + len(evaluation.scenarios) > evaluation.budget:
-        yield f"all {evaluation.budget} runs were used before the gain was within the error"
+    if search.is_cut_short:
+        yield f"{evaluation.budget} runs are too few to search until the gain is within the error"
     before = evaluation.trials[0]
     if before.is_feasible(goal, evaluation.constraints):
         own, found = (goal.cost(each.worst(goal).value) for each in (before, best))

@@ -63,6 +63,7 @@ class Evaluation:
     progress: Callable[[int, int], None]  # called with the numbers of runs, done and allowed
     recorded: dict[tuple[Any, ...], Trial] = field(default_factory=dict)
     trials: list[Trial] = field(default_factory=list)
+    reserved: int = 0  # runs that the present search leaves to others
 
     @property
     def runs(self) -> int:
@@ -79,7 +80,7 @@ class Evaluation:
         known = next((t for t in self.trials if identity(t) == _key(settings, level)), None)
         if known is not None:
             return known
-        if self.runs + len(self.scenarios) > self.budget:
+        if self.runs + len(self.scenarios) > self.budget - self.reserved:
             raise BudgetSpentError
         recorded = self.recorded.get(_key(settings, level))
         trial = recorded or Trial(dict(settings), level, self._results(settings, level))

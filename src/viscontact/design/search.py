@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -33,6 +34,8 @@ PATIENCE, LOCAL_PATIENCE = 6, 3
 LEAST_GAIN = 1e-3
 #: Most trials that are certified on the cells of the case, before the local search.
 CANDIDATES = 3
+#: Part of all runs that is kept for them at most, as its inverse.
+RESERVED = 3
 #: Edge of the first simplex of the local search, in parts of the ranges.
 SIMPLEX = 0.04
 #: Parts of a range from its end in which the end itself is tried.
@@ -50,19 +53,27 @@ class Search:
     space: Space
     evaluation: Evaluation
     points: dict[int, Point] = field(default_factory=dict)  # of the trials, by their number
+    is_cut_short: bool = False  # the runs were used up before the gain was within the error
 
     def run(self) -> Trial | None:
-        """Return the best feasible trial on the cells of the case; None without one.
-
-        BudgetSpentError is caught: then the best trial so far is returned.
-        """
-        try:
-            self._explore(self.evaluation.levels[0])
-            self._certify()
-            self._refine()
-        except BudgetSpentError:
-            pass
+        """Return the best feasible trial on the cells of the case; None without one."""
+        evaluation = self.evaluation
+        if len(evaluation.levels) > 1:
+            # The best trials are to be computed on the cells of the case in any event.
+            most = evaluation.budget // RESERVED
+            evaluation.reserved = min(CANDIDATES * len(evaluation.scenarios), most)
+        self._within_budget(partial(self._explore, evaluation.levels[0]))
+        evaluation.reserved = 0
+        self._within_budget(self._certify)
+        self._within_budget(self._refine)
         return self.best("case")
+
+    def _within_budget(self, search: Callable[[], None]) -> None:
+        """Search until the runs are used up."""
+        try:
+            search()
+        except BudgetSpentError:
+            self.is_cut_short = True
 
     def best(self, level: Level) -> Trial | None:
         """Best feasible trial of a level."""
