@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import shutil
 import signal
 import subprocess
@@ -248,7 +249,8 @@ def test_report_and_response_of_a_sweep(sweep: Path, capsys: pytest.CaptureFixtu
     assert main(["plot", "sweep", "response"]) == 0
     assert lines(capsys) == ["sweep/report.html", "sweep/response.png"]
     page = Path("sweep/report.html").read_text(encoding="utf-8")
-    assert "<h1>Sphere on a Zener half-space (sweep)</h1>" in page
+    [heading] = re.findall("<h1>(.*?)</h1>", page)
+    assert heading.endswith("(sweep)")
 
 
 @pytest.mark.parametrize("words", [["show"], ["export"], ["plot", "history"]])
