@@ -45,6 +45,6 @@ def stress_text(ds: xr.Dataset, found: PeakStress) -> str:
     value = format_with_error(found.value, found.error, "Pa")
     place, depth = run_axis(ds).place(found.place), format_quantity(found.depth, "m", 2)
     return (
-        f"Below the largest pressure of the run, at {place}, the largest von Mises stress in the "
-        f"half-space is {value}, {depth} deep."
+        f"On the planes along x and y through the largest pressure of the run, at {place}, "
+        f"the largest von Mises stress in the half-space is {value}, {depth} deep."
     )
