@@ -198,6 +198,6 @@ def test_coarser_runs_are_reported_if_there_were_any(errors: bool) -> None:
         vc.Paraboloid(0.01, 0.01), rubber, vc.step(0.1), grid, times, errors=errors, fields="none"
     )
     assert float(ds.time_error.max()) > 0  # estimated in the run itself
-    said = accuracy_of(ds)["Coarser runs"]
+    said = accuracy_of(ds)["Error estimation"]
     assert said.startswith("coarser runs" if errors else "none: ")
     assert said in report_page(ds)

@@ -37,7 +37,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     )
     yield "Balance", _balance(ds)
     if run_axis(ds) is TIME:
-        yield "Time steps", _steps(ds)
+        yield "Time discretisation error", _steps(ds)
     yield "Cells", _cells(ds)
     if memory := str(ds.attrs.get("memory", "")):
         yield "History integral", memory
@@ -46,7 +46,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
     if is_layered(ds) or is_layered(ds, "indenter_material"):
         yield "Layers", _splitting(ds)
-    yield ("Coarser runs" if run_axis(ds) is TIME else "Coarser contacts"), _coarser_runs(ds)
+    yield "Error estimation", _coarser_runs(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
 
@@ -82,10 +82,10 @@ def _balance(ds: xr.Dataset) -> str:
 def _steps(ds: xr.Dataset) -> str:
     largest = float(np.nanmax(ds["time_error"].values, initial=0.0))
     if largest > 0:
-        return f"they cost {format_bound(largest)} of the pressure (estimated)"
+        return f"{format_bound(largest)} of the pressure (estimated)"
     if _is_elastic(ds):
-        return "they cost nothing: the contact at each instant follows from the load alone"
-    return "what they cost is not estimated step by step; it is part of the errors above"
+        return "none: the contact at each instant follows from the load alone"
+    return "not estimated step by step; it is part of the errors above"
 
 
 def _cells(ds: xr.Dataset) -> str:

@@ -141,5 +141,5 @@ def _add_key(
     labels = [exact_label(results, theory.solution, _NAME)]
     labels += [name.lower() for name in names]
     style.add_heading(panels[0], "markers: computed", aside=True)
-    style.add_heading(below, "computed less exact", aside=True)
+    style.add_heading(below, f"computed less {labels[0]}", aside=True)
     style.add_legend_below(figure, handles, labels, columns=4)
