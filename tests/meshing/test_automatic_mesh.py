@@ -224,3 +224,15 @@ def test_a_load_without_a_fitting_grid_is_told_why(
 ) -> None:
     with pytest.raises(ValueError, match=reason):
         estimate_contact(body, compliance, load.at(0.0))
+
+
+def test_grid_holds_the_contact_of_a_coating_before_its_base_creeps():
+    # Under an approach it shrinks as the coating becomes the stiffer part.
+    coating = vc.Layer(20e-6, vc.Material(vc.Elastic(1.85e9), poisson_ratio=0.35))
+    base = vc.Material(vc.Zener(355e6, 188e6, 188e6), poisson_ratio=0.33)
+    body, ball = vc.Layered([coating], base), vc.Paraboloid(5.65e-3, 0.64e-3)
+    load = vc.step(approach=123e-9)
+    grid = vc.auto_grid(ball, body, load, 0.05, quantities=("approach",), end=5.0)
+    ds = vc.simulate(ball, body, load, grid, [0.0, 5.0], errors=False, fields="none")
+    first, last = ds.contact_length.values
+    assert last < 0.9 * first < 0.9 * grid.size[0]

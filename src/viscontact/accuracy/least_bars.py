@@ -79,6 +79,12 @@ LEAST_END_AREA_ERROR = 1.1
 #: smooth peak drops by much less than the second number.
 LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
 
+#: Where cells are long against the thickness of a layer, the pressure falls to the rim as on
+#: springs or less steeply, not as on a half-space. Least error of the rim in cells over that ratio,
+#: at most; and growth of the least errors of scalars with its square: cylinders on layers of 0.4 to
+#: 3 thicknesses per cell err by 0.05 to 0.5 cells at the rim.
+THIN_RIM_CELLS, MOST_THIN_RIM, THIN_GROWTH = 0.12, 0.5, 4.0
+
 #: Relative rounding of the area of a whole period.
 ROUNDING = 1e-9
 
@@ -119,6 +125,7 @@ def least_bar(
         return _least_extent_bar(run, axis, kinds, history)
     if name == "contact_area":
         smooth = np.maximum(_least_rim_area(run, kinds, history), _late_area(run, history))
+        smooth = np.maximum(smooth, _thin_area(run, history))
         return np.maximum(_least_end_area(run, kinds, history), smooth)
     if name in MOMENTS:
         smooth = _least_moment_bar(run, name, history)
@@ -144,6 +151,7 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
     smooth = RIM_CELLS * few + TIP_CELLS * _tip_curvature(run, history)[axis]
     smooth = np.asarray(smooth + _crest_cells(run, history, axis))
+    smooth = np.maximum(smooth, 2 * _thin_rim_cells(run, axis))
     smooth_or_late = np.maximum(smooth, 2 * _late_cells(run, history))
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
     if min(straight_ends(run)) < np.inf:
@@ -197,6 +205,28 @@ def _late_cells(run: RunSetup, history: History) -> Array:
     shrunk = (ways > 0) & (ways < LATE_CELLS)
     late = np.where(shrunk, np.clip(LATE_PART * ways, LEAST_LATE, MOST_LATE), 0.0)
     return np.asarray(late.max(axis=0))
+
+
+def _cells_over_thickness(run: RunSetup, axis: int) -> float:
+    """Length of a cell over the thickness of the thinnest layer; 0 on a half-space."""
+    thinnest = min(term.response.length for term in run.problem.surface.terms)
+    return run.grid.cell_size[axis] / thinnest
+
+
+def _thin_rim_cells(run: RunSetup, axis: int) -> float:
+    """Least error of the rim on thin layers, in cells."""
+    return min(THIN_RIM_CELLS * _cells_over_thickness(run, axis), MOST_THIN_RIM)
+
+
+def _thin_area(run: RunSetup, history: History) -> Array:
+    """Least error of the area on thin layers [m²]."""
+    strips = _fills_period(run, history)
+    rims = [
+        np.where(strips[1 - axis], 2.0, 4.0) * _thin_rim_cells(run, axis) * ~strips[axis]
+        for axis in (0, 1)
+    ]
+    relative = np.max(rims, axis=0) / np.maximum(_cells_across(run, history), 1.0)
+    return np.asarray(relative * history["contact_area"])
 
 
 def _late_area(run: RunSetup, history: History) -> Array:
@@ -281,6 +311,9 @@ def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
     across = _cells_across(run, history)
     least = LEAST_ERRORS[name] + (LONG_CONTACT * _slenderness(history) if name == "approach" else 0)
+    # Cells along a line contact have no influence.
+    ratios = [_cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
+    least = least * (1 + THIN_GROWTH * min(ratios, default=0.0) ** 2)
     relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
     longest = np.fmax.accumulate(_cells_along(run, history))
     curved = kinds.ended & (min(straight_ends(run)) == np.inf)

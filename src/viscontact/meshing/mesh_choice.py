@@ -92,6 +92,7 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     )
     highest = max(each.point.level for each in found)
     largest = next(each for each in found if each.point.level == highest)
+    found += _contacts_before_creep(problem, end)
     centre = grid_centre([each.estimate for each in found])
     reach = np.array([each.estimate.reach_from(centre) for each in found]).max(axis=0)
     size = 2 * MARGIN * reach
@@ -117,6 +118,18 @@ def _log(mesh: Mesh) -> None:
         "automatic grid: %d x %d cells over %.4g x %.4g m; expected errors: %s",
         *(nx, ny, length, width, errors or "unknown"),
     )
+
+
+def _contacts_before_creep(problem: Problem, end: float | None) -> list[PointContact]:
+    """Contacts of layers that creep differently under an approach, before they creep.
+
+    Such layers do not keep the contact: it shrinks if a coating becomes the stiffer part.
+    """
+    compliance = float(problem.compliance(0.0))
+    if problem.load.control != "approach" or len(problem.surface.terms) == 1 or compliance == 0:
+        return []
+    response = problem.surface.response_at(0.0)
+    return contacts_of_history(problem.indenter, compliance, problem.load, end, response=response)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ import numpy as np
 
 from verification.families.ellipses import slender_ellipse, turned_ellipse
 from verification.families.exact_run import ExactRun, NotDrawnError
+from verification.families.layered_bodies import covered_core, layered_ball, layered_cylinder
 from verification.families.punches import dent, eccentric_punch, punch
 from verification.families.rollers import roller
 from verification.families.round_bodies import automatic, harmonic_load, held_ball, round_body
@@ -47,7 +48,12 @@ HELD_OUT: dict[str, Draw] = {
     )
 }
 
-FAMILIES = CALIBRATED | HELD_OUT
+#: Bodies on layers, with seeds from 305 on for what is reported.
+LAYERED: dict[str, Draw] = {
+    each.__name__: each for each in (layered_ball, layered_cylinder, covered_core)
+}
+
+FAMILIES = CALIBRATED | HELD_OUT | LAYERED
 
 
 def drawn(

@@ -10,7 +10,7 @@ seeds on which factors were chosen are reported apart from those that were left 
 import numpy as np
 import pytest
 
-from verification.families.drawn import CALIBRATED, HELD_OUT, drawn
+from verification.families.drawn import CALIBRATED, HELD_OUT, LAYERED, drawn
 from verification.families.solved import solve
 from verification.families.tally import report, shortfalls, values_of
 
@@ -57,3 +57,18 @@ def test_bars_hold_in_families_that_were_held_out(campaign) -> None:
     values = values_of(records)
     assert shortfalls(values) == []
     assert all(value.warned for value in values if value.ratio < 1 / 3)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # of the finer runs
+def test_bars_hold_on_layers(campaign) -> None:
+    """A seed that was not looked at when the limits on thin layers were set."""
+    records = solved(306, 8 * len(LAYERED), LAYERED)
+    assert not any("refused" in record for record in records)
+    for each in report(records):
+        campaign(f"layers, {each}")
+    ratios = np.array([value.ratio for value in values_of(records)])
+    # Measured: 95.9 % of 194 values, 98.2 % of 1108 of 70 runs.
+    assert np.mean(ratios >= 1) >= 0.93
+    assert np.mean(ratios < 1 / 3) <= 0.01
+    assert np.median(ratios) < 8

@@ -8,6 +8,13 @@ from verification.families import rod_solution
 from verification.families.creep_curves import LAWS, mean_compliance
 from verification.families.ellipses import Ellipse
 from verification.families.exact_run import NotDrawnError
+from verification.families.layer_solution import (
+    ball,
+    bonded_on,
+    bonded_on_rigid,
+    cylinder,
+    sliding_on_rigid,
+)
 from verification.families.punches import eccentric_punch
 from verification.families.round_bodies import round_body, solution
 from verification.families.round_profiles import BODIES, RoundProfile
@@ -130,3 +137,52 @@ def test_tilted_paraboloid_is_an_upright_one_beside_the_origin() -> None:
     place = [np.nanmax(values[f"eccentricity_{axis}"]) for axis in "xy"]
     deepest = run.load.approach.max() + ball.radius_x * (tilt_x**2 + tilt_y**2) / 2
     np.testing.assert_allclose(pressed, deepest - ball.gap(x - place[0], y - place[1]), rtol=1e-9)
+
+
+def test_contacts_on_thick_layers_are_hertzs() -> None:
+    """Force and peak of a ball (Johnson 1985, eq. 4.22 and 4.24), force of a cylinder (4.43)."""
+    for deviation in (bonded_on_rigid(0.3), bonded_on_rigid(0.5), sliding_on_rigid()):
+        off = []
+        for a in (0.02, 0.01):
+            round_one, line = ball(a, 1.0, deviation), cylinder(a, 1.0, deviation)
+            assert round_one.force == pytest.approx(4 / 3 * a**3, rel=2e-5)
+            assert round_one.peak == pytest.approx(2 * a / np.pi, rel=2e-5)
+            off.append([round_one.approach / a**2 - 1, line.force / (np.pi * a**2 / 4) - 1])
+        # The approach is off by a/h, the rest by its powers.
+        assert np.divide(*off) == pytest.approx([2.0, 4.0], rel=0.02)
+
+
+def test_contacts_on_thin_layers_approach_their_limits() -> None:
+    """A foundation of springs, and a layer that is squeezed out (Johnson 1985, section 5.8)."""
+    modulus, off = 0.7**2 / 0.4, []  # (1 - ν)²/(1 - 2ν), times the compliance
+    for a in (16.0, 32.0):
+        hard, soft = bonded_on_rigid(0.5), bonded_on_rigid(0.3)
+        springs, line = ball(a, 1.0, soft), cylinder(a, 1.0, soft)
+        squeezed, sheet = ball(a, 1.0, hard), cylinder(a, 1.0, hard)
+        off.append(
+            [
+                springs.force / (np.pi / 4 * modulus * a**4) - 1,
+                springs.approach / (a**2 / 2) - 1,
+                springs.peak / (modulus * a**2 / 2) - 1,
+                line.force / (2 / 3 * modulus * a**3) - 1,
+                line.approach / (a**2 / 2) - 1,
+                squeezed.force / (np.pi / 128 * a**6) - 1,
+                squeezed.approach / (a**2 / 4) - 1,
+                squeezed.peak / (3 / 128 * a**4) - 1,
+                sheet.force / (a**5 / 30) - 1,
+                sheet.approach / (a**2 / 6) - 1,
+                sheet.peak / (a**4 / 32) - 1,
+            ]
+        )
+    assert np.array(off[1][:5]) == pytest.approx([0.0153, 0.0078, 0.0075, 0.0115, 0.0077], rel=0.02)
+    # As h/a, where incompressible layers are slower to it.
+    ratios = np.divide(*off)
+    assert ratios[:5] == pytest.approx(np.full(5, 2.0), rel=0.03)
+    assert (ratios[5:] > 1.85).all()
+    assert (ratios[5:] < 2.35).all()
+
+
+def test_a_layer_on_a_base_is_between_a_half_space_and_one_on_a_rigid_base() -> None:
+    w = np.geomspace(1e-2, 10.0, 20)
+    np.testing.assert_allclose(bonded_on(1e-12, 0.3, 0.2)(w), bonded_on_rigid(0.3)(w), atol=1e-9)
+    np.testing.assert_allclose(bonded_on(1.0, 0.3, 0.3)(w), 0.0, atol=1e-12)
