@@ -67,8 +67,9 @@ def test_a_magnitude_is_compared_whatever_its_sign() -> None:
     assert found([-12.0, 3.0], [0.1, 0.1])[:2] == ("failed", 0.0)
 
 
-def test_undecided_where_the_value_depends_on_the_mesh_even_far_beyond() -> None:
-    assert found([5.0, 99.0], [0.1, math.inf]) == ("undecided", 1.0, "smaller cells give more")
+def test_value_that_grows_as_cells_get_smaller_fails_beyond_the_limit_and_never_passes() -> None:
+    assert found([5.0, 99.0], [0.1, math.inf]) == ("failed", 1.0, "smaller cells give more")
+    assert found([5.0, 9.0], [0.1, math.inf]) == ("undecided", 1.0, "smaller cells give more")
 
 
 def test_a_certain_failure_at_another_instant_decides() -> None:

@@ -46,7 +46,7 @@ def verdict_chapter(ds: xr.Dataset) -> Iterator[Element]:
 #: Meaning of the verdicts.
 LEGEND = (
     "Passed: every magnitude of the run with its error is within the limit. Failed: one of them "
-    "less its error is beyond it. Otherwise undecided."
+    "less its error is beyond it, or one that depends on the mesh. Otherwise undecided."
 )
 
 

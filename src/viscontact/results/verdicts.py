@@ -103,7 +103,7 @@ def verdict_on(ds: xr.Dataset, name: str, limit: float) -> Verdict:
     """Compare the largest magnitude of a scalar or of a stress over a run with its limit.
 
     It has passed if all magnitudes with their errors are within the limit, and failed if one of
-    them less its error is beyond it.
+    them less its error is beyond it, or one that depends on the mesh: smaller cells give more.
     """
     if name in STRESSES:
         return _on_stress(ds, name, limit)
@@ -145,7 +145,8 @@ def _compared(name: str, limit: float, values: Any, errors: Any, places: Any) ->
     if (beyond := known & stated & (values - errors > limit)).any():
         return at("failed", np.where(beyond, values, np.nan))
     if (on_mesh := known & np.isposinf(errors)).any():
-        return at("undecided", np.where(on_mesh, values, np.nan), "smaller cells give more")
+        outcome: Outcome = "failed" if (values[on_mesh] > limit).any() else "undecided"
+        return at(outcome, np.where(on_mesh, values, np.nan), "smaller cells give more")
     if (unknown := known & np.isnan(errors)).any():
         return at("undecided", np.where(unknown, values, np.nan), "its error is not known")
     if (values + errors > limit).any():
