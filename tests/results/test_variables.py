@@ -294,7 +294,6 @@ def test_line_load_is_shown_of_long_contacts_only(ds: xr.Dataset, roller: xr.Dat
 def test_page_receives_the_list_of_scalars(extended: xr.Dataset, tmp_path: Path) -> None:
     data = run_data(extended)
     assert data["facts"][NEW] == LABEL
-    assert data["answers"][NEW] == LABEL
     assert data["scalars"][NEW]["value"] == [0.1, 0.2, 0.3]
     assert grown(tmp_path, 0)["labels"][NEW] == LABEL
 

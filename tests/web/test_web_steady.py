@@ -12,6 +12,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 import viscontact as vc
+from figures.figure_data import array_of
 from viscontact import reference
 from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.run_files import RESULT_NAME
@@ -107,22 +108,27 @@ def test_run_over_speed_is_followed_and_shown(client: TestClient) -> None:
 
     data = client.get(f"/api/runs/{run}/data").json()
     axis, friction = data["axis"], data["scalars"]["friction_coefficient"]
-    assert (axis["name"], axis["startsLog"]) == ("speed", True)
+    assert axis["name"] == "speed"
     assert axis["values"] == pytest.approx([0.01, 0.1, 1.0])  # from the slowest
     assert friction["value"] == pytest.approx(live["scalars"]["friction_coefficient"][::-1])
     assert None not in friction["error"]
     # The creep is 9/10 of the compliance, within 10 ms: the mean retardation time is 9 ms.
-    slow, fast = data["friction"]["limits"]
-    assert slow["value"][0] == pytest.approx(
+    figures = client.get(f"/api/runs/{run}/figures").json()
+    slow, fast, curve = figures["friction"]["data"]
+    assert array_of(slow["y"])[0] == pytest.approx(
         reference.slow_friction_coefficient(RADIUS, 9e-3, 0.01), rel=1e-5
     )
-    assert friction["value"][0] == pytest.approx(slow["value"][0], rel=0.1)
+    assert friction["value"][0] == pytest.approx(array_of(slow["y"])[0], rel=0.1)
+    assert array_of(curve["y"]) == pytest.approx(friction["value"], rel=1e-6)
     assert fast["name"] == "limit of fast motion"
-    shown = data["map"]
-    assert shown["places"] == axis["values"]
-    assert [body["direction"] for body in shown["body"]] == [[0, 1]] * 3
-    (along,) = (each for each in shown["sections"] if each["along"] == "y")
-    assert all(leading > trailing for leading, trailing in along["edges"])
+    assert figures["scale"] == "log"
+    shown, _, along = figures["surface"]
+    titles = [frame["layout"]["meta"]["title"] for frame in shown["frames"]]
+    assert titles == ["10 mm/s", "100 mm/s", "1 m/s"]
+    arrows = [frame["layout"]["annotations"][0] for frame in shown["frames"]]
+    assert [(arrow["xshift"], arrow["yshift"]) for arrow in arrows] == [(0, pytest.approx(34))] * 3
+    edges = [frame["data"][-1]["x"] for frame in along["frames"]]
+    assert all(leading > trailing for leading, trailing in edges)
 
     rows = list(csv.DictReader(io.StringIO(client.get(f"/api/runs/{run}/history.csv").text)))
     assert [float(row["speed [m/s]"]) for row in rows] == live["speed"]

@@ -68,8 +68,8 @@ def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = 
     ]
     if reference is not None:
         dashed = {"color": look.warm, "width": 2, "dash": "dash"}
-        traces.append(_curve(reference, unit, "reference", dashed))
-    traces.append(_curve(ds, unit, "this result", {"color": look.blue, "width": 2}))
+        traces.append(_curve(reference, unit, dashed))
+    traces.append(_curve(ds, unit, {"color": look.blue, "width": 2}))
     limits = [math.log10(lowest), math.log10(highest)]
     return drawn(
         traces,
@@ -83,12 +83,12 @@ def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = 
     )
 
 
-def _curve(ds: xr.Dataset, unit: ReadableUnit, name: str, line: Part) -> Part:
+def _curve(ds: xr.Dataset, unit: ReadableUnit, line: Part) -> Part:
     speeds, values, errors = ds["speed"].values, ds[NAME].values, errors_of(ds, NAME)
     return {
         "x": numbers(unit(speeds)),
         "y": numbers(values),
-        "name": name,
+        "name": str(ds.attrs.get("title") or "this result"),
         "mode": "lines+markers",
         "line": line,
         "marker": {"color": line["color"], "size": 6},

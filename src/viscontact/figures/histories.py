@@ -28,6 +28,8 @@ Floats = NDArray[np.float64]
 
 #: Names of the frames of a linear and a logarithmic axis.
 LINEAR, LOGARITHMIC = "linear", "log"
+#: Remark on a scalar without any error.
+UNKNOWN = "error not known"
 #: A curve with a smaller relative variation is drawn as a constant.
 _CONSTANT = 1e-6
 #: Margin of an axis beyond its curve, in spans of the curve or, if more, in its largest value, so
@@ -213,7 +215,7 @@ def _note(errors: Floats, values: Floats, axis: RunAxis) -> str:
     if marked:
         return MESH_DEPENDENT
     if unknown == int(given.sum()):
-        return "error not known"
+        return UNKNOWN
     return f"error not known at {unknown} of {given.size} {axis.row}s" if unknown else ""
 
 

@@ -31,7 +31,9 @@ export function draw(box, figure) {
   for (const part of ["title", "note"])
     for (const element of document.querySelectorAll(`[data-${part}="${meta.name}"]`))
       element.textContent = meta[part] ?? "";
-  return window.Plotly.react(box, data, { ...layout, dragmode: byFinger() ? false : "zoom" }, config(meta));
+  // A copy, as Plotly changes the ranges of axes in true shape.
+  const dragmode = byFinger() ? false : "zoom";
+  return window.Plotly.react(box, data, structuredClone({ ...layout, dragmode }), config(meta));
 }
 
 // Shows a frame in all figures that have it.

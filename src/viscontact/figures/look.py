@@ -16,7 +16,7 @@ from matplotlib.colors import to_hex
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.results.formatting import format_with_error, format_with_error_in
-from viscontact.units.formatting import ReadableUnit
+from viscontact.units.formatting import ReadableUnit, format_number, without_trailing_zeros
 from viscontact.units.systems import AUTOMATIC, unit_in
 
 #: A trace, an axis or a frame, as Plotly reads them.
@@ -54,6 +54,12 @@ class Look:
             return format_with_error(value, error, si)
         unit = self.unit(si, value)
         return f"{format_with_error_in(unit, value, error)} {unit.symbol}".rstrip()
+
+    def quantity(self, value: float, si: str) -> str:
+        """Return a value in SI with its unit, without trailing zeros."""
+        unit = self.unit(si, value)
+        number = without_trailing_zeros(format_number(value / unit.factor))
+        return f"{number} {unit.symbol}".rstrip()
 
     def instants(self, count: int) -> list[str]:
         """Colours of instants, from early to late."""

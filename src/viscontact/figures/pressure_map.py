@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.figures.shown_fields import BodyPlace, ShownFields
 from viscontact.plot.pressure.rim_polygons import rim_curves
+from viscontact.results.run_axis import TIME
 from viscontact.results.snapshots import Snapshot, headings_of, labels_of
 from viscontact.units.formatting import ReadableUnit, format_compact
+from viscontact.units.systems import AUTOMATIC
 
 Floats = NDArray[np.float64]
 
@@ -121,6 +123,25 @@ def strides_of(fields: ShownFields) -> tuple[int, int]:
     return along_x, along_y
 
 
+def map_remarks(fields: ShownFields) -> str:
+    """Remarks on the map: scale, averaged cells, instants left out."""
+    said = ["The line is the outline of the contact; without colour: no contact."]
+    if fields.body:
+        said.append("The cross is the body's axis, the arrow the direction of its motion.")
+    if fields.window.note:
+        said.append(f"In this drawing {fields.window.note.replace(' stretched', ' is stretched')}.")
+    along_x, along_y = strides_of(fields)
+    if max(along_x, along_y) > 1:
+        said.append(
+            f"To keep the page small the map shows means over {along_x} × {along_y} cells (at most "
+            f"{MOST_CELLS} a side); sections are at full resolution."
+        )
+    if len(fields.snapshots) < fields.stored:
+        rows = fields.snapshots[0].axis.row
+        said.append(f"{len(fields.snapshots)} of {fields.stored} stored {rows}s are shown.")
+    return " ".join(said)
+
+
 def nearest_to(fields: ShownFields, place: float) -> int:
     """Index of the nearest instant [s] or speed [m/s]."""
     return int(np.abs([each.time - place for each in fields.snapshots]).argmin())
@@ -144,7 +165,7 @@ def _frames(
     reference: ShownFields | None,
 ) -> Iterator[tuple[list[Part], Part]]:
     """Yield what differs between the instants: parts of the traces, and of the layout."""
-    shape, headings = _shape(fields, around=130, most=600), headings_of(fields.snapshots)
+    shape, headings = _shape(fields, around=130, most=600), _headings(fields, look)
     for index, each in enumerate(fields.snapshots):
         z = numbers(pressure(_cells(each, fields)))
         traces: list[Part] = [{"type": "heatmap", "z": z}, rim_of(each, length)]
@@ -160,6 +181,14 @@ def _frames(
             traces.append({"x": [x], "y": [y]})
             layout["annotations"] = _arrow(body, (x, y), fields.window.stretch, look)
         yield traces, layout
+
+
+def _headings(fields: ShownFields, look: Look) -> list[str]:
+    """Instants, which share a unit where none is chosen, or speeds."""
+    axis = fields.snapshots[0].axis
+    if axis is TIME and look.system == AUTOMATIC:
+        return headings_of(fields.snapshots)
+    return [f"{axis.symbol}{look.quantity(each.time, axis.unit)}" for each in fields.snapshots]
 
 
 def _note(snapshot: Snapshot, unit: ReadableUnit, *, is_marked: bool) -> str:

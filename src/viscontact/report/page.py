@@ -119,8 +119,14 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         body="\n".join(map(written, _body(name, ds, fields, over_run))),
         figures=as_script([plain(each) for each in drawn]),
         plotly=get_plotlyjs(),
-        linked=(files("viscontact.figures") / "linked.js").read_text(encoding="utf-8"),
+        linked=_linked(),
     )
+
+
+def _linked() -> str:
+    """Script of the figures, which is a module on the calculator page, as part of another."""
+    script = (files("viscontact.figures") / "linked.js").read_text(encoding="utf-8")
+    return script.replace("export function", "function")
 
 
 def _fields(ds: xr.Dataset) -> ShownFields | None:

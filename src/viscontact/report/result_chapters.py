@@ -15,7 +15,7 @@ from plotly.graph_objects import Figure
 
 from viscontact.figures.histories import LINEAR, LOGARITHMIC
 from viscontact.figures.look import LIGHT
-from viscontact.figures.pressure_map import MOST_CELLS, strides_of
+from viscontact.figures.pressure_map import map_remarks
 from viscontact.figures.run_scale import run_scale
 from viscontact.figures.sections import section_place
 from viscontact.figures.shown_fields import ShownFields
@@ -194,29 +194,10 @@ def _map(fields: ShownFields) -> Element:
         class_="controls",
     )
     account = element("span", "", data_note="map")
-    caption = element("figcaption", account, f". {_remarks(fields)}")
+    caption = element("figcaption", account, f". {map_remarks(fields)}")
     return element(
         "figure", controls, element("div", "", id="map", class_="plot"), caption, class_="map"
     )
-
-
-def _remarks(fields: ShownFields) -> str:
-    """Remarks on the map: scale, averaged cells, instants left out."""
-    said = ["The line is the outline of the contact; white: no contact."]
-    if fields.body:
-        said.append("The cross is the body's axis, the arrow the direction of its motion.")
-    if fields.window.note:
-        said.append(f"In this drawing {fields.window.note.replace(' stretched', ' is stretched')}.")
-    along_x, along_y = strides_of(fields)
-    if max(along_x, along_y) > 1:
-        said.append(
-            f"To keep the page small the map shows means over {along_x} × {along_y} cells (at most "
-            f"{MOST_CELLS} a side); sections are at full resolution."
-        )
-    if len(fields.snapshots) < fields.stored:
-        rows = fields.snapshots[0].axis.row
-        said.append(f"{len(fields.snapshots)} of {fields.stored} stored {rows}s are shown.")
-    return " ".join(said)
 
 
 def _section(fields: ShownFields, along: Literal["x", "y"], title: str) -> Element:

@@ -22,6 +22,7 @@ from viscontact.web.routes import case_routes, run_routes
 from viscontact.web.workspace.problems import Problem, RequestError
 
 _STATIC = Path(__file__).parent / "static"
+_FIGURES = Path(__file__).parents[1] / "figures"
 
 #: Media types of static files; operating systems differ in their own tables.
 _MEDIA_TYPES = {
@@ -36,6 +37,8 @@ _MEDIA_TYPES = {
     ".webmanifest": "application/manifest+json",
 }
 _PLOTLY = "plotly.min.js"
+#: Script that reports use as well.
+_LINKED = "linked.js"
 
 
 def new_app(calculator: Calculator) -> ASGIApp:
@@ -70,7 +73,8 @@ def _page() -> FileResponse:
 
 
 def _static(name: str) -> FileResponse:
-    path, media_type = _STATIC / name, _MEDIA_TYPES.get(Path(name).suffix)
+    folder = _FIGURES if name == _LINKED else _STATIC
+    path, media_type = folder / name, _MEDIA_TYPES.get(Path(name).suffix)
     if name == _PLOTLY:
         with as_file(files("plotly") / "package_data" / _PLOTLY) as found:
             headers = {"cache-control": "max-age=86400"}

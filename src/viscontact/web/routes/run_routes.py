@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from contextlib import suppress
+import json
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -17,10 +18,12 @@ from viscontact.report import write_report
 from viscontact.report.run_data import run_data
 from viscontact.results.history_csv import write_history
 from viscontact.run_files import CASE_NAME, RESULT_NAME
+from viscontact.units.systems import AUTOMATIC
 from viscontact.web.guard import REPORT_POLICY
 from viscontact.web.routes.case_routes import AppCalculator, CaseText
 from viscontact.web.runs.live_scalars import grown
 from viscontact.web.runs.run import ManagedRun
+from viscontact.web.runs.run_figures import look_of, run_figures
 from viscontact.web.workspace.naming import file_stem
 from viscontact.web.workspace.pictures import (
     MEDIA_TYPES,
@@ -115,7 +118,7 @@ def given(calculator: AppCalculator, name: str) -> dict[str, str]:
 
 @router.get("/runs/{name}/data")
 async def data(calculator: AppCalculator, name: str, request: Request) -> dict[str, Any]:
-    """Return the numbers of a run for interactive figures."""
+    """Return the numbers of a run."""
     run = calculator.queue.run(name)
 
     def read() -> dict[str, Any]:
@@ -123,6 +126,24 @@ async def data(calculator: AppCalculator, name: str, request: Request) -> dict[s
             return run_data(ds)
 
     return await calculator.do(read, request)
+
+
+@router.get("/runs/{name}/figures")
+async def interactive(
+    calculator: AppCalculator, name: str, request: Request,
+    reference: str | None = None, dark: bool = False, units: str = AUTOMATIC,
+) -> Response:  # fmt: skip
+    """Return the interactive figures of a run, beside those of a reference."""
+    run, look = calculator.queue.run(name), look_of(units, dark=dark)
+    other = None if reference is None else calculator.queue.run(reference)
+
+    def write() -> str:
+        with ExitStack() as stack:
+            ds = stack.enter_context(opened(run.directory))
+            beside = None if other is None else stack.enter_context(opened(other.directory))
+            return json.dumps(run_figures(ds, look, beside), allow_nan=False)
+
+    return Response(await calculator.do(write, request), media_type="application/json")
 
 
 @router.get("/runs/{name}/figure/{figure}.{kind}")

@@ -1,9 +1,8 @@
 // Histories of an active run, drawn from its progress lines.
 
-import { amount } from "./charts.js";
 import { make, place } from "./dom.js";
 import { get } from "./server.js";
-import { unitFor } from "./units.js";
+import { amount, unitFor } from "./units.js";
 
 const WIDTH = 200, HEIGHT = 60, MOST_POINTS = 400;
 // Time between two requests [ms]; a run may complete hundreds of steps a second.

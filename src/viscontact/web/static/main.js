@@ -6,12 +6,12 @@ import {
 } from "./draft.js";
 import { make, place, settled } from "./dom.js";
 import { draw, placeDrawings, setUpDrawings } from "./drawings.js";
+import { setUpFigures } from "./figures.js";
 import { drawForm, useMaterials } from "./form.js";
 import { START } from "./hints.js";
-import { setUpMap } from "./map.js";
 import { goToProblem } from "./problems.js";
 import { drawList, drawProgress, setUpProgress } from "./progress.js";
-import { drawResults, newRunShown } from "./results.js";
+import { drawResults } from "./results.js";
 import { findAgain, list, refer, runs, start, state } from "./runs.js";
 import { useSchema } from "./schema.js";
 import { connection, get } from "./server.js";
@@ -171,7 +171,6 @@ function setUpRuns() {
   const redraw = () => { drawStale(); drawList({ load, complain }); return drawResults(); };
   runs.addEventListener("active", drawProgress);
   runs.addEventListener("shown", () => {
-    newRunShown();
     redraw();
     if (arriving && state.shown?.id === state.active?.id) bringIntoSight();
     arriving = false;
@@ -202,7 +201,7 @@ async function open() {
   useMaterials(materials);
   setUpTheme();
   setUpUnits();
-  setUpMap();
+  setUpFigures();
   setUpDrawings();
   setUpCase();
   setUpChecking();

@@ -1,9 +1,8 @@
 // Table of the scalars of a run with their errors, beside those of the reference.
 
-import { amount, placeText } from "./charts.js";
 import { make } from "./dom.js";
 import { titleOf } from "./hints.js";
-import { unitFor, valueText } from "./units.js";
+import { amount, placeText, unitFor, valueText } from "./units.js";
 
 const number = (text, style = "") => make("td", { class: `number ${style}`, textContent: text });
 

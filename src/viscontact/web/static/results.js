@@ -1,14 +1,10 @@
 // Results of a run: numbers with errors, pressure, histories, downloads.
 
-import { placeText } from "./charts.js";
 import { definitions, items, make, place, write } from "./dom.js";
-import { drawFriction } from "./friction.js";
-import { drawHistories, forgetScale } from "./histories.js";
-import { drawLoops } from "./loops.js";
-import { drawMap } from "./map.js";
+import { drawFigures } from "./figures.js";
 import { largestAt, numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
-import { quantityText } from "./units.js";
+import { placeText, quantityText } from "./units.js";
 
 // Downloads: path, title, and whether the file is saved or opened.
 const DOWNLOADS = [
@@ -21,7 +17,6 @@ const DOWNLOADS = [
 const COARSE = "Fewer cells and steps than in the case, and no error bars. "
   + "Refine to compute the case as written.";
 
-export const newRunShown = forgetScale;
 const qualityOf = (run) => (run.status.quality === "coarse" ? "coarse answer" : "full run");
 
 export async function drawResults() {
@@ -39,7 +34,7 @@ export async function drawResults() {
   place("reference-text").replaceChildren(...referenceText(kept, data));
   place("downloads").replaceChildren(...downloads(shown));
   place("accuracy").replaceChildren(...definitions(data.accuracy));
-  await Promise.all([drawMap(shown, reference), drawFriction(shown, reference), drawHistories(shown, reference), drawLoops(shown, reference)]);
+  await drawFigures(shown, reference);
   document.documentElement.dataset.drawn = shown.id;
 }
 

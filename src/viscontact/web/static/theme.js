@@ -26,15 +26,3 @@ export function setUpTheme() {
   system.addEventListener("change", apply);
   apply();
 }
-
-// A colour of the page's style, for figures.
-export function colour(name) {
-  const probe = place("probe");
-  probe.style.color = `var(--${name})`;
-  return getComputedStyle(probe).color;
-}
-
-export const faded = (name, part) => colour(name).replace(/rgba?\(([^)]+)\)/, (_, parts) => {
-  const [red, green, blue] = parts.split(/[ ,/]+/);
-  return `rgba(${red}, ${green}, ${blue}, ${part})`;
-});

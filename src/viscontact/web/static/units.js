@@ -37,6 +37,7 @@ export const SYSTEMS = {
 };
 let chosen = "auto";
 export const useSystem = (name) => { chosen = name in SYSTEMS ? name : "auto"; };
+export const chosenSystem = () => chosen;
 
 // Unit for values [SI], with its factor to SI.
 export function unitFor(si, ...values) {
@@ -98,6 +99,13 @@ export function quantityText(value, error, si, mesh = false) {
   const unit = unitFor(si, value), number = valueText(unit, value, error, mesh);
   return `${number.includes("±") ? number : withoutIdleZeros(number)} ${unit.symbol}`.trim();
 }
+
+export const amount = (value, unit, digits = 4) => `${Number((value / unit.factor).toPrecision(digits))} ${unit.symbol}`;
+
+// An instant or a speed of a run's axis in words: "t = 2 s", "500 mm/s". Instants share a unit, so
+// that zero has one.
+export const placeText = ({ name, unit, symbol, values }, value) =>
+  symbol + amount(value, unitFor(unit, name === "time" ? values : value));
 
 // A duration in a readable unit.
 export function lasting(seconds) {

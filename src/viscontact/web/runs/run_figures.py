@@ -1,0 +1,83 @@
+"""Interactive figures of a run, for the page."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import xarray as xr
+from plotly.graph_objects import Figure
+
+from viscontact.figures.friction import friction, has_friction
+from viscontact.figures.histories import LINEAR, LOGARITHMIC, UNKNOWN, history, panel_names
+from viscontact.figures.look import DARK, LIGHT, Look, plain
+from viscontact.figures.loops import loops
+from viscontact.figures.pressure_map import map_remarks, pressure_map
+from viscontact.figures.run_scale import run_scale
+from viscontact.figures.sections import sections
+from viscontact.figures.shown_fields import ShownFields, shown_fields
+from viscontact.results.run_axis import SPEED, in_order, run_axis
+from viscontact.units.systems import SYSTEMS
+from viscontact.web.workspace.problems import RequestError
+
+
+def look_of(units: str, *, dark: bool) -> Look:
+    """Colours and units of a page; RequestError for a system that is not known."""
+    if units not in SYSTEMS:
+        raise RequestError(422, f"units: wanted one of {', '.join(SYSTEMS)}; got {units[:40]!r}")
+    return replace(DARK if dark else LIGHT, system=units)
+
+
+def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None) -> dict[str, Any]:
+    """Return the figures of a run beside those of a reference over the same quantity.
+
+    Plain data for JSON: map and sections, with the instant that is shown first; friction over
+    speed; histories, with the scale that is shown first; loops.
+    """
+    ds = in_order(ds)
+    other = None if reference is None else in_order(reference)
+    if other is not None and run_axis(other) is not run_axis(ds):
+        other = None
+    fields, others = _fields(ds), None if other is None else _fields(other)
+    surface: list[Figure] = []
+    if fields is not None:
+        surface = [pressure_map(fields, look, others), *sections(ds, fields, look, others)]
+    return {
+        "surface": list(map(plain, surface)),
+        "start": 0 if fields is None else fields.start,
+        "remarks": "" if fields is None else map_remarks(fields),
+        "friction": plain(friction(ds, look, other)) if has_friction(ds) else None,
+        "histories": [plain(each) for each in _histories(ds, look, other)],
+        "scale": _scale(ds, look, other),
+        "loops": [plain(each) for each in loops(ds, look, other)],
+    }
+
+
+def _fields(ds: xr.Dataset) -> ShownFields | None:
+    try:
+        return shown_fields(ds)
+    except ValueError:  # none are stored, or there is no contact in them
+        return None
+
+
+def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list[Figure]:
+    """Histories without what has a figure of its own; none over a single speed."""
+    if run_axis(ds) is SPEED and ds.sizes["speed"] < 2:
+        return []
+    load, response = panel_names(ds)
+    left_out = "friction_coefficient" if has_friction(ds) else ""
+    names = [name for name in (*load, *response) if name != left_out]
+    figures = [history(ds, name, look, reference) for name in names]
+    for figure in figures:
+        # The page says once that an answer is coarse, and has no error bars.
+        if figure.layout.meta["note"] == UNKNOWN:
+            figure.layout.meta = figure.layout.meta | {"note": ""}
+    return figures
+
+
+def _scale(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> str | None:
+    """Frame of the histories that is shown first; None if they have no other."""
+    scale = run_scale(ds, look, reference)
+    if not scale.has_log:
+        return None
+    return LOGARITHMIC if scale.starts_log else LINEAR
