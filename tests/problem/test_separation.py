@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import scipy
 
 import viscontact as vc
 from viscontact.problem.separation import separate, transformed
+from viscontact.problem.series_body import span_of
 
 SHEAR = 1e6
 OMEGA = np.geomspace(0.02, 400.0, 23)
@@ -136,6 +138,39 @@ def test_the_stated_error_holds_for_creep_and_relaxation_in_time(case):
         relaxed = in_time(lambda s: 1 / (s * summed(s)), t)
         exact = in_time(lambda s: 1 / (s * wanted(s)), t)
         assert relaxed == pytest.approx(exact, rel=found.error)
+
+
+# In 0.01 to 30 s; a law without an instant compliance is replaced before 1e-5 s.
+@pytest.mark.parametrize("instant", [0.2, 0.0])
+@pytest.mark.parametrize(("eps", "terms", "allowed"), [(1e-4, 2, 1e-5), (0.1, 12, 2e-3)])
+def test_power_laws_are_separated_within_the_stated_error(instant, eps, terms, allowed):
+    exponent = 0.3
+    law = vc.PowerLaw(1 / SHEAR, exponent, 1.0, instant=instant / SHEAR)
+    core = vc.Material(vc.Elastic(SHEAR / eps), poisson_ratio=0.3)
+    body = vc.Layered([vc.Layer(THICKNESS, vc.Material(law, 0.4))], base=core)
+
+    def wanted(s):
+        phi = (instant + scipy.special.gamma(1 + exponent) * s**-exponent) / SHEAR
+        return 0.6 * phi * coated(eps / (2 * SHEAR * phi), 0.4, 0.3)
+
+    found = separate(body, span_of([0.0, 10.0]))
+    assert len(found.compliances) <= terms
+    assert found.error < allowed
+    for t in np.geomspace(0.01, 30.0, 5):
+        kernels = zip(found.compliances, found.responses, strict=True)
+        creep = sum(j(t) * response.ratio(Q) for j, response in kernels)
+        exact = in_time(lambda s: wanted(s) / s, t)
+        assert creep == pytest.approx(exact, rel=found.error + 1e-9)
+
+
+def test_a_law_that_no_series_follows_is_refused():
+    # Creep in steps: positive exponentials are smooth.
+    times = np.repeat(np.geomspace(1e-2, 1e3, 12), 2) * np.tile([1.0, 1.0001], 12)
+    law = vc.TabulatedCreep(times, np.repeat(np.geomspace(1.0, 1e3, 13), 2)[1:-1] / SHEAR)
+    core = vc.Material(vc.Elastic(SHEAR), poisson_ratio=0.3)
+    body = vc.Layered([vc.Layer(THICKNESS, vc.Material(law, 0.4))], base=core)
+    with pytest.raises(ValueError, match=r"laws that are not Prony series.*fit_creep"):
+        separate(body, span_of([0.0, 10.0]))
 
 
 def test_an_elastic_bulk_modulus_is_separated():

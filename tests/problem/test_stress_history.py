@@ -3,6 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
+import scipy
 
 import viscontact as vc
 from viscontact.grid import Grid
@@ -10,6 +11,7 @@ from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, Elasti
 from viscontact.halfspace.layered_stress import LayeredStress
 from viscontact.halfspace.stack_waves import stack_waves
 from viscontact.halfspace.stress import stress_on_plane
+from viscontact.problem.series_body import ANY_TIMES, span_of
 from viscontact.problem.stress_history import stress_history
 
 #: A wave of 3 rad per thickness of the first layer, on cells of one of its periods.
@@ -76,9 +78,9 @@ def inverted(stack_at, depth, time, ramp=None):
         ]
 
 
-def ours(body, depth, instants, pressures):
+def ours(body, depth, instants, pressures, span=ANY_TIMES):
     """Amplitudes X, Y, S, T at the last instant of a history of PRESSURE times factors."""
-    history = stress_history(body)
+    history = stress_history(body, span)
     fields = np.multiply.outer(np.asarray(pressures), PRESSURE)
     parts = history.pressures(np.asarray(instants), fields, np.zeros(0))[:, -1]
     stress = sum(
@@ -130,10 +132,20 @@ def test_a_load_that_jumps_later_jumps_then():
     assert jumped == pytest.approx(stepped, rel=1e-9)
 
 
-def test_laws_that_are_no_series_are_refused():
+def test_stresses_of_a_power_law_follow_the_inverted_transform():
     law = vc.PowerLaw(1e-6, 0.3, 1.0, instant=1e-7)
-    body = vc.Layered(
-        [vc.Layer(1.0, vc.Material(law, 0.4))], base=vc.Material(vc.Elastic(1e6), 0.3)
-    )
-    with pytest.raises(ValueError, match="Prony series"):
-        stress_history(body)
+    core = vc.Material(vc.Elastic(1e6), 0.3)
+    body = vc.Layered([vc.Layer(1.0, vc.Material(law, 0.4))], base=core)
+    span = span_of([0.0, 6.0])
+
+    def stack_at(s):
+        creep = 1e-7 + 1e-6 * scipy.special.gamma(1.3) * s**-0.3
+        return ElasticStack((ElasticLayer(1.0, 0.5 / creep, 0.4),), ElasticBase(1e6, 0.3))
+
+    error = stress_history(body, span).error
+    assert error < 5e-3
+    for depth in (0.4, 1.3):
+        wanted = np.array([inverted(stack_at, depth, time) for time in (0.3, 6.0)])
+        instants = ([0.0, 0.3], [0.0, 6.0])
+        found = np.array([ours(body, depth, each, np.ones(2), span) for each in instants])
+        assert found == pytest.approx(wanted, abs=error * max(1.0, np.abs(wanted).max()))

@@ -89,7 +89,12 @@ def test_the_elastic_body_at_a_time_has_all_terms():
         assert at_time == pytest.approx(displacement(surface, time), rel=1e-9)
 
 
-def test_layers_of_other_laws_that_differ_need_series():
-    body = vc.Layered([vc.Layer(1e-3, GEL)], base=RUBBER)
-    with pytest.raises(ValueError, match=r"need laws that are Prony series.*fit_creep"):
-        surface_of([body])
+def test_the_creep_function_of_a_cover_is_that_of_its_law():
+    # Rubber on steel: the law itself, not a series in its place.
+    cover = vc.Material(vc.PowerLaw(1e-7, 0.3, 1.0, instant=1e-7), poisson_ratio=0.49)
+    body = vc.Layered([vc.Layer(1e-3, cover)], base=STEEL)
+    surface = surface_of([body])
+    assert len(surface.terms) == 2
+    assert surface.splitting_error < 1e-7
+    for time in (0.0, 1e-3, 7.0):
+        assert surface.compliance(time) == pytest.approx(cover.contact_compliance()(time), rel=1e-7)

@@ -19,7 +19,8 @@ from viscontact.loads.motion import Motion, MovingLoad
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
-from viscontact.problem.surface import Surface, surface_of
+from viscontact.problem.series_body import span_of
+from viscontact.problem.surface import Surface, follows_span, surface_of
 from viscontact.surfaces import Surface as MeasuredSurface
 from viscontact.surfaces import indenter_of
 from viscontact.surfaces.topographies import is_topography
@@ -134,7 +135,11 @@ class Problem:
     @cached_property
     def surface(self) -> Surface:
         """Creep functions and frequency responses of both bodies together."""
-        return surface_of(self.bodies)
+        has_times = self.times is not None or self.motion is not None
+        if not (has_times and any(map(follows_span, self.bodies))):
+            return surface_of(self.bodies)
+        first, *others = (material.contact_compliance() for material in self.materials)
+        return surface_of(self.bodies, span_of(self._instants(sum(others, start=first))))
 
     @property
     def compliance(self) -> ContactCompliance:
@@ -165,12 +170,16 @@ class Problem:
     @cached_property
     def instants(self) -> NDArray[np.float64]:
         """Times of the states [s]; of adaptive steps the prescribed ones, the end last."""
+        return self._instants(self.surface.creep)
+
+    def _instants(self, creep: ContactCompliance) -> NDArray[np.float64]:
+        """Times of the states, which may depend on the creep of all bodies [s]."""
         if isinstance(self.times, CellTimes) or (self.times is None and self.motion is not None):
             if isinstance(self.grid, Grid):
                 return self.times_at_cells(self.grid.cell_size)
             # Until the cells are known, those of one that is longer than any path.
             return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
-        return run_instants(self.times, self.fields, self.load, self.surface.creep)
+        return run_instants(self.times, self.fields, self.load, creep)
 
     def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
         """Times of a moving contact at which the body has passed whole cells [s]."""

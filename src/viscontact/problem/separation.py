@@ -36,13 +36,13 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.halfspace.surface_response import SummedResponse
-from viscontact.laws import SeriesLaw
-from viscontact.materials.compliance import SeriesCompliance
+from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material, uniaxial_compression
 from viscontact.problem.creeping_stack import CreepingStack, stack_of, transformed
 from viscontact.problem.passivity import passive_share
 from viscontact.problem.rational_creep import series_of_transform
+from viscontact.problem.series_body import ANY_TIMES, Span, series_body
 
 __all__ = ["Separation", "separate", "stack_of", "transformed"]
 
@@ -50,6 +50,9 @@ Array = NDArray[Any]
 
 #: Error at which no term is added, and most terms.
 ENOUGH, MOST_TERMS = 6.5e-4, 12
+
+#: Largest error with laws that are not Prony series.
+WORST = 0.1
 
 #: Stated error over the largest one found, for waves and frequencies between those looked at.
 SAFETY = 1.5
@@ -85,14 +88,18 @@ MOVES, ROUNDS, WORTHWHILE = (-1, 1, -2, 2), 3, 0.98
 class Separation:
     """Terms (J_m, L_m) of a body of layers, and a bound of the relative error of their sum [-]."""
 
-    compliances: tuple[SeriesCompliance, ...]
+    compliances: tuple[ContactCompliance, ...]
     responses: tuple[SummedResponse, ...]
     error: float
 
 
 @lru_cache(maxsize=16)
-def separate(body: Layered) -> Separation:
-    """Separate the response of layers whose laws are Prony series.
+def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
+    """Separate the response of layers that creep differently.
+
+    The terms are found for Prony series (`series_body`), which follow other laws within a span of
+    times [s]. Creep functions of materials are then those of the laws themselves, as the responses
+    depend little on the law. ValueError if no sum comes close.
 
     Examples
     --------
@@ -106,13 +113,33 @@ def separate(body: Layered) -> Separation:
     >>> len(found.compliances), found.error < 1e-6
     (2, True)
     """
-    if not all(isinstance(material.law, SeriesLaw) for material in body.materials):
+    series, deviation = series_body(body, span)
+    found = _Search(series).best()
+    if series is body:
+        return found
+    compliances = tuple(_of_law(each, body, series) for each in found.compliances)
+    kept = any(
+        each is old and not each.is_elastic
+        for each, old in zip(compliances, found.compliances, strict=True)
+    )
+    error = found.error + (deviation if kept else 0.0)
+    if not error <= WORST:
         raise ValueError(
-            "material: layers that creep differently need laws that are Prony series, such as "
-            "Zener, CreepSeries or RelaxationSeries; fit one to the other laws, for example with "
-            "fit_creep"
+            "material: these layers creep too differently for laws that are not Prony series with "
+            "an instant compliance; fit one to the other laws, for example with fit_creep"
         )
-    return _Search(body).best()
+    return replace(found, compliances=compliances, error=error)
+
+
+def _of_law(found: ContactCompliance, body: Layered, series: Layered) -> ContactCompliance:
+    """The contact compliance of the law in whose place a series was, or the series itself."""
+    assert isinstance(found, SeriesCompliance)  # as all terms are before
+    for given, used in zip(body.materials, series.materials, strict=True):
+        if given is not used and given.poisson_ratio is not None:
+            own = _contact_compliance(used)
+            if own.instant == found.instant and np.array_equal(own.amplitudes, found.amplitudes):
+                return given.contact_compliance()
+    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ at the same depth; twice that is stated.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -33,6 +33,7 @@ from viscontact.halfspace.stack_waves import interface_depths, stack_waves
 from viscontact.laws import SeriesLaw
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
+from viscontact.problem.series_body import ANY_TIMES, Span, series_body
 
 Array = NDArray[Any]
 
@@ -96,8 +97,10 @@ class StressHistory:
 
 
 @lru_cache(maxsize=16)
-def stress_history(body: Layered) -> StressHistory:
-    """Separate the stresses of layers whose laws are Prony series.
+def stress_history(body: Layered, span: Span = ANY_TIMES) -> StressHistory:
+    """Separate the stresses of layers, for times of interest within a span [s].
+
+    Laws that are not Prony series are approximated by series (`series_body`).
 
     A rubber cover on steel is stressed by the present pressure, as its creep does not matter there:
 
@@ -109,11 +112,7 @@ def stress_history(body: Layered) -> StressHistory:
     >>> len(found.stacks), found.error < 1e-3
     (1, True)
     """
-    if not all(isinstance(material.law, SeriesLaw) for material in body.materials):
-        raise ValueError(
-            "stresses: in layers that creep differently they need laws that are Prony series, such "
-            "as Zener, CreepSeries or RelaxationSeries"
-        )
+    body, deviation = series_body(body, span)
     slow, fast, fluid = _rates(body)
     far = BEYOND_FLUID if fluid else BEYOND
     if fluid:
@@ -133,7 +132,7 @@ def stress_history(body: Layered) -> StressHistory:
         if np.abs(tried.weights).max() > LARGEST_WEIGHT:
             break
         best = min(best, tried, key=lambda each: each.error)
-    return best
+    return replace(best, error=best.error + (deviation if best.times.size else 0.0))
 
 
 def _collocated(
@@ -204,7 +203,7 @@ def _rates(body: Layered) -> tuple[float, float, bool]:
     """Slowest and fastest rate of creep and of relaxation [1/s], and if a part flows."""
     rates, flows = [], False
     for material in body.materials:
-        assert isinstance(material.law, SeriesLaw)  # others are refused
+        assert isinstance(material.law, SeriesLaw)  # others have been replaced
         instant, amplitudes, times, fluidity = material.law.creep_series().terms
         rates += (1 / np.asarray(times)).tolist()
         begun = float((np.asarray(amplitudes) / np.asarray(times)).sum()) + fluidity

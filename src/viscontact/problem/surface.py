@@ -28,6 +28,7 @@ from viscontact.materials.compliance import (
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.separation import separate, stack_of
+from viscontact.problem.series_body import ANY_TIMES, Span, is_series
 
 #: Relative difference of two creep functions that count as proportional.
 PROPORTIONAL = 1e-12
@@ -108,8 +109,8 @@ class Surface:
         return SummedResponse(parts, tuple(j / local for j in creep))
 
 
-def surface_of(bodies: Sequence[Material | Layered]) -> Surface:
-    """Terms of the bodies that deform.
+def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> Surface:
+    """Terms of the bodies that deform; `span` is that of the times of interest [s].
 
     Examples
     --------
@@ -125,10 +126,10 @@ def surface_of(bodies: Sequence[Material | Layered]) -> Surface:
     """
     terms: list[SurfaceTerm] = []
     for body in bodies:
-        for new in terms_of(body):
+        for new in terms_of(body, span):
             terms = _with_term(terms, new)
     layered = [body for body in bodies if isinstance(body, Layered)]
-    separated = [separate(body) for body in layered if as_elastic(body) is None]
+    separated = [separate(body, span) for body in layered if as_elastic(body) is None]
     error = max((each.error for each in separated), default=0.0)
     return Surface(tuple(terms), error)
 
@@ -148,8 +149,8 @@ def _with_term(terms: list[SurfaceTerm], new: SurfaceTerm) -> list[SurfaceTerm]:
     return [*terms, new]
 
 
-def terms_of(body: Material | Layered) -> list[SurfaceTerm]:
-    """Terms of one body.
+def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTerm]:
+    """Terms of one body; `span` is that of the times of interest [s].
 
     >>> from viscontact.laws import Elastic
     >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
@@ -161,7 +162,7 @@ def terms_of(body: Material | Layered) -> list[SurfaceTerm]:
     creeps_alike = as_elastic(body)
     if creeps_alike is not None:
         return [SurfaceTerm(body.layers[0].material.contact_compliance(), creeps_alike)]
-    found = separate(body)
+    found = separate(body, span)
     return [SurfaceTerm(*pair) for pair in zip(found.compliances, found.responses, strict=True)]
 
 
@@ -182,6 +183,21 @@ def as_elastic(body: Layered) -> ElasticStack | None:
         if nu is not None
     ]
     return stack_of(body, constants)
+
+
+def follows_span(body: Material | Layered) -> bool:
+    """True for layers whose terms depend on the times of interest, as a law is approximated.
+
+    >>> from viscontact.laws import Elastic, PowerLaw
+    >>> from viscontact.materials.layers import Layer
+    >>> rubber = Material(PowerLaw(1e-6, 0.3, 1.0), poisson_ratio=0.5)
+    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
+    >>> [follows_span(Layered([Layer(1e-3, rubber)], base)) for base in ("rigid", steel)]
+    [False, True]
+    """
+    if isinstance(body, Material) or as_elastic(body) is not None:
+        return False
+    return not all(is_series(material.law) for material in body.materials)
 
 
 def creeps(body: Material | Layered) -> bool:

@@ -18,6 +18,7 @@ from viscontact.halfspace.stack_waves import interface_depths
 from viscontact.halfspace.stress import Stress, stress_on_plane, stress_on_section
 from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
 from viscontact.materials.layers import Layered
+from viscontact.problem.series_body import ANY_TIMES, span_of
 from viscontact.problem.stress_history import StressHistory, stress_history
 from viscontact.problem.surface import as_elastic
 from viscontact.results.recorded_case import (
@@ -174,7 +175,8 @@ def stress_source(
     stack = as_elastic(layered)
     if stack is not None:
         return StressSource(results, (LayeredStress(stack),), stack)
-    history = stress_history(layered)
+    span = span_of(results["time"].values) if "time" in results.dims else ANY_TIMES
+    history = stress_history(layered, span)
     return StressSource(
         results, tuple(map(LayeredStress, history.stacks)), history.stacks[0], history
     )
