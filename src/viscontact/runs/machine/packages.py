@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
+from itertools import chain
 
 #: Extras for developers, and those that contain others.
 _NOT_FOR_USERS = ("all", "dev", "docs", "test")
@@ -15,7 +17,7 @@ class Package:
     """Package that viscontact needs, or that extras add."""
 
     name: str
-    extras: tuple[str, ...]  # empty for a package that is always needed
+    extras: tuple[str, ...]  # the smallest one first; empty for a package that is always needed
     installed: str | None  # version, None where it is missing
 
 
@@ -33,7 +35,12 @@ def packages() -> tuple[Package, ...]:
         chosen = re.search(r"extra == ['\"]([\w-]+)['\"]", requirement)
         if name != "viscontact" and not (chosen and chosen[1] in _NOT_FOR_USERS):
             extras.setdefault(name, set()).update([chosen[1]] if chosen else [])
-    found = (Package(name, tuple(sorted(of)), _installed(name)) for name, of in extras.items())
+    sizes = Counter(chain.from_iterable(extras.values()))
+
+    def by_size(of: set[str]) -> tuple[str, ...]:
+        return tuple(sorted(of, key=lambda extra: (sizes[extra], extra)))
+
+    found = (Package(name, by_size(of), _installed(name)) for name, of in extras.items())
     return tuple(sorted(found, key=lambda package: (package.extras, package.name)))
 
 
