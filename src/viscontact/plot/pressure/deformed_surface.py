@@ -117,7 +117,7 @@ def deformed_surface(
     add_side_bar(figure, _COLOURS, norm, unit.label("Displacement"), downwards=True)
     heights = f"heights {format_compact(stretch_of_heights(panels[0], window, unit), 2)}×"
     stretches = "; ".join(filter(None, (heights, window.note)))
-    add_note(figure, "black: edge of the contact; orange: lower side of the indenter", stretches)
+    add_note(figure, "black: contact edge; orange: lower side of the indenter", stretches)
     return figure
 
 
