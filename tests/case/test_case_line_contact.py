@@ -44,6 +44,7 @@ def test_refused_in_a_case(tmp_path, old, new, message):
         read_case(path)
 
 
+@pytest.mark.slow
 def test_command_line(tmp_path, monkeypatch, capsys):
     """A run, its check, report and figures without an approach, at a logarithmic time."""
     monkeypatch.chdir(tmp_path)

@@ -450,6 +450,7 @@ def test_terminal_that_is_ignored_stays_ignored() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
+@pytest.mark.slow
 def test_real_process_is_stopped_and_resumed(folder: Path) -> None:
     # a thousand steps, so that there is time to stop it
     command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1000"]

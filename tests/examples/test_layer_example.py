@@ -51,6 +51,7 @@ def test_cover_that_was_only_pressed_approaches_as_an_elastic_one(folder: Path) 
         assert (np.diff(ds.approach.sel(time=slice(5.2, None))) < 0).all()
 
 
+@pytest.mark.slow
 def test_covered_roll_is_shown_drawn_and_reported(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

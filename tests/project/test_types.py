@@ -82,6 +82,7 @@ def checked(*files: Path, cache: Path) -> set[tuple[str, int, str]]:
     return found
 
 
+@pytest.mark.slow
 def test_mypy_accepts_correct_scripts_and_refuses_wrong_ones(
     tmp_path: Path, request: pytest.FixtureRequest
 ) -> None:

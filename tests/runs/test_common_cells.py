@@ -53,6 +53,7 @@ def result(force: int) -> xr.Dataset:
         return ds.load()
 
 
+@pytest.mark.slow
 def test_peaks_of_a_sharp_roller_vary_smoothly_with_the_load(
     roller: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

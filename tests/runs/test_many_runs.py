@@ -246,6 +246,7 @@ def test_runs_are_stopped_together_and_resumed_to_the_same_bits(
     assert contents("zener") == contents(str(both[1]))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="not tried there")
 def test_runs_whose_command_is_killed_save_and_end(folder: Path) -> None:
     words = ["run", "zener.yaml", "--vary", "load.force=2N,3N", "--set", "time.steps=2000"]

@@ -46,13 +46,8 @@ def test_runs_made_again_after_other_work_give_the_same_bits(first):
         assert differing(first[name], arrays(name)) == []
 
 
-@pytest.mark.parametrize(
-    "surroundings",
-    [
-        pytest.param("one thread of linear algebra", marks=pytest.mark.slow),
-        "three threads of linear algebra",
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("surroundings", SURROUNDINGS)
 def test_a_process_of_its_own_gives_the_same_bits(surroundings, first, tmp_path):
     command = [sys.executable, "-m", "verification.repeated_runs", str(tmp_path)]
     environment = {**os.environ, **SURROUNDINGS[surroundings]}

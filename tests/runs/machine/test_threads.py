@@ -38,6 +38,7 @@ def test_worker_uses_one_thread_whatever_the_environment_says(
             assert pool.submit(threads).result() == expected
 
 
+@pytest.mark.slow
 def test_worker_of_simulate_many_uses_one_thread_and_leaves_the_environment_alone() -> None:
     program = (
         "import os\n"
