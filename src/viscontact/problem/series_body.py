@@ -11,7 +11,7 @@ from viscontact.laws import CreepSeries, Law, SeriesLaw
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.layers import Layer, Layered
 from viscontact.materials.material import Material
-from viscontact.time_integration.prony_approximation import as_exponentials
+from viscontact.time_integration.prony_approximation import as_exponentials, deviation_between
 
 #: Shortest and longest time of interest [s].
 Span = tuple[float, float]
@@ -21,6 +21,18 @@ ANY_TIMES: Span = (1e-6, 1e9)
 
 #: Shortest time of interest over the end of a run, and the longest one.
 EARLY, LATE = 1e-6, 10.0
+
+#: Time by which a series without an instant compliance is ahead, over the shortest one of interest.
+AHEAD = 0.1
+
+#: Part of an amplitude that is left then below which the term is dropped.
+NEGLIGIBLE = 1e-12
+
+#: Shortest time of interest over the shortest step, at most: what is ahead by that is close then.
+EARLIER = 0.01
+
+#: Time over the end of a run before which steps are not resolved that well.
+EARLIEST = 1e-8
 
 #: Part of the creep at the longest time below which flow is rounding of the fit.
 NO_FLOW = 1e-6
@@ -36,15 +48,17 @@ def span_of(instants: ArrayLike) -> Span:
     steps, end = np.diff(times), float(times[-1])
     if end <= 0:
         return ANY_TIMES
-    return min(EARLY * end, float(steps[steps > 0].min(initial=np.inf))), LATE * end
+    shortest = float(steps[steps > 0].min(initial=np.inf))
+    # Still shorter steps are those of adaptive runs at the beginning of a ramp.
+    return min(EARLY * end, max(EARLIER * shortest, min(shortest, EARLIEST * end))), LATE * end
 
 
 def series_body(body: Layered, span: Span = ANY_TIMES) -> tuple[Layered, float]:
     """Replace laws that are no Prony series by series; return the largest deviation, too.
 
     The deviation is that of the creep compliance over its value, within the span. A series without
-    an instant compliance, which is stiffer at first than whatever lies beneath, has one that it
-    reaches before the span. Where nothing is replaced, the body itself is returned.
+    an instant compliance, which is stiffer at first than whatever lies beneath, is taken a little
+    ahead in time, where it has one. Where nothing is replaced, the body itself is returned.
 
     Examples
     --------
@@ -76,18 +90,27 @@ def _series_material(material: Material, span: Span) -> tuple[Material, float]:
     law, (first, last) = material.law, span
     if is_series(law):
         return material, 0.0
+    # Of a Poisson's ratio of 0 the contact compliance is Phi itself.
+    creep = Material(law, poisson_ratio=0.0).contact_compliance()
     if isinstance(law, SeriesLaw):
         series, deviation = SeriesCompliance(*law.creep_series().terms), 0.0
     else:
-        # Of a Poisson's ratio of 0 the contact compliance is Phi itself.
-        creep = Material(law, poisson_ratio=0.0).contact_compliance()
         series, deviation = as_exponentials(creep, first, last)
-    instant, amplitudes, times = series.instant, series.amplitudes, series.times
-    if instant == 0:
-        early = times < first
-        instant = float(amplitudes[early].sum())
-        amplitudes, times = amplitudes[~early], times[~early]
+    if series.instant == 0:
+        series = _advanced(series, AHEAD * first)
+        deviation = deviation_between(creep, series, first / EARLIER, last)
     flows = series.fluidity * last > NO_FLOW * series(last)
-    fluidity = series.fluidity if flows else 0.0
-    found = CreepSeries(instant, amplitudes.tolist(), times.tolist(), fluidity)
+    found = CreepSeries(
+        series.instant,
+        series.amplitudes.tolist(),
+        series.times.tolist(),
+        series.fluidity if flows else 0.0,
+    )
     return replace(material, law=found), deviation
+
+
+def _advanced(series: SeriesCompliance, time: float) -> SeriesCompliance:
+    """The series J(t + time), which has an instant compliance [s]."""
+    left = series.amplitudes * np.exp(-time / series.times)
+    lasting = left > NEGLIGIBLE * series.amplitudes
+    return SeriesCompliance(series(time), left[lasting], series.times[lasting], series.fluidity)

@@ -52,7 +52,7 @@ def as_exponentials(
     best = None
     for density in TIMES_PER_DECADE:
         series = _fitted(compliance, first, last, density)
-        error = _deviation(compliance, series, first, last)
+        error = deviation_between(compliance, series, first, last)
         if best is None or error < best[1]:
             best = series, error
         if best[1] <= TARGET_DEVIATION:
@@ -103,10 +103,10 @@ def _log_spaced(first: float, last: float, finer: int = 1) -> NDArray[np.float64
     return np.geomspace(first, last, int(np.ceil(decades * SAMPLES_PER_DECADE * finer)) + 2)
 
 
-def _deviation(
+def deviation_between(
     compliance: ContactCompliance, series: SeriesCompliance, first: float, last: float
 ) -> float:
-    """Largest relative deviation of the series from J, and from its means."""
+    """Largest relative deviation of a series from J between two times, and from its means."""
     between = _log_spaced(first, last, finer=7)
     at_once = np.zeros(between.shape)
     values = series(between) / compliance(between)
