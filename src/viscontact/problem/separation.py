@@ -125,8 +125,9 @@ def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
     error = found.error + (deviation if kept else 0.0)
     if not error <= WORST:
         raise ValueError(
-            "material: these layers creep too differently for laws that are not Prony series with "
-            "an instant compliance; fit one to the other laws, for example with fit_creep"
+            "material: no short sum of terms comes close to the creep of these layers, with laws "
+            "that are not Prony series with an instant compliance; fit one to them, for example "
+            "with fit_creep"
         )
     return replace(found, compliances=compliances, error=error)
 

@@ -20,7 +20,6 @@ from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
-from viscontact.problem.series_body import Span
 from viscontact.problem.surface import ROUNDING, SurfaceTerm, terms_of
 from viscontact.steady.problem import SteadyProblem
 from viscontact.time_integration.prony_approximation import as_exponentials
@@ -123,9 +122,8 @@ def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingL
     else:
         last = LONGEST * extents[1] / float(speeds.min())
     material, mate = problem.contact.material, problem.contact.indenter_material
-    span = first, last
-    found = [_law(term, *_series(term.compliance, *span)) for term in _terms(material, span)]
-    for term in _terms(mate, span) if mate is not None else ():
+    found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(material)]
+    for term in _terms(mate) if mate is not None else ():
         compliance = term.compliance
         if problem.rolling and not compliance.is_elastic:
             _relaxed(compliance, last, "rolls")
@@ -144,12 +142,12 @@ def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingL
     return MovingLaws(tuple(found))
 
 
-def _terms(body: Material | Layered, span: Span) -> list[SurfaceTerm]:
+def _terms(body: Material | Layered) -> list[SurfaceTerm]:
     """Terms of a body. Those of a layered solid do not flow, however its response is separated."""
     parts = (body,) if isinstance(body, Material) else body.materials
     creep = [part.contact_compliance() for part in parts]
     if any(not isinstance(each, SeriesCompliance) or each.fluidity > 0 for each in creep):
-        return terms_of(body, span)
+        return terms_of(body)
     return [replace(term, compliance=_without_flow(term.compliance)) for term in terms_of(body)]
 
 
