@@ -33,6 +33,9 @@ FEW_CELLS = 4
 #: elsewhere.
 SEAM = 2.0
 
+#: Words of the warnings of a contact at the end of a profile, which the result keeps.
+AT_THE_END = "the end of the indenter's profile"
+
 #: Kinds of warnings under which the peak pressure does not converge with the mesh.
 SINGULAR_KINDS = frozenset({"sharp_end", "seam", "corner"})
 
@@ -232,7 +235,7 @@ def _end_warnings(
     if not at_end:
         return {}
     _, reach = geometry._verbs
-    what = f"the contact {reach} the end of the indenter's profile"
+    what = f"the contact {reach} {AT_THE_END}"
     support = "The half-space continues beyond it; a body that ends there too is more compliant"
     if has_limit or at_end < pressure.max():
         return {

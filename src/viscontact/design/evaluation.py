@@ -13,6 +13,7 @@ from typing import Any
 import xarray as xr
 
 from viscontact.case import Case, read_case
+from viscontact.checks.half_space_theory import AT_THE_END
 from viscontact.design.goals import Constraint, Goal, magnitude
 from viscontact.design.trials import REACH, Level, ScenarioResult, Trial, goal_name
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
@@ -34,9 +35,8 @@ COARSE_TOLERANCE = 0.05
 #: Least number of cells along an edge, and cells from which a given grid is made coarser.
 LEAST_CELLS, MOST_CELLS = 32, 2**12
 
-#: Scalar without a limit at a sharp end, also where the cells do not resolve that, and the words of
-#: the warning of a contact that reaches the end.
-PEAK, AT_THE_END = "peak_pressure", "the end of the indenter's profile"
+#: Scalar without a limit at a sharp end, also where the cells do not resolve that.
+PEAK = "peak_pressure"
 _SHARP = (CylindricalProfile, PartialCrown, FullCrown, TwoRadiiCrown, Chamfer)
 
 #: A scenario: values of the case by key.
