@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Iterator
+from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
 import openpyxl
 import pytest
 from fastapi.testclient import TestClient
@@ -254,9 +257,9 @@ def test_schema_is_that_of_the_command_line(
 def drawing(client: TestClient, what: str, *, dark: bool = False, narrow: bool = False) -> str:
     wish = {"yaml": CASE, "what": what, "dark": dark, "narrow": narrow}
     answer = client.post("/api/drawing", json=wish)
-    assert answer.headers["content-type"] == "image/svg+xml"
-    assert ElementTree.fromstring(answer.text).tag.endswith("svg")
-    return answer.text
+    (drawn,) = answer.json()
+    assert ElementTree.fromstring(drawn["svg"]).tag.endswith("svg")
+    return str(drawn["svg"])
 
 
 def test_drawings_come_in_ink_for_light_and_for_dark_ground(client: TestClient) -> None:
@@ -290,7 +293,8 @@ def test_a_sheet_is_uploaded_and_its_fit_is_drawn_with_its_misfit(
     assert answer.status_code == 200, answer.text
     assert any("fitted to dma.xlsx#DMA" in note for note in answer.json()["notes"])
     assert any("misses" in warning for warning in answer.json()["warnings"])
-    drawn = client.post("/api/drawing", json={"yaml": case, "what": "material"}).text
+    (found,) = client.post("/api/drawing", json={"yaml": case, "what": "material"}).json()
+    drawn = found["svg"]
     for words in ("Storage modulus", "Loss modulus", "Residual [%]", "Misses the data: "):
         assert f"<!-- {words}" in drawn
     wrong = case.replace("dma.xlsx#DMA", "dma.xlsx#Data")
@@ -298,6 +302,53 @@ def test_a_sheet_is_uploaded_and_its_fit_is_drawn_with_its_misfit(
     assert "has no sheet 'Data'; there are 'Sheet', 'DMA'" in problem["message"]
     assert problem["path"] == "material.file"
     client.delete("/api/files/dma.xlsx")
+
+
+def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path: Path) -> None:
+    client.post("/api/files?name=dma.xlsx", content=oscillation(tmp_path))
+    body = """\
+  base: rigid
+  layers:
+    - {thickness: 2 mm, law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.4}
+    - {thickness: 1 mm, law: table, file: dma.xlsx#DMA, poisson_ratio: 0.4}
+"""
+    case = f"{CASE.split('  law: zener')[0]}{body}{CASE[CASE.index('load:') :]}"
+    answer = client.post("/api/drawing", json={"yaml": case, "what": "material"})
+    assert answer.status_code == 200, answer.text
+    curves, fit = answer.json()
+    assert (curves["caption"], fit["caption"]) == ("", "material.layers[2]")
+    assert "<!-- Creep compliance" in curves["svg"]
+    for words in ("Storage modulus", "Residual [%]", "Misses the data: "):
+        assert f"<!-- {words}" in fit["svg"]
+    client.delete("/api/files/dma.xlsx")
+
+
+@pytest.mark.parametrize("missing", [False, True])
+def test_spectrum_of_a_measured_surface_is_drawn_below_its_shape(
+    missing: bool, client: TestClient
+) -> None:
+    examples = files("viscontact.examples")
+    given = np.load(io.BytesIO((examples / "rough-patch.npz").read_bytes()))
+    arrays = {name: np.array(given[name]) for name in given.files}
+    if missing:
+        arrays["height"][3, 4] = np.nan
+    np.savez(file := io.BytesIO(), **arrays)
+    client.post("/api/files?name=rough-patch.npz", content=file.getvalue())
+    case = (examples / "rough-ball.yaml").read_text(encoding="utf-8")
+    case = case.replace("missing: refuse", "missing: hole")
+    answer = client.post("/api/drawing", json={"yaml": case, "what": "indenter"})
+    assert answer.status_code == 200, answer.text
+    shape, spectrum = answer.json()
+    assert shape["svg"]
+    if missing:
+        assert spectrum["svg"] == ""
+        assert spectrum["caption"].endswith(
+            "no power spectrum is drawn, because points are missing"
+        )
+    else:
+        assert "<!-- Power spectral density" in spectrum["svg"]
+        assert "Sq" in spectrum["svg"]
+    client.delete("/api/files/rough-patch.npz")
 
 
 def test_what_can_be_read_is_drawn_while_the_rest_is_wrong(client: TestClient) -> None:

@@ -49,7 +49,8 @@ class Case(DisplayableGroup, Problem):
     measured : mapping of str to mapping
         Tables of the laws, in the quantities that were measured, by the section of the material.
     fits : mapping of str to Fit
-        Series fitted to oscillations that the case names, by the section of the material.
+        Series fitted to oscillations that the case names, by the key of the material:
+        "material", "material.layers[1]", "material.base".
     surfaces : tuple of Surface
         Measured surfaces of the indenter, as they are pressed.
     notes : tuple of str

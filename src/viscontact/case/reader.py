@@ -16,11 +16,13 @@ from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.shapes import combined
+from viscontact.case.materials.layers import Layers
 from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
 from viscontact.loads.motion import Motion
+from viscontact.series_fits.fit import Fit
 from viscontact.tables import split_sheet
 
 # Largest number of problems that are reported.
@@ -162,7 +164,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         files=files,
         digests={path: digest(path) for path in (document.path, *files.values())},
         measured={name: law.measured for name, law in _tables(found).items()},
-        fits={name: law.fit for name, law in _tables(found).items() if law.fit is not None},
+        fits=_fits(found),
         surfaces=tuple(each.surface for each in found.indenter if isinstance(each, HeightMap)),
         notes=(*_notes(found), *([early] if early else [])),
         document=document,
@@ -178,6 +180,19 @@ def _tables(found: CaseFile) -> dict[str, TableLaw]:
     """Measured tables as laws, by the section of the material."""
     materials = {"material": found.material, "indenter_material": found.indenter_material}
     return {name: law for name, law in materials.items() if isinstance(law, TableLaw)}
+
+
+def _fits(found: CaseFile) -> dict[str, Fit]:
+    """Fits of the materials and of those of layers, by their keys."""
+    media: dict[str, Any] = {}
+    bodies = {"material": found.material, "indenter_material": found.indenter_material}
+    for name, body in bodies.items():
+        if isinstance(body, Layers):
+            media |= {f"{name}.{key}": each for key, each in body.media.items()}
+        else:
+            media[name] = body
+    laws = {name: law for name, law in media.items() if isinstance(law, TableLaw)}
+    return {name: law.fit for name, law in laws.items() if law.fit is not None}
 
 
 def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:

@@ -78,14 +78,38 @@ def _unit_of(size: float, unit: str) -> ReadableUnit:
         # The largest prefix that leaves the compliance below a thousand.
         modulus = _unit_of(999 / size, "Pa")
         return ReadableUnit(f"1/{modulus.symbol}", 1 / modulus.factor)
-    if symbol == "s":
-        for above, factor, name in reversed(_LONG_TIMES):
-            if size > above:
-                return ReadableUnit(name, factor)
     return _prefixed(size, symbol)
 
 
 def _prefixed(size: float, symbol: str) -> ReadableUnit:
+    units = unit_ladder(symbol)
+    fitting = [unit for unit, least in units if least <= size]
+    return fitting[-1] if fitting else units[0][0]
+
+
+def unit_ladder(unit: str) -> list[tuple[ReadableUnit, float]]:
+    """Return the units in which values of an SI unit are shown, the smallest first.
+
+    Parameters
+    ----------
+    unit : str
+        The SI unit, as in `readable_unit`, other than ``"1/Pa"``.
+
+    Returns
+    -------
+    list of (ReadableUnit, float)
+        Each unit with the least size [SI] from which on `readable_unit` chooses it.
+
+    Examples
+    --------
+    >>> [(unit.symbol, float(f"{least:.3g}")) for unit, least in unit_ladder("rad")]
+    [('nrad', 9.99e-10), ('µrad', 9.99e-07), ('mrad', 0.000999), ('rad', 0.999)]
+    >>> [unit.symbol for unit, _ in unit_ladder("s")]
+    ['ns', 'µs', 'ms', 's', 'h', 'd']
+    """
+    symbol = _SYMBOLS.get(unit, unit)
+    if not symbol or symbol in _WITHOUT_PREFIX:
+        return [(ReadableUnit(symbol, 1.0), 0.0)]
     # Kilometres, kiloseconds, kiloradians and picometres are unusual; force and work at a sharp tip
     # are small enough for all prefixes.
     top = 1.0 if symbol in ("m", "m²", "s", "rad") else math.inf
@@ -94,9 +118,12 @@ def _prefixed(size: float, symbol: str) -> ReadableUnit:
     power, least = (2, 0.01) if symbol == "m²" else (1, 1.0)
     usable = [(p**power, name) for p, name in _PREFIXES if bottom <= p <= top]
     # With a margin of 0.1 %, 0.9999 mm stays in millimetres.
-    fitting = [entry for entry in usable if least * entry[0] <= size * 1.001] or usable[:1]
-    factor, prefix = fitting[-1]
-    return ReadableUnit(prefix + symbol, factor)
+    margin = least / 1.001
+    units = [(ReadableUnit(name + symbol, factor), margin * factor) for factor, name in usable]
+    # A time of exactly the limit is still in seconds.
+    long = _LONG_TIMES if symbol == "s" else ()
+    limits = ((math.nextafter(above, math.inf), factor, name) for above, factor, name in long)
+    return units + [(ReadableUnit(name, factor), limit) for limit, factor, name in limits]
 
 
 def format_quantity(value: float, unit: str, digits: int = 4) -> str:

@@ -16,6 +16,15 @@ _METRIC = {
     "m2": ReadableUnit("mm²", 1e-6),
     "Pa": ReadableUnit("MPa", 1e6),
 }
+#: Name of each system.
+SYSTEM_NAMES = {
+    AUTOMATIC: "readable units",
+    "mm": "mm, N, MPa",
+    "kn": "mm, kN, MPa",
+    "um": "µm, mN, kPa",
+    "us": "in, lbf, psi",
+    "si": "SI: m, N, Pa",
+}
 #: Units of each system by SI unit; what a system leaves out reads best in the automatic unit.
 SYSTEMS: dict[str, dict[str, ReadableUnit]] = {
     AUTOMATIC: {},

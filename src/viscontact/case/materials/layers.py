@@ -146,6 +146,12 @@ class Layers(Section):
         """Files of the layers and of the base, by their keys."""
         return {(*at, *key): path for at, part in self._parts() for key, path in part.files.items()}
 
+    @property
+    def media(self) -> dict[str, Medium]:
+        """Sections of the materials by their keys, with the layers counted from 1."""
+        media = {f"layers[{place}]": layer.material for place, layer in enumerate(self.layers, 1)}
+        return media if isinstance(self.base, str) else {**media, "base": self.base}
+
     def _parts(self) -> Iterator[tuple[tuple[str | int, ...], Medium]]:
         for place, layer in enumerate(self.layers):
             yield ("layers", place, "material"), layer.material

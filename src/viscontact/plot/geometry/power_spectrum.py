@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from viscontact.plot.layout import style
-from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.surfaces import Surface, power_spectrum
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 
@@ -35,7 +35,8 @@ def draw_power_spectrum(surface: Surface, *, width: Width | None = None) -> Figu
     ('Wavelength [µm]', 'Power spectral density $C$ [m$^4$]')
     """
     spectrum = power_spectrum(surface)
-    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.0)
+    across = page_width(width, style.ONE_COLUMN)
+    figure = style.new_figure(across, 3.0)
     axes = figure.subplots()
     wavelength = 2 * np.pi / spectrum.wave_number
     unit = readable_unit("m", wavelength)
@@ -53,6 +54,8 @@ def draw_power_spectrum(surface: Surface, *, width: Width | None = None) -> Figu
     axes.set_ylabel("Power spectral density $C$ [m$^4$]")
     roughness = f"Sa {format_quantity(surface.mean_deviation, 'm', 3)}, Sq "
     roughness += f"{format_quantity(surface.rms_height, 'm', 3)}, rms slope "
-    style.add_heading(axes, f"{surface.name}: {roughness}{format_number(surface.rms_slope, 2)}")
+    roughness += format_number(surface.rms_slope, 2)
+    between = "\n" if across <= NARROW else ": "
+    style.add_heading(axes, f"{surface.name}{between}{roughness}")
     style.dress(axes)
     return figure

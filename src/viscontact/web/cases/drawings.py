@@ -1,6 +1,9 @@
-"""Drawings of a case before it is run: indenter, curves or fit of the material, load."""
+"""Drawings of a case before it is run: indenter and spectra, curves and fits of laws, load."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
@@ -9,7 +12,13 @@ from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
 from viscontact.notebook.shapes import natural_size
-from viscontact.plot import creep_curve, draw_indenter, draw_load, fitted_series
+from viscontact.plot import (
+    creep_curve,
+    draw_indenter,
+    draw_load,
+    draw_power_spectrum,
+    fitted_series,
+)
 from viscontact.plot.layout.page import Width
 from viscontact.plot.materials.creep import curve_times
 from viscontact.runs.check_report import drawn_size
@@ -19,7 +28,15 @@ from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.problems import RequestError, case_problems
 
 
-def drawing(cases: CaseReader, text: str, what: str, width: Width | None = None) -> Figure:
+@dataclass(frozen=True)
+class Drawing:
+    """Figure with its caption; None where nothing can be drawn, as the caption explains."""
+
+    figure: Figure | None
+    caption: str = ""
+
+
+def drawings(cases: CaseReader, text: str, what: str, width: Width | None = None) -> list[Drawing]:
     """Draw a part of a case, on its own where the rest of the case is not valid."""
     try:
         return _of_case(cases, text, what, width)
@@ -27,23 +44,31 @@ def drawing(cases: CaseReader, text: str, what: str, width: Width | None = None)
         alone = _alone(cases.parts(text), what, width)
         if alone is None:
             raise
-        return alone
+        return [Drawing(alone)]
 
 
-def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> Figure:
+def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> list[Drawing]:
     case = cases.case(text)
     try:
         if what == "indenter":
-            return _indenter(*cases.forecast(text), width)
+            return [Drawing(_indenter(*cases.forecast(text), width)), *_spectra(case, width)]
         if what == "load":
-            return draw_load(case.load, case.end)
-        if what in case.fits:
-            return fitted_series(case.fits[what], width=width)
-        return _curves(_body(case, what), case.end, width)
+            return [Drawing(draw_load(case.load, case.end))]
+        return list(_material(case, what, width))
     except CaseError as error:
         raise case_problems(error, case.document.path) from error
     except ValueError as error:
         raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
+
+
+def _spectra(case: Case, width: Width | None) -> list[Drawing]:
+    """Power spectra of the measured surfaces of a case."""
+    return [
+        Drawing(None, f"{surface.name}: no power spectrum is drawn, because points are missing")
+        if surface.missing.any()
+        else Drawing(draw_power_spectrum(surface, width=width))
+        for surface in case.surfaces
+    ]
 
 
 def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
@@ -68,6 +93,18 @@ def _indenter(found: PreparedRun, expected: Forecast, width: Width | None) -> Fi
     if estimate is not None:
         contact = (estimate.centre_x, estimate.centre_y, estimate.length, estimate.width)
     return draw_indenter(case.indenter, drawn_size(found.run), contact=contact, width=width)
+
+
+def _material(case: Case, what: str, width: Width | None) -> Iterator[Drawing]:
+    """Fit of a law, or curves of the laws of a body and the fits of its layers."""
+    body = _body(case, what)
+    if what in case.fits:
+        yield Drawing(fitted_series(case.fits[what], width=width))
+        return
+    yield Drawing(_curves(body, case.end, width))
+    for key, fit in case.fits.items():
+        if key.startswith(f"{what}."):
+            yield Drawing(fitted_series(fit, width=width), key)
 
 
 def _body(case: Case, what: str) -> Material | Layered:

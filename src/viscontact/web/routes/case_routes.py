@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import asdict
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel
 
 from viscontact import __version__
@@ -17,11 +18,15 @@ from viscontact.case.yaml_source import rewritten
 from viscontact.materials import library
 from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.plot.layout.page import Width
+from viscontact.results.run_axis import SPEED, TIME
+from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import unit_ladder
+from viscontact.units.systems import SYSTEM_NAMES, SYSTEMS
 from viscontact.web.calculator import Calculator
 from viscontact.web.cases.case_reader import filled, form_values
-from viscontact.web.cases.drawings import drawing
+from viscontact.web.cases.drawings import Drawing, drawings
 from viscontact.web.workspace.naming import suggested_title
-from viscontact.web.workspace.pictures import MEDIA_TYPES, FigureChoice, picture
+from viscontact.web.workspace.pictures import FigureChoice, picture
 from viscontact.web.workspace.problems import RequestError
 
 router = APIRouter(prefix="/api")
@@ -82,6 +87,23 @@ async def version(calculator: AppCalculator) -> dict[str, Any]:
 def schema() -> dict[str, Any]:
     """Return the JSON schema of case files."""
     return case_schema()
+
+
+@router.get("/units")
+def units() -> dict[str, Any]:
+    """Return the systems of units, and the units of each SI unit of a result, by least size."""
+    fixed = {
+        system: {si: asdict(unit) for si, unit in found.items()}
+        for system, found in SYSTEMS.items()
+    }
+    quantities = {*(each.units for each in SCALARS.values()), TIME.unit, SPEED.unit}
+    return {
+        "systems": {name: {"name": SYSTEM_NAMES[name], "units": fixed[name]} for name in SYSTEMS},
+        "ladders": {
+            si: [asdict(unit) | {"least": least} for unit, least in unit_ladder(si)]
+            for si in sorted(quantities)
+        },
+    }
 
 
 @router.get("/examples")
@@ -147,14 +169,22 @@ async def check(body: CaseText, calculator: AppCalculator, request: Request) -> 
 
 
 @router.post("/drawing")
-async def draw(body: DrawingRequest, calculator: AppCalculator, request: Request) -> Response:
-    """Draw a part of a case."""
+async def draw(
+    body: DrawingRequest, calculator: AppCalculator, request: Request
+) -> list[dict[str, str]]:
+    """Draw a part of a case: figures as SVG, empty where there is a caption only."""
     choice = FigureChoice(body.what, is_dark=body.dark)
     width: Width | None = "single" if body.narrow else None
-    drawn = await calculator.do(
-        lambda: picture(drawing(calculator.cases, body.yaml, body.what, width), choice), request
-    )
-    return Response(drawn, media_type=MEDIA_TYPES["svg"])
+
+    def made() -> list[dict[str, str]]:
+        found = drawings(calculator.cases, body.yaml, body.what, width)
+        return [{"caption": each.caption, "svg": _svg(each, choice)} for each in found]
+
+    return await calculator.do(made, request)
+
+
+def _svg(drawn: Drawing, choice: FigureChoice) -> str:
+    return "" if drawn.figure is None else picture(drawn.figure, choice).decode()
 
 
 @router.get("/files")

@@ -2,12 +2,12 @@
 
 import { caseText, caseValues } from "./draft.js";
 import { make, place } from "./dom.js";
-import { postForImage } from "./server.js";
+import { post } from "./server.js";
 import { isDark } from "./theme.js";
 
 const KINDS = {
-  indenter: { tab: "Shape", about: "Sections through the indenter, and its plan", section: "indenter" },
-  material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space, or the fit to its measured oscillation", section: "material" },
+  indenter: { tab: "Shape", about: "Sections through the indenter and its plan, and the spectrum of a measured surface", section: "indenter" },
+  material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space, or fits to measured oscillations", section: "material" },
   load: { tab: "Load", about: "The load over time", section: "load" },
 };
 const BEFORE = "Drawing before the last change: the current values cannot be drawn.";
@@ -29,7 +29,7 @@ export function setUpDrawings() {
   for (const [kind, { about }] of Object.entries(KINDS)) {
     const names = { id: `drawing-${kind}`, role: "tabpanel", "aria-labelledby": `tab-${kind}` };
     boxes[kind] = make("figure", { class: "drawing", ...names },
-      make("div", { class: "scroll" }, make("img", { alt: about, hidden: true })), make("p", { class: "description" }));
+      make("div", { class: "pictures", "data-about": about }), make("p", { class: "description" }));
   }
   narrow.addEventListener("change", placeDrawings);
   place("form").addEventListener("focusin", (event) => {
@@ -78,21 +78,17 @@ export async function draw() {
 }
 
 async function drawOne(kind, signal) {
-  const image = boxes[kind].querySelector("img"), note = boxes[kind].querySelector(".description");
+  const pictures = boxes[kind].querySelector(".pictures"), note = boxes[kind].querySelector(".description");
   boxes[kind].setAttribute("aria-busy", "true");
   outdated.delete(kind);
   try {
     const query = { yaml: caseText(), what: kind, dark: isDark(), narrow: phone.matches };
-    const address = await postForImage("/api/drawing", query, signal);
-    const before = image.src;
-    image.src = address;
-    image.hidden = false;
-    // Letters about as large as those of the page.
-    image.onload = () => {
-      image.style.maxWidth = `${Math.round(1.12 * image.naturalWidth)}px`;
-      image.style.minWidth = `${Math.round(0.72 * image.naturalWidth)}px`;
-    };
-    if (before.startsWith("blob:")) URL.revokeObjectURL(before);
+    const drawn = await post("/api/drawing", query, signal);
+    const before = [...pictures.querySelectorAll("img")].map((image) => image.src);
+    pictures.replaceChildren(...drawn.flatMap(({ caption, svg }) =>
+      [caption && make("p", { class: "description", textContent: caption }), svg && picture(svg, pictures.dataset.about)]
+        .filter(Boolean)));
+    before.forEach((address) => URL.revokeObjectURL(address));
     boxes[kind].classList.remove("stale");
     note.textContent = "";
   } catch (error) {
@@ -101,9 +97,20 @@ async function drawOne(kind, signal) {
       return;
     }
     boxes[kind].classList.add("stale");
-    note.textContent = image.src ? BEFORE : missing(kind);
+    note.textContent = pictures.firstChild ? BEFORE : missing(kind);
   }
   boxes[kind].removeAttribute("aria-busy");
+}
+
+function picture(svg, alt) {
+  const src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  const image = make("img", { alt, src });
+  // Letters about as large as those of the page.
+  image.onload = () => {
+    image.style.maxWidth = `${Math.round(1.12 * image.naturalWidth)}px`;
+    image.style.minWidth = `${Math.round(0.72 * image.naturalWidth)}px`;
+  };
+  return make("div", { class: "scroll" }, image);
 }
 
 const missing = (kind) => (caseValues()[kind] ? "The values cannot be drawn yet." : "No values yet.");

@@ -16,7 +16,7 @@ import { findAgain, list, refer, runs, start, state } from "./runs.js";
 import { useSchema } from "./schema.js";
 import { connection, get } from "./server.js";
 import { onTheme, setUpTheme } from "./theme.js";
-import { SYSTEMS, useSystem } from "./units.js";
+import { systemNames, useSystem, useUnits } from "./units.js";
 
 let examples = [];
 // Whether the next answer was requested on this page, so that the page scrolls to it.
@@ -148,7 +148,7 @@ function withoutGrid(yaml) {
 
 function setUpUnits() {
   const select = place("units"), key = "viscontact.units";
-  select.append(...Object.entries(SYSTEMS).map(([value, { name }]) => make("option", { value, textContent: name })));
+  select.append(...systemNames().map(([value, textContent]) => make("option", { value, textContent })));
   try { select.value = localStorage.getItem(key) ?? "auto"; } catch { /* storage is disabled */ }
   if (!select.value) select.value = "auto";
   useSystem(select.value);
@@ -193,12 +193,13 @@ function setUpConnection() {
 
 async function open() {
   setUpConnection();
-  const answers = ["schema", "examples", "materials"].map((name) => get(`/api/${name}`));
-  const [schema, shipped, materials] = await Promise.all(answers);
+  const answers = ["schema", "examples", "materials", "units"].map((name) => get(`/api/${name}`));
+  const [schema, shipped, materials, units] = await Promise.all(answers);
   examples = shipped;
   useSchema(schema);
   useExampleTitles(examples.map(({ title }) => title));
   useMaterials(materials);
+  useUnits(units);
   setUpTheme();
   setUpUnits();
   setUpFigures();

@@ -66,10 +66,6 @@ export async function post(path, content, signal) {
   return (await request(path, posted(content, signal))).json();
 }
 
-export async function postForImage(path, content, signal) {
-  return URL.createObjectURL(await (await request(path, posted(content, signal))).blob());
-}
-
 export async function remove(path) {
   await request(path, { method: "DELETE" });
 }
