@@ -66,8 +66,12 @@ from .laws import TabulatedRelaxation as TabulatedRelaxation
 from .laws import TabulatedShift as TabulatedShift
 from .laws import Zener as Zener
 from .loads import ApproachHistory as ApproachHistory
+from .loads import Condition as Condition
 from .loads import ForceHistory as ForceHistory
 from .loads import LoadHistory as LoadHistory
+from .loads import LoadProgram as LoadProgram
+from .loads import MixedHistory as MixedHistory
+from .loads import Segment as Segment
 from .loads import Travel as Travel
 from .loads import harmonic as harmonic
 from .loads import ramp as ramp

@@ -15,7 +15,7 @@ from viscontact.units.numbers import unit_of
 
 CLASSES = tuple(STORED_CLASSES.values())
 NUMERIC = re.compile(r"\b(float|int|NDArray)\b")
-UNITS = {dimension.unit for dimension in DIMENSIONS.values()} | {"1"}
+UNITS = {dimension.unit for dimension in DIMENSIONS.values()} | {"1", "N/s"}
 
 
 @pytest.mark.parametrize("owner", CLASSES, ids=lambda owner: owner.__name__)

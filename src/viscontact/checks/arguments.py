@@ -37,6 +37,22 @@ def check_magnitudes(problem: Problem) -> None:
             raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
 
 
+def check_mixed(problem: Problem) -> None:
+    """Refuse a load of mixed control where a grid is chosen, repeats, or the body moves."""
+    if problem.load.control != "mixed":
+        return
+    if not isinstance(problem.grid, Grid):
+        raise ValueError(
+            "grid: a load of mixed control needs a given grid, as none can be fitted to it yet; "
+            "write grid=vc.Grid(shape, size)"
+        )
+    if problem.motion is not None or any(problem.grid.periodic):
+        raise ValueError(
+            "load: mixed control is for standing contacts on grids that are not periodic; "
+            "prescribe force or approach throughout"
+        )
+
+
 def check_creep(problem: Problem) -> None:
     """Refuse a law whose creep within the run is not a number, negative or decreasing."""
     compliance, times = problem.surface.creep, problem.instants

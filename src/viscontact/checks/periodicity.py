@@ -120,7 +120,7 @@ def datum_warnings(
 
 def _refuse_approach(load: LoadHistory) -> None:
     """Refuse a prescribed approach where it has no datum."""
-    if load.control == "approach":
+    if load.control != "force":
         raise ValueError(
             f"load.approach: on a grid that is periodic along one axis only {NO_DATUM}, and an "
             "approach cannot be prescribed; give the force, or use a grid with periodic=False"

@@ -76,8 +76,8 @@ class LoadHistory(Displayable, ABC):
     ([0.0, 5.0, 10.0], [0.0, 2.0])
     """
 
-    #: Quantity that the history prescribes along z.
-    control: Control = "force"
+    #: Quantity that the history prescribes along z; "mixed": the force at times, else the approach.
+    control: Control | Literal["mixed"] = "force"
     #: Position of the force, constant or at each point of the history [m].
     eccentricity_x: float | NDArray[np.float64] = 0.0
     eccentricity_y: float | NDArray[np.float64] = 0.0
@@ -101,6 +101,10 @@ class LoadHistory(Displayable, ABC):
             tilt_y=None if self.tilt_y is None else float(self.tilt_y),
             approach=level if self.control == "approach" else None,
         )
+
+    def level_of(self, point: LoadPoint) -> float:
+        """Return the level of a prescribed load, as `level_at` gives it."""
+        return point.level
 
     @abstractmethod
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.laws import Law
-from viscontact.loads import LoadHistory, LoadPoint
+from viscontact.loads import LoadHistory, LoadPoint, LoadProgram
 from viscontact.loads.largest_load import largest_load
 from viscontact.loads.motion import Motion, MovingLoad
 from viscontact.materials.compliance import ContactCompliance
@@ -48,6 +48,8 @@ def _hint(name: str, given: object) -> str:
         return "; write vc.Material(law, poisson_ratio=...)"
     if name.endswith("material") and isinstance(given, str):
         return "; write vc.shipped_material(name) for a material of the library"
+    if isinstance(given, LoadProgram):
+        return "; a LoadProgram is for simulate and march"
     if name == "load" and as_real(given) is not None:
         return "; write vc.step(force) for a constant force"
     return ""

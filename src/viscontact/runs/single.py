@@ -15,7 +15,7 @@ from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
-from viscontact.loads import LoadHistory
+from viscontact.loads import LoadHistory, LoadProgram
 from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
@@ -23,6 +23,7 @@ from viscontact.problem.problem import Problem
 from viscontact.results.dataset import to_dataset
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.variables import field_axis
+from viscontact.simulation.load_events import problem_under
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time, run_attributes
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -34,7 +35,7 @@ from viscontact.time_integration.requested_times import AdaptiveTimes
 def simulate(
     indenter: Indenter,
     material: Material | Layered,
-    load: LoadHistory,
+    load: LoadHistory | LoadProgram,
     grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
@@ -55,8 +56,9 @@ def simulate(
         well, and pressed as it is: level it before.
     material : Material or Layered
         Material of the half-space, or a body of layers.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
+    load : LoadHistory or LoadProgram
+        Force or approach, eccentricity and prescribed tilts over time. A program, whose segments
+        may end on conditions, is carried out once to find their instants; it needs grid and times.
     grid : Grid or AutomaticGrid, optional
         Cells that carry the pressure, or requirements on cells that the run chooses; chosen by
         the run as well when left out.
@@ -124,9 +126,11 @@ def simulate(
     1.58
     """
     report = reported(progress, ProgressBar("step", "errors" if errors else ""))
-    problem = Problem(
-        *(indenter, material, load, grid, times, indenter_material, tolerance, fields),
-        motion=motion,
+    asked = indenter_material, tolerance, fields
+    problem = problem_under(
+        load,
+        lambda under, at: Problem(indenter, material, under, grid, at, *asked, motion=motion),
+        *(times, threads),
     )
     run = prepare_run(problem, threads)
     started = clock.perf_counter()

@@ -58,7 +58,7 @@ class March:
         if restart_data is not None:
             run = run.on(run.grid.widened(tuple(restart_data["cells"])))
         self._run = run
-        self._domain = _domain_of(run)
+        self._domain = domain_of(run)
         self._stepper = Stepper(run, self._domain)
         self._steps = run.problem.steps(run.grid.cell_size)
         self._observer = Observer(run, warns=warns)
@@ -78,7 +78,7 @@ class March:
             step, trial = self._advance()
             yield self._complete(step, trial)
             if trial.outcome is Outcome.NOT_CONVERGED:
-                raise ConvergenceError(_not_converged(self._run, step, trial.solution))
+                raise ConvergenceError(not_converged(self._run, step, trial.solution))
         self._observer.refuse_coarse_mesh()
 
     @property
@@ -137,7 +137,7 @@ class March:
     def _enlarge(self, grid: Grid) -> None:
         """Continue from the same state on a larger grid."""
         run = self._run.on(grid)
-        enlargement = GridEnlargement(self._domain, _domain_of(run))
+        enlargement = GridEnlargement(self._domain, domain_of(run))
         self._stepper.map_fields(run, enlargement)
         self._observer.map_fields(run, enlargement)
         self._run, self._domain = run, enlargement.large
@@ -145,7 +145,7 @@ class March:
     def _complete(self, step: Step, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)
         self.outcome = trial.outcome
-        _refuse_rim(self._run, step, solution)
+        refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
         _LOG.debug(
             "step to t = %.6g s: %d iterations, residual %.2g",
@@ -158,7 +158,8 @@ class March:
         return self._observer.add_warnings(state, last=last)
 
 
-def _domain_of(run: RunSetup) -> ContactDomain:
+def domain_of(run: RunSetup) -> ContactDomain:
+    """Return the contact domain of a run, of the first term of its surface."""
     terms = run.problem.surface.terms
     return ContactDomain(
         run.grid,
@@ -168,7 +169,8 @@ def _domain_of(run: RunSetup) -> ContactDomain:
     )
 
 
-def _refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
+def refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
+    """Raise DomainError if there is pressure in the outermost cells."""
     reached = zip(overrun(solution.pressure), run.grid.periodic, strict=True)
     if not any(over and not repeats for over, repeats in reached):
         return
@@ -188,7 +190,8 @@ def _too_large(run: RunSetup, step: Step) -> str:
     )
 
 
-def _not_converged(run: RunSetup, step: Step, solution: ContactSolution) -> str:
+def not_converged(run: RunSetup, step: Step, solution: ContactSolution) -> str:
+    """Return the message about a step whose contact was not solved."""
     return (
         f"the contact solver stopped at t = {format_quantity(step.time, 's', 6)} with residual "
         f"{solution.residual:.2g} after {solution.iterations} iterations, short of "

@@ -8,6 +8,7 @@ from typing import Any
 
 from viscontact import __version__
 from viscontact.grid import Grid
+from viscontact.loads import MixedHistory
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.simulation.setup import RunSetup
@@ -25,6 +26,8 @@ def date_and_time(ago: float = 0.0) -> str:
 
 def run_attributes(run: RunSetup) -> dict[str, Any]:
     """Return the attributes that every result of a run carries."""
+    load = run.problem.load
+    events = {"events": "\n".join(load.events)} if isinstance(load, MixedHistory) else {}
     return {
         "Conventions": "CF-1.11",
         "source": f"viscontact {__version__}",
@@ -36,6 +39,7 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "memory_error": max(plan.error for plan in run.plans),
         "splitting_error": run.problem.surface.splitting_error,
         "inversion_error": run.problem.compliance.inversion_error,
+        **events,
     }
 
 

@@ -13,6 +13,7 @@ from viscontact.checks.arguments import (
     check_creep,
     check_jumps,
     check_magnitudes,
+    check_mixed,
     check_times,
     check_touch,
     points_under_load,
@@ -134,6 +135,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
     check_times(problem)
     check_magnitudes(problem)
+    check_mixed(problem)
     check_creep(problem)
     check_jumps(problem)
     given = problem.grid if isinstance(problem.grid, Grid) else None

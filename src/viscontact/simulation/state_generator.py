@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike
 from viscontact.errors import AccuracyWarning
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
-from viscontact.loads import LoadHistory
+from viscontact.loads import LoadHistory, LoadProgram
 from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
+from viscontact.simulation.load_events import problem_under
 from viscontact.simulation.march import March
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -30,7 +31,7 @@ Progress = Callable[[ContactState, int, int], None]
 def march(
     indenter: Indenter,
     material: Material | Layered,
-    load: LoadHistory,
+    load: LoadHistory | LoadProgram,
     grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
@@ -49,8 +50,9 @@ def march(
         Shape of the pressed body.
     material : Material or Layered
         Material of the half-space, or a body of layers.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
+    load : LoadHistory or LoadProgram
+        Force or approach, eccentricity and prescribed tilts over time. A program, whose segments
+        may end on conditions, is carried out once to find their instants; it needs grid and times.
     grid : Grid or AutomaticGrid, optional
         Cells that carry the pressure, or requirements on cells that the run chooses; chosen by
         the run as well when left out.
@@ -110,9 +112,11 @@ def march(
     0.0133
     """
     report = reported(progress, ProgressBar("step"))
-    problem = Problem(
-        *(indenter, material, load, grid, times, indenter_material, tolerance, fields),
-        motion=motion,
+    asked = indenter_material, tolerance, fields
+    problem = problem_under(
+        load,
+        lambda under, at: Problem(indenter, material, under, grid, at, *asked, motion=motion),
+        *(times, threads),
     )
     run = prepare_run(problem, threads)
     return march_run(run, report)

@@ -25,7 +25,7 @@ from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
-from viscontact.loads import LoadPoint
+from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
@@ -105,6 +105,14 @@ class Stepper:
         creeping = pairs[self._creeping], response.terms[self._creeping]
         error = self._errors.of_step(step, posed.point, *creeping)  # step 4
         return TrialStep(posed.point, solution, response, pairs, reference, outcome, error)
+
+    def whole_solution(self, trial: TrialStep) -> StepSolution:
+        """Return the solution of a step on the whole grid, without accepting it."""
+        return _on_full_grid(self._domain, trial, 0.0)
+
+    def continue_under(self, load: LoadHistory) -> None:
+        """Go on under another load, which is the same up to the last step."""
+        self._run = replace(self._run, problem=replace(self._run.problem, load=load))
 
     def restart_data(self) -> RestartData:
         """Return the state after an accepted step as plain data."""

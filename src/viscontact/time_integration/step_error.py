@@ -105,7 +105,7 @@ class TimeErrors:
         if self._past:
             contact |= self._past[-1][1][0] > 0
         size = max(self._size, _mean_over(contact, values[1]))
-        level = max(self._level, point.level)
+        level = max(self._level, self._load.level_of(point))
         if step.is_jump or not self._past:
             return StepError(0.0, 0.0, size, level)
         rate = values[1] - self._past[-1][1][1]
