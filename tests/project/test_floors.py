@@ -38,6 +38,8 @@ MOST_FLOORS, MOST_ROOT_MODULES = 12, 8
 # The front door loads names of all floors when they are first used. The displays of objects in
 # notebooks are drawn on a high floor, so the mixin that objects derive from asks there for them.
 AT_THE_FRONT_DOOR = {"display", "web", "cli"}
+# Files that import from a lower room inside a function, because few runs need it and it takes long.
+DEFERRED = {"runs/directory/recorder.py": "results"}  # xarray and pandas: a third of a run's start
 # Exact solutions: what computes a result must not reach them, by however many imports.
 COMPUTES = ("simulation", "accuracy", "steady", "runs")
 # Other packages, and the rooms from whose floor on they may be imported.
@@ -135,10 +137,10 @@ def fault_of_other(place: str, floor: int, target: str) -> str | None:
     return None
 
 
-def fault_of_own(part: str, floor: int, found: Import, root: str) -> str | None:
+def fault_of_own(place: str, floor: int, found: Import, root: str) -> str | None:
     """Return what is wrong with an import of our own package, if anything."""
-    wanted = part_of(found.target)
-    if found.hidden and part != "cli":
+    wanted, part = part_of(found.target), Path(place).parts[0].removesuffix(".py")
+    if found.hidden and part != "cli" and DEFERRED.get(place) != wanted:
         return f"imports {found.target} inside a function: move it to the top of the file"
     if wanted in (part, "__version__"):
         return None
@@ -163,7 +165,7 @@ def faults(package: Path) -> list[str]:
         for found in imports(name, path):
             own = found.target.split(".")[0] in (package.name, "*")
             fault = (
-                fault_of_own(part, floor, found, package.name)
+                fault_of_own(place, floor, found, package.name)
                 if own
                 else fault_of_other(place, floor, found.target)
             )

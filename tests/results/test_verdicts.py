@@ -18,7 +18,7 @@ from viscontact.case.allowable import MOVING, NOT_STEADY, Allowable
 from viscontact.cli import main
 from viscontact.report import report_page, sweep_page
 from viscontact.results import variables
-from viscontact.results.peak_stress import STRESSES
+from viscontact.results.variables import STRESSES
 from viscontact.results.verdicts import overall, verdict_on, verdicts
 from viscontact.units.dimensions import DIMENSIONS
 

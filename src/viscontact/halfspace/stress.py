@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft
 
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
@@ -153,8 +153,10 @@ def stress_on_plane(
     below = float(_checked([depth], response)[0])
     if all(grid.periodic):
         fields = pressure.reshape(-1, *grid.shape)
-        found = np.stack([_waves_at(fft.fft2(own), grid, below, response) for own in fields], 1)
-        return Stress(fft.ifft2(found).real.reshape(6, *pressure.shape))
+        found = np.stack(
+            [_waves_at(scipy.fft.fft2(own), grid, below, response) for own in fields], 1
+        )
+        return Stress(scipy.fft.ifft2(found).real.reshape(6, *pressure.shape))
     if grid.periodic[1]:
         turned = stress_on_plane(pressure.swapaxes(-1, -2), _turned(grid), below, response)
         return Stress(turned.components[EXCHANGED].swapaxes(-1, -2))
@@ -165,15 +167,15 @@ def stress_on_plane(
         # The edges rise along y, so that the second difference has the other sign.
         first = -(nx // 2) * dx
         kernel = -periodic_stress_coefficients(first, nx, dx, y_edges, below, response)
-        kernel, padded = fft.ifftshift(kernel, axes=1), nx
+        kernel, padded = scipy.fft.ifftshift(kernel, axes=1), nx
     else:
         x_edges = (np.arange(-nx + 1, nx + 1, dtype=np.float64) - 0.5) * dx
         kernel = response.coefficients(x_edges, y_edges, below)
         kernel, padded = np.roll(kernel, 1 - nx, axis=1), 2 * nx - 1
     shape = (padded, 2 * ny - 1)
-    spectrum = fft.rfft2(np.roll(kernel, 1 - ny, axis=2), shape)
-    own = fft.rfft2(pressure, shape)
-    found = np.stack([fft.irfft2(each * own, shape)[..., :nx, :ny] for each in spectrum])
+    spectrum = scipy.fft.rfft2(np.roll(kernel, 1 - ny, axis=2), shape)
+    own = scipy.fft.rfft2(pressure, shape)
+    found = np.stack([scipy.fft.irfft2(each * own, shape)[..., :nx, :ny] for each in spectrum])
     return Stress(found)
 
 
@@ -194,8 +196,8 @@ def _along_x(
     """Stress by a convolution along the section, circular along a period, summed across it."""
     cells = len(grid.x)
     # Zero-padded where there are no periodic images.
-    padded = cells if grid.periodic[0] else fft.next_fast_len(2 * cells - 1, real=True)
-    spectra = fft.rfft(pressure, padded, axis=1)
+    padded = cells if grid.periodic[0] else scipy.fft.next_fast_len(2 * cells - 1, real=True)
+    spectra = scipy.fft.rfft(pressure, padded, axis=1)
     found = np.empty((6, len(pressure), len(depths), cells))
     for index, depth in enumerate(np.maximum(depths, SURFACE * min(grid.cell_size)).tolist()):
         if grid.periodic[0]:
@@ -205,11 +207,11 @@ def _along_x(
             wrapped = np.zeros((6, padded, kernel.shape[2]))
             wrapped[:, :cells] = kernel[:, cells - 1 :]
             wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
-        transformed = fft.rfft(wrapped, axis=1)
+        transformed = scipy.fft.rfft(wrapped, axis=1)
         for place, spectrum in enumerate(spectra):
             # Multiply along x, sum over the loaded lines of cells along y.
             product = np.einsum("cky,ky->ck", transformed, spectrum)
-            found[:, place, index] = fft.irfft(product, padded, axis=1)[:, :cells]
+            found[:, place, index] = scipy.fft.irfft(product, padded, axis=1)[:, :cells]
     return found
 
 
@@ -221,7 +223,7 @@ def _along_period(
     y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
     first = -(cells // 2) * dx
     kernel = periodic_stress_coefficients(first, cells, dx, y_edges, depth, response)
-    return np.asarray(fft.ifftshift(kernel, axes=1))
+    return np.asarray(scipy.fft.ifftshift(kernel, axes=1))
 
 
 def _of_offsets(
@@ -253,12 +255,12 @@ def _below_period(
     y: float,
 ) -> NDArray[np.float64]:
     """Stress of each wave: waves along the section by a transform, waves across it by a sum."""
-    across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
-    spectrum = fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
+    across = 2 * np.pi * scipy.fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
+    spectrum = scipy.fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
     found = np.empty((6, len(depths), grid.shape[0]))
     for index, depth in enumerate(depths.tolist()):
         components = _waves_at(spectrum, grid, depth, response)
-        found[:, index] = fft.ifft(components.sum(axis=2), axis=1).real
+        found[:, index] = scipy.fft.ifft(components.sum(axis=2), axis=1).real
     return found
 
 
@@ -266,8 +268,8 @@ def _waves_at(
     spectrum: NDArray[Any], grid: Grid, depth: float, response: StressResponse
 ) -> NDArray[Any]:
     """Fourier coefficients of all components at a depth, from those of the pressure."""
-    along = 2 * np.pi * fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
-    across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
+    along = 2 * np.pi * scipy.fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
+    across = 2 * np.pi * scipy.fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
     q = np.hypot(along, across)
     q[0, 0] = 1.0  # the mean has no direction; it is set below
     east, north = along / q, across / q

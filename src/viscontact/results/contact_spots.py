@@ -8,12 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
-from scipy.ndimage import label
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import ConvexHull, QhullError
 
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
@@ -87,8 +84,8 @@ def last_spots(ds: xr.Dataset) -> ContactSpots | None:
     for index in reversed(range(stored.size)):
         snapshot = read(index)
         if snapshot.touching:
-            found = spots_of(ds, snapshot)
-            return found if found.number > 1 else None
+            is_single = label_spots(snapshot.pressure > 0, snapshot.periodic).max() == 1
+            return None if is_single else spots_of(ds, snapshot)
     return None
 
 
@@ -165,7 +162,7 @@ def label_spots(contact: NDArray[np.bool_], periodic: Sequence[bool]) -> NDArray
     >>> label_spots(np.array([[True, False, True]]), (False, True)).tolist()
     [[1, 0, 1]]
     """
-    numbers, count = label(contact)
+    numbers, count = scipy.ndimage.label(contact)
     pairs = [
         np.stack([first, last])[:, (first > 0) & (last > 0)]
         for axis, repeats in enumerate(periodic)
@@ -175,8 +172,8 @@ def label_spots(contact: NDArray[np.bool_], periodic: Sequence[bool]) -> NDArray
     if not pairs or not count:
         return np.asarray(numbers, dtype=np.int_)
     one, other = np.concatenate(pairs, axis=1)
-    joined = coo_array((np.ones(one.size), (one - 1, other - 1)), shape=(count, count))
-    _, groups = connected_components(joined, directed=False)
+    joined = scipy.sparse.coo_array((np.ones(one.size), (one - 1, other - 1)), shape=(count, count))
+    _, groups = scipy.sparse.csgraph.connected_components(joined, directed=False)
     return np.asarray(np.concatenate([[0], groups + 1])[numbers], dtype=np.int_)
 
 
@@ -192,6 +189,6 @@ def _nominal_area(snapshot: Snapshot) -> float:
     last = contact.shape[1] - 1 - contact[rows, ::-1].argmax(axis=1)
     ends = [np.column_stack([snapshot.x[rows], snapshot.y[column]]) for column in (first, last)]
     try:
-        return float(ConvexHull(np.concatenate(ends)).volume)  # in a plane, its area
-    except (QhullError, ValueError):  # cells in one row
+        return float(scipy.spatial.ConvexHull(np.concatenate(ends)).volume)  # in a plane, its area
+    except (scipy.spatial.QhullError, ValueError):  # cells in one row
         return 0.0

@@ -13,8 +13,6 @@ from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.stresses import REACH, section_stresses
 
-#: Stresses that are searched for, by name, and what they are.
-STRESSES = {"von_mises": "von Mises stress", "max_shear": "Largest shear stress"}
 #: Number of depths of the search, and of those around the deepest of them.
 _DEPTHS, _CLOSE = 14, 7
 

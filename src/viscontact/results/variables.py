@@ -262,6 +262,12 @@ OUTCOME_FLAGS = {
 #: Said of a value whose stated error is infinite.
 MESH_DEPENDENT = "depends on the mesh"
 
+#: Attribute of a result with the allowable values and the verdicts on them.
+ALLOWABLE = "allowable"
+
+#: Stresses that may be limited, by name, and what they are.
+STRESSES = {"von_mises": "von Mises stress", "max_shear": "Largest shear stress"}
+
 _BAR = "half width of the error bar: inf where the value depends on the mesh, NaN where unknown"
 
 

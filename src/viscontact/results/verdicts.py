@@ -12,16 +12,13 @@ import numpy as np
 import xarray as xr
 
 from viscontact.results.formatting import format_with_error
-from viscontact.results.peak_stress import STRESSES, peak_stress
+from viscontact.results.peak_stress import peak_stress
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import ALLOWABLE, SCALARS, STRESSES
 from viscontact.units.formatting import format_quantity
 
 Outcome = Literal["passed", "failed", "undecided"]
-
-#: Attribute of a result with the limits and their verdicts.
-ATTRIBUTE = "allowable"
 
 
 @dataclass(frozen=True)
@@ -162,7 +159,7 @@ def _so_far(found: Verdict) -> Verdict:
 
 def _given(ds: xr.Dataset) -> Mapping[str, Any]:
     try:
-        found = json.loads(str(ds.attrs.get(ATTRIBUTE, "{}")))
+        found = json.loads(str(ds.attrs.get(ALLOWABLE, "{}")))
     except ValueError:
         return {}
     known = {*STRESSES, *SCALARS}

@@ -155,16 +155,24 @@ def run(
     Several runs:  viscontact run my.yaml --vary load.force=5kN,10kN,20kN -j 2 -o forces
     """
     common = RunRequest(cases[0], output, overwrite, resume, tuple(settings or ()), threads, quiet)
+    several = (varied, zipped or None, table, sample, ranges, seed, method, array, task, scheduler)
+    is_single = (
+        len(cases) == 1 and cases[0].suffix != ".jsonl" and several.count(None) == len(several)
+    )
     try:
         with watched_interruption() as interruption, logged(verbose):
             # An import that is interrupted may end in any error: the request waits for its end.
+            if is_single:
+                with interruption.postponed():
+                    from viscontact.cli.run.execution import execute
+                execute(common)
+                return
             with interruption.postponed():
                 from viscontact.cli.many.design_options import DesignOptions
                 from viscontact.cli.many.execution import execute_many
                 from viscontact.cli.many.job_array import write_array
                 from viscontact.cli.many.request import ManyRequest
                 from viscontact.cli.many.single_task import execute_task
-                from viscontact.cli.run.execution import execute
             options = DesignOptions(
                 tuple(varied or ()),
                 zipped,
@@ -185,8 +193,6 @@ def run(
                 write_array(request, array)
             elif manifests := [each for each in cases if each.suffix == ".jsonl"]:
                 refuse(f"{manifests[0]}: is a manifest of runs; compute one of them with --task N")
-            elif len(cases) == 1 and not (options.given or scheduler):
-                execute(common)
             else:
                 execute_many(request)
     except KeyboardInterrupt:

@@ -16,7 +16,7 @@ from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
 from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.directory.recorded_run import progress_made
+from viscontact.runs.directory.progress_log import progress_made
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
 

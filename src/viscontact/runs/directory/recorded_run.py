@@ -15,6 +15,7 @@ from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.runs.directory.netcdf_layout import Contents
+from viscontact.runs.directory.progress_log import progress_made
 from viscontact.runs.directory.recorded import Marching, Recorded
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.forecast import run_seconds
@@ -137,26 +138,6 @@ def plain_case(
     if grid is None:
         del plain["grid"]
     return plain
-
-
-def progress_made(
-    done: int, reached: float | None, times: Sequence[float], adaptive: object
-) -> str:
-    """Describe the progress of a run, with times in seconds.
-
-    Examples
-    --------
-    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
-    '2 of 3 instants'
-    """
-    if adaptive is None:
-        return f"{done} of {len(times)} instants"
-    if reached is None:
-        return "0 instants"
-    return (
-        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
-        f"{format_quantity(times[-1], 's')}"
-    )
 
 
 def fits_single_precision(problem: Problem, late: float) -> bool:

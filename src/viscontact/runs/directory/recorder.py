@@ -9,15 +9,7 @@ from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
 from typing import Any, NamedTuple, Self
 
 from viscontact.accuracy.error_bars import ErrorBars
-from viscontact.results.netcdf import open_results
-from viscontact.results.variables import error_name
-from viscontact.results.verdicts import (
-    ATTRIBUTE,
-    Verdict,
-    final_verdicts,
-    overall,
-    verdict_attribute,
-)
+from viscontact.results.variables import ALLOWABLE, error_name
 from viscontact.run_files import STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
@@ -168,30 +160,33 @@ class Recorder:
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with errors and verdicts, and remove the restart state."""
-        verdicts = self._verdicts(bars)
-        attributes = {ATTRIBUTE: verdict_attribute(verdicts)} if verdicts else {}
+        attributes, worst = self._verdicts(bars)
         with self._undisturbed():
             if self._lines is not None:
                 # Before the state is removed: a line lost in a power cut could not be repeated.
                 errors = None if bars is None else bars.values
-                fields, worst = self._writer.described_fields(), overall(verdicts)
-                self._lines.finish(errors, fields, worst)
+                self._lines.finish(errors, self._writer.described_fields(), worst)
             self._writer.finish(bars, attributes)
             self.shown = self._reached
             self.close()
             self._recorded.check()
             remove_restart_files(self._recorded.directory)
 
-    def _verdicts(self, bars: ErrorBars | None) -> list[Verdict]:
-        """Verdicts on the allowable values; empty without any."""
-        if ATTRIBUTE not in self._recorded.filed or self._lines is None:
-            return []
+    def _verdicts(self, bars: ErrorBars | None) -> tuple[dict[str, str], str | None]:
+        """Attribute of the result with its verdicts, and the worst one; empty without limits."""
+        if ALLOWABLE not in self._recorded.filed or self._lines is None:
+            return {}, None
+        # xarray and pandas take a third of the start of a run: imported after it, where needed.
+        from viscontact.results.netcdf import open_results
+        from viscontact.results.verdicts import final_verdicts, overall, verdict_attribute
+
         self.publish()
         over = self._recorded.contents.over
         errors = {} if bars is None else bars.values
         with open_results(self._recorded.result_path) as ds:
             stated = {error_name(name): (over, values) for name, values in errors.items()}
-            return final_verdicts(ds.assign(stated))
+            found = final_verdicts(ds.assign(stated))
+        return {ALLOWABLE: verdict_attribute(found)}, overall(found)
 
     def close(self) -> None:
         """Close all files; never fails, and further calls do nothing."""

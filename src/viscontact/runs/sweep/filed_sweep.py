@@ -12,14 +12,14 @@ from typing import Any
 import xarray as xr
 
 from viscontact.results.filed_case import input_files, started_at
-from viscontact.results.verdicts import ATTRIBUTE
+from viscontact.results.variables import ALLOWABLE
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import opened
 from viscontact.runs.sweep.manifest import read_manifest
 from viscontact.runs.sweep.states import State, run_state
 
 #: Attributes of a result that are read.
-_KEPT = ("title", "title_block", "started", "input_files", ATTRIBUTE)
+_KEPT = ("title", "title_block", "started", "input_files", ALLOWABLE)
 #: Role of the case of a single run among its input files.
 _OWN_CASE = "case as run"
 
@@ -41,7 +41,7 @@ def filed_attributes(directory: Path) -> dict[str, str]:
     starts = [each["started"] for each in found if started_at(xr.Dataset(attrs=each))]
     if starts:
         shared["started"] = min(starts, key=datetime.fromisoformat)
-    return shared | {"input_files": json.dumps(_files(found)), ATTRIBUTE: _limits(found)}
+    return shared | {"input_files": json.dumps(_files(found)), ALLOWABLE: _limits(found)}
 
 
 def _of_finished(directory: Path) -> Iterator[dict[str, Any]]:
@@ -66,7 +66,7 @@ def _files(found: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]:
 
 def _limits(found: Sequence[Mapping[str, Any]]) -> str:
     """Allowable values that all runs have, as an attribute of a result without verdicts."""
-    given = [json.loads(each.get(ATTRIBUTE, "{}")) for each in found]
+    given = [json.loads(each.get(ALLOWABLE, "{}")) for each in found]
     limits = [{name: each["limit"] for name, each in run.items()} for run in given]
     shared = {
         name: {"limit": limit}

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from viscontact.runs.sweep.designs import Design
 from viscontact.units.parsing import parse_any_quantity, split_quantity
@@ -98,10 +98,10 @@ def _points(dimensions: int, number: int, seed: int, method: Method) -> NDArray[
     """Points in the unit cube, shape (number, dimensions)."""
     generator = np.random.default_rng(seed)
     if method == "latin-hypercube":
-        return np.asarray(qmc.LatinHypercube(dimensions, rng=generator).random(number))
+        return np.asarray(scipy.stats.qmc.LatinHypercube(dimensions, rng=generator).random(number))
     # Whole blocks of a power of two, of which the last points are left out.
     power = math.ceil(math.log2(number))
-    return np.asarray(qmc.Sobol(dimensions, rng=generator).random_base2(power))[:number]
+    return np.asarray(scipy.stats.qmc.Sobol(dimensions, rng=generator).random_base2(power))[:number]
 
 
 def _bounds(low: str, high: str) -> tuple[float, float, str]:
