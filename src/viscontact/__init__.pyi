@@ -97,6 +97,8 @@ from .runs.single import simulate as simulate
 from .runs.sweep.open_many import open_many as open_many
 from .runs.sweep.varied_runs import VariedRun as VariedRun
 from .runs.sweep.varied_runs import vary as vary
+from .sensitivity.result import SensitivityResult as SensitivityResult
+from .sensitivity.sensitivity import sensitivity as sensitivity
 from .simulation.automatic_grid import auto_grid as auto_grid
 from .simulation.state_generator import march as march
 from .state import ContactState as ContactState

@@ -47,6 +47,11 @@ def write_design_report(*arguments: object, **options: object) -> None:
     viscontact.report.write_design_report(*arguments, **options)
 
 
+def write_sensitivity_report(*arguments: object, **options: object) -> None:
+    """Write the report of a sensitivity, by `viscontact.report`, imported when first used."""
+    viscontact.report.write_sensitivity_report(*arguments, **options)
+
+
 class DisplayableGroup(Displayable, ABC):
     """Group of objects that are displayed one below the other."""
 

@@ -927,6 +927,7 @@ OPTIONS = {
         *("--change", "--minimise", "--maximise", "--at", "--over", "--constraint"),
         *("--runs", "-j", "-o", "--resume"),
     ),
+    "sensitivity": ("--of", "--change", "--at", "-j", "-o", "--resume"),
     **{"status": ("DIR", "--watch"), "collect": ("DIR", "-o")},
     # promised, not built yet
     **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast", "-o")},

@@ -30,7 +30,7 @@ FLOORS = (
     ("simulation", "plot", "notebook"),
     ("accuracy", "figures", "steady"),
     ("report", "runs", "verify"),
-    ("web", "design"),
+    ("web", "design", "sensitivity"),
     ("cli",),
     ("__main__",),
 )

@@ -14,6 +14,7 @@ from viscontact.cli.commands.fitting import fit
 from viscontact.cli.commands.installation import cite, doctor
 from viscontact.cli.commands.materials import material
 from viscontact.cli.commands.running import check, run
+from viscontact.cli.commands.sensing import sensitivity
 from viscontact.cli.commands.serving import serve
 from viscontact.cli.commands.showing import export, report, show, verify
 from viscontact.cli.commands.sweeps import collect, status
@@ -42,6 +43,10 @@ _COMMANDS = (
         design,
         "viscontact design my.yaml --change indenter.crown_radius='20 mm:2 m:log' "
         "--minimise peak_pressure -o best",
+    ),
+    (
+        sensitivity,
+        "viscontact sensitivity my.yaml --of peak_pressure,approach -o matters",
     ),
     (schema, "viscontact schema > viscontact.schema.json"),
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),

@@ -44,6 +44,7 @@ from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces,
 from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
 from viscontact.plot.sweeps.response import response
+from viscontact.plot.sweeps.tornado import tornado
 from viscontact.plot.sweeps.trials import trials
 
 FIGURES: dict[str, Callable[..., Figure]] = {
@@ -132,6 +133,7 @@ __all__ = [
     "save_animation",
     "save_figure",
     "stress_section",
+    "tornado",
     "trials",
     "von_mises_history",
 ]

@@ -2,6 +2,7 @@
 
 from viscontact.report.design_page import write_design_report
 from viscontact.report.page import report_page, write_report
+from viscontact.report.sensitivity_page import write_sensitivity_report
 from viscontact.report.sweep_page import sweep_page, write_sweep_report
 
 __all__ = [
@@ -9,5 +10,6 @@ __all__ = [
     "sweep_page",
     "write_design_report",
     "write_report",
+    "write_sensitivity_report",
     "write_sweep_report",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Iterator, Mapping
 from importlib.resources import files
 from pathlib import Path
@@ -12,15 +11,14 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from viscontact import __version__
 from viscontact.notebook.html import element, written
 from viscontact.plot.histories.history import compare_histories
-from viscontact.plot.layout.saving import as_svg
 from viscontact.plot.pressure.line_load import compare_line_loads
 from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
 from viscontact.plot.sweeps.trials import parameters_of, trials
+from viscontact.report.blocks import drawn_figure, listed_notes, text_table
 from viscontact.results.formatting import format_percent, format_with_error
 from viscontact.results.largest_values import key_label
 from viscontact.results.variables import SCALARS, error_name
@@ -55,20 +53,14 @@ def _chapters(
     table: xr.Dataset, runs: Mapping[str, xr.Dataset], title: str, headline: str
 ) -> Iterator[Element]:
     yield element(
-        "header", element("h1", title), element("p", headline, class_="headline"), _notes(table)
+        "header",
+        element("h1", title),
+        element("p", headline, class_="headline"),
+        listed_notes(table),
     )
     yield element("section", element("h2", "Before and after"), *_values(table), *_figures(runs))
     yield element("section", element("h2", "Trials"), _trials_figure(table), *_trials(table))
     yield element("p", f"Made by viscontact {__version__}.", class_="faint")
-
-
-def _notes(table: xr.Dataset) -> Element | None:
-    notes = [line for line in str(table.attrs.get("notes", "")).splitlines() if line]
-    if not notes:
-        return None
-    return element(
-        "div", element("ul", *(element("li", text) for text in notes)), class_="warnings"
-    )
 
 
 def _values(table: xr.Dataset) -> Iterator[Element]:
@@ -91,7 +83,7 @@ def _values(table: xr.Dataset) -> Iterator[Element]:
     for text in filter(None, str(table.attrs.get("constraints", "")).split("; ")):
         name = text.split()[0]
         rows.append((text, *(_goal(table, name, trial) for trial in (0, best)), ""))
-    yield _made_table(("", "case", "best", "change"), rows)
+    yield text_table(("", "case", "best", "change"), rows)
 
 
 def _goal(table: xr.Dataset, name: str, trial: int, suffix: str = "") -> str:
@@ -134,20 +126,13 @@ def _figures(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
         if is_history and any(run.sizes.get("time", 1) < 3 for run in runs.values()):
             continue
         try:
-            yield _figure(draw(runs), caption)
+            yield drawn_figure(draw(runs), caption)
         except ValueError as error:  # no contact at these instants
             yield element("p", f"{caption} Not drawn: {error}", class_="faint")
 
 
 def _trials_figure(table: xr.Dataset) -> Element:
-    return _figure(trials(table), "The goal in the worst scenario over each parameter.")
-
-
-def _figure(drawn: Figure, caption: str) -> Element:
-    drawing = base64.b64encode(as_svg(drawn)).decode()
-    image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt=caption)
-    frame = element("div", image, class_="scroll")
-    return element("figure", frame, element("figcaption", caption))
+    return drawn_figure(trials(table), "The goal in the worst scenario over each parameter.")
 
 
 def _trials(table: xr.Dataset) -> Iterator[Element]:
@@ -161,11 +146,4 @@ def _trials(table: xr.Dataset) -> Iterator[Element]:
         state = "feasible" if table["feasible"].values[trial] else message or why
         rows.append((str(trial), level, *values, _goal(table, goal, trial), state))
     head = ("trial", "cells", *map(key_label, keys), SCALARS[goal].label, "")
-    yield _made_table(head, rows)
-
-
-def _made_table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> Element:
-    heads = element("tr", *(element("th", text) for text in head))
-    body = [element("tr", *(element("td", text) for text in row)) for row in rows]
-    table = element("table", element("thead", heads), element("tbody", *body))
-    return element("div", table, class_="scroll")
+    yield text_table(head, rows)

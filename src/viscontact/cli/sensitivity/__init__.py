@@ -1,0 +1,1 @@
+"""Command `sensitivity`: its progress, its files and the lines that it prints."""

@@ -1,0 +1,54 @@
+"""Grid that all runs of a sensitivity share, so that errors of its cells cancel in differences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from viscontact.grid import Grid
+from viscontact.meshing.refinement import good_shape
+
+#: Cells that may be longer than those that another run would choose by this factor.
+TOLERATED = 1.5
+
+
+def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
+    """Return a grid over the extents of all grids, whose cells lie on those of the nominal one.
+
+    >>> small, large = Grid((32, 32), (1.0, 1.0)), Grid((32, 32), (1.5, 0.4))
+    >>> covering(small, [large]).shape, covering(small, [large]).size
+    ((48, 64), (1.5, 1.0))
+    """
+    cell = np.array(nominal.cell_size)
+    finest = np.min([each.cell_size for each in (nominal, *others)], axis=0)
+    # Parts of whole cells still end where a straight part of the body ends.
+    cell = cell / np.maximum(1, np.ceil(cell / (TOLERATED * finest) - 1e-9))
+    centre = np.array(nominal.centre)
+    reach = [
+        np.abs(np.array(each.centre) - centre) + np.array(each.size) / 2
+        for each in (nominal, *others)
+    ]
+    counts = good_shape(2 * np.max(reach, axis=0) / cell - 1e-6, np.inf)
+    size = (float(counts[0] * cell[0]), float(counts[1] * cell[1]))
+    return Grid(counts, size, nominal.periodic, centre=nominal.centre)
+
+
+def coarser(grid: Grid) -> Grid:
+    """Return the grid with cells of twice the length, where there are several along an axis.
+
+    >>> coarser(Grid((64, 1), (1.0, 1.0), (False, True))).shape
+    (32, 1)
+    """
+    nx, ny = grid.shape
+    return replace(grid, shape=(-(-nx // 2), -(-ny // 2)))
+
+
+def grid_setting(grid: Grid) -> Mapping[str, str]:
+    """Setting of a case for a grid that is not periodic."""
+    lengths, centre = (
+        ", ".join(f"{each!r} m" for each in map(float, pair)) for pair in (grid.size, grid.centre)
+    )
+    shape = f"[{grid.shape[0]}, {grid.shape[1]}]"
+    return {"grid": f"{{shape: {shape}, size: [{lengths}], centre: [{centre}]}}"}

@@ -1,0 +1,97 @@
+"""Outcomes: scalars of all runs of a sensitivity, at an instant or at their worst."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.results.largest_values import over_of
+from viscontact.results.run_axis import SPEED, TIME
+from viscontact.results.variables import error_name, scalars_with_error
+
+Floats = NDArray[np.float64]
+
+#: Instant of an output: that of its worst value in each run, the last one, or a time [s].
+At = Literal["worst", "end"] | float
+
+
+@dataclass(frozen=True, eq=False)
+class Outcomes:
+    """Joint result of the runs, the first of which has the values of the case."""
+
+    joint: xr.Dataset  # as of `open_many`, along `run`
+    at: At
+
+    @property
+    def failures(self) -> dict[str, str]:
+        """Reasons of the runs without a result, by name."""
+        states, names, why = (self.joint[each].values for each in ("state", "name", "message"))
+        return {str(names[n]): str(why[n]) or "no result" for n in np.flatnonzero(states != "done")}
+
+    def place(self, name: str) -> int:
+        """Number of a run by its name."""
+        return int(np.flatnonzero(self.joint["name"].values == name)[0])
+
+    def over(self, scalar: str) -> Floats:
+        """Values of a scalar, shape (runs, instants or speeds)."""
+        if scalar not in self.joint:
+            raise ValueError(f"of: {scalar}: the results do not have it")
+        return np.asarray(self.joint[scalar].values, dtype=np.float64)
+
+    def values(self, scalar: str) -> Floats:
+        """Magnitudes of a scalar in all runs, NaN without a result."""
+        sizes = np.abs(self.over(scalar))
+        return np.take_along_axis(sizes, self._rows(sizes)[:, None], axis=1)[:, 0]
+
+    def nominal_error(self, scalar: str) -> float:
+        """Error of the scalar in the run of the case: NaN if unknown, inf if mesh-dependent."""
+        if error_name(scalar) not in self.joint:
+            return np.nan
+        row = self._rows(np.abs(self.over(scalar)))[0]
+        return float(self.joint[error_name(scalar)].values[0, row])
+
+    def _rows(self, sizes: Floats) -> NDArray[np.intp]:
+        """Row of the instant in each run."""
+        known = np.isfinite(sizes)
+        if self.at == "worst":
+            return np.asarray(np.where(known, sizes, -1.0).argmax(axis=1))
+        if self.at == "end":
+            return np.asarray(sizes.shape[1] - 1 - known[:, ::-1].argmax(axis=1))
+        return self._rows_of(float(self.at), len(sizes))
+
+    def _rows_of(self, wanted: float, runs: int) -> NDArray[np.intp]:
+        """Row of an instant [s] or a speed [m/s] in each run that has it, as the first one must."""
+        axis = SPEED if over_of(self.joint) == "speed" else TIME
+        distance = np.abs(np.atleast_2d(self.joint[axis.name].values) - wanted)
+        found = np.where(np.isnan(distance), np.inf, distance).argmin(axis=1)
+        if not distance[0, found[0]] <= 1e-9 * abs(wanted):
+            near = axis.quantity(np.atleast_2d(self.joint[axis.name].values)[0, found[0]])
+            raise ValueError(
+                f"at: {axis.quantity(wanted)} is no {axis.row} of the runs; the nearest is {near}"
+            )
+        return np.broadcast_to(found, runs)
+
+
+def checked_outputs(of: Sequence[str] | str) -> tuple[str, ...]:
+    """Return the names of scalars with an error bar; ValueError for any other.
+
+    >>> checked_outputs("peak_pressure, approach")
+    ('peak_pressure', 'approach')
+    """
+    texts = of.split(",") if isinstance(of, str) else list(of)
+    found = tuple(dict.fromkeys(str(each).strip() for each in texts if str(each).strip()))
+    names = scalars_with_error(moving=True)
+    if not found:
+        raise ValueError("of: name a scalar of the result, as 'peak_pressure,approach'")
+    for name in found:
+        if name not in names:
+            close = difflib.get_close_matches(name, names, 1)
+            hint = f"did you mean {close[0]}?" if close else f"one of {', '.join(names)}"
+            raise ValueError(f"of: {name!r} is no scalar of a result; {hint}")
+    return found

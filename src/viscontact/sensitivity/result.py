@@ -1,0 +1,94 @@
+"""Result of a sensitivity: its table, what is to be known of it, and its report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from os import PathLike
+
+import numpy as np
+import xarray as xr
+
+from viscontact.display import write_sensitivity_report
+from viscontact.results.formatting import format_with_error
+from viscontact.results.variables import SCALARS
+
+
+@dataclass(frozen=True)
+class SensitivityResult:
+    """Derivatives and elasticities of scalars of the result by the inputs of a case.
+
+    Attributes
+    ----------
+    table : xarray.Dataset
+        Over (output, input): `elasticity` d ln(output) / d ln(input) and `derivative` in SI units,
+        each with its error (`elasticity_error`, `derivative_error`), NaN where a run failed. Over
+        output: `value` and `value_error` of the case. Coordinates: names of the outputs, keys of
+        the inputs, `output_units`, `input_units`, and the values of the case as `input_value` in SI
+        units and `input_text` as they were typed.
+    notes : tuple of str
+        What is to be known of the numbers: failed runs, inputs that were left out, values that
+        depend on the mesh, and warnings of the run of the case.
+    runs : int
+        Number of runs.
+    """
+
+    table: xr.Dataset
+    notes: tuple[str, ...]
+    runs: int
+
+    def ranked(self, output: str) -> list[str]:
+        """Keys of the inputs, that with the largest elasticity of an output first.
+
+        Parameters
+        ----------
+        output : str
+            Name of the scalar.
+
+        Returns
+        -------
+        list of str
+            Keys whose elasticity is known.
+
+        Examples
+        --------
+        >>> data = {"elasticity": (("output", "input"), [[0.1, -2.0]])}
+        >>> coords = {"output": ["force"], "input": ["load.force", "indenter.radius"]}
+        >>> SensitivityResult(xr.Dataset(data, coords), (), 9).ranked("force")
+        ['indenter.radius', 'load.force']
+        """
+        sizes = abs(self.table["elasticity"].sel(output=output))
+        known = sizes[np.isfinite(sizes)]
+        return [str(key) for key in known["input"].values[np.argsort(-known.values, kind="stable")]]
+
+    def report(self, path: str | PathLike[str]) -> None:
+        """Write a page of HTML: tornado figure, elasticities and derivatives.
+
+        Parameters
+        ----------
+        path : path-like
+            The page, by custom ending in ``.html``.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If the packages of figures are not installed.
+        OSError
+            If the file cannot be written.
+        """
+        title = self.table.attrs.get("title") or "Case"
+        write_sensitivity_report(self.table, path, title=f"{title}: sensitivity")
+
+    def __str__(self) -> str:
+        return "\n".join(self._lines())
+
+    def _lines(self) -> Iterator[str]:
+        """Yield, for each output, its value and the inputs in the order of their elasticities."""
+        for name in map(str, self.table["output"].values):
+            one = self.table.sel(output=name)
+            value, error = float(one["value"]), float(one["value_error"])
+            yield f"{name} = {format_with_error(value, error, SCALARS[name].units)}"
+            for key in self.ranked(name):
+                of = one.sel(input=key)
+                elasticity, error = float(of["elasticity"]), float(of["elasticity_error"])
+                yield f"  {key}: {format_with_error(elasticity, error, '1')}"
