@@ -241,6 +241,34 @@ def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
         assert float(bar[-1] / ds[name][-1]) < largest, name
 
 
+@pytest.mark.parametrize(
+    ("body", "along"), [(ZENER, "y"), (vc.Layered([vc.Layer(0.5, ZENER)], base="rigid"), "x")]
+)
+def test_area_of_a_moving_strip_is_about_as_certain_as_its_width(body: Any, along: str) -> None:
+    """Both are off by the two straight rims, so that their relative errors are equal."""
+    way, speed = 0.96, 0.2
+
+    def strip(cell: float, *, errors: bool) -> xr.Dataset:
+        count = round((way + 2.4) / cell)
+        shape, size, centre = (1, count), (1.0, count * cell), (0.0, way / 2)
+        radii = (np.inf, 10.0)
+        if along == "x":
+            shape, size, centre, radii = shape[::-1], size[::-1], centre[::-1], radii[::-1]
+        grid = vc.Grid(shape, size, periodic=(along == "y", along == "x"), centre=centre)
+        path = vc.Travel([0.0, way / speed], **{along: [0.0, way]})
+        options = {"motion": path, "fields": "none", "errors": errors}
+        return vc.simulate(vc.Paraboloid(*radii), body, LEVEL, grid, **options)
+
+    ds = strip(0.04, errors=True)
+    finer = strip(0.01, errors=False).sel(time=ds.time, method="nearest", tolerance=1e-9)
+    error, bar = abs(ds.contact_area - finer.contact_area), ds.contact_area_error
+    assert float((error[1:] <= bar[1:]).mean()) > 0.9
+    width = "contact_width" if along == "y" else "contact_length"
+    of_width = ds[f"{width}_error"] / ds[width]
+    assert (bar / ds.contact_area).values[1:] == pytest.approx(of_width.values[1:], rel=0.6)
+    assert float((bar / ds.contact_area)[1:].max()) < 0.05
+
+
 def test_nothing_is_uncertain_before_the_first_contact() -> None:
     load = vc.ForceHistory([0, 1, 4, 5], [0, 10, 10, 0], tilt_x=0.0, tilt_y=0.0)
     ds = travelled(way=0.64, load=load, errors=True)

@@ -45,6 +45,10 @@ CREST_PART = 2.0
 #: than 0.2.
 LATE_PART, LATE_CELLS, LEAST_LATE, MOST_LATE = 0.5, 2.0, 0.02, 0.1
 
+#: Factor of the last for the area of a strip, whose rims lie alike among the cells all along, so
+#: that their errors do not cancel: with 1, bars of moving strips held 96 % of the errors.
+STRAIGHT_RIM = 1.5
+
 #: Extents of the contact along x and y, and scalars that follow from the moments.
 EXTENTS = ("contact_length", "contact_width")
 MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
@@ -232,6 +236,10 @@ def _thin_area(run: RunSetup, history: History) -> Array:
 def _late_area(run: RunSetup, history: History) -> Array:
     """Least error of the area of a shrinking contact [m²]."""
     girth = np.pi * (_cells_along(run, history) / 2 + _half_breadth(run, history))
+    strips = _fills_period(run, history)
+    for axis in (0, 1):  # a strip has two straight rims, however few cells they consist of
+        straight = 2.0 * STRAIGHT_RIM * run.grid.shape[axis]
+        girth = np.where(strips[axis] & ~strips[1 - axis], straight, girth)
     return np.asarray(girth * _late_cells(run, history) * run.grid.cell_area)
 
 
