@@ -95,6 +95,28 @@ def test_run_keeps_the_warnings_about_its_cover(tmp_path: Path) -> None:
     assert "the approach is" not in ds.attrs["warnings"]
 
 
+@pytest.mark.parametrize(
+    ("count", "period", "said"),
+    [
+        (12, 0.5e-3, "there are 0.5 cells"),
+        (12, 1.0, "there are 0.5 cells"),
+        (24, 1.0, "is 1 cell "),
+    ],
+)
+def test_period_of_a_line_contact_is_no_cell_of_a_layer(
+    count: int, period: float, said: str
+) -> None:
+    """The cell along the line is as long as the period, which may be shorter than those across."""
+    body = vc.Layered([vc.Layer(1e-3, RUBBER)], base="rigid")
+    grid = vc.Grid((1, count), (period, 24e-3), periodic=(True, False))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ds = vc.simulate(
+            *(vc.Paraboloid(np.inf, 40e-3), body, vc.step(2e4 * period), grid, [0.0]), errors=False
+        )
+    assert said in ds.attrs["warnings"]
+
+
 def test_check_predicts_the_warnings_about_a_cover(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -51,7 +51,7 @@ def cover_warnings(
     covers: Iterable[Cover],
     half_width: float,
     approach: float,
-    cell_size: tuple[float, float],
+    cell_size: tuple[float, ...],
     verb: str = "is",
 ) -> dict[str, str]:
     """Warn of covers under a contact of a half width, with an approach (NaN if unknown) [m].
@@ -88,12 +88,18 @@ def cover_warnings(
         count = thickness / min(cell_size)  # along rollers cells may be long
         if half_width > thickness and count < CELLS_PER_LAYER:
             warnings["layer_cells"] = (
-                f"there are {count:.2g} cells per thickness of a nearly incompressible layer, "
+                f"there {_cells(count)} per thickness of a nearly incompressible layer, "
                 f"{format_quantity(thickness, 'm', 3)}; with fewer than {CELLS_PER_LAYER:g} the "
                 "contact area is off by about 1 %, with a single one by some per cent: use "
                 "smaller cells"
             )
     return warnings
+
+
+def _cells(count: float) -> str:
+    """Verb and number of cells, as in 'is 1 cell'."""
+    number = f"{count:.2g}"
+    return "is 1 cell" if number == "1" else f"are {number} cells"
 
 
 def _cover(body: Layered, time: float) -> Cover:

@@ -198,7 +198,10 @@ def warnings_of_covers(
     has_datum = geometry.grid.has_datum or geometry.is_supported
     approach = local_approach(geometry.grid, motion) if has_datum else math.nan
     be, _ = geometry._verbs
-    return cover_warnings(geometry.covers, _half_width(rim), approach, cell_size, be)
+    # The cell along a line contact is as long as its period, however short that is.
+    counted = zip(cell_size, geometry.grid.shape, strict=True)
+    cells = tuple(each for each, count in counted if count > 1)
+    return cover_warnings(geometry.covers, _half_width(rim), approach, cells or cell_size, be)
 
 
 def corner_warnings(
