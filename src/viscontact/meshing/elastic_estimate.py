@@ -191,7 +191,9 @@ def estimate_contact(
         grid = Grid(cells, extents, centre=centre)
         open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
         if not np.isfinite(open_gap).any():
-            size = 2.0 * size
+            # A height map may be smaller than the cells, and lie between their centres.
+            is_small = min(indenter.sample_spacing) > 0 and np.isfinite(indenter.gap(*centre))
+            size = (0.5 if is_small else 2.0) * size
             continue
         found = elastic_contact(open_gap, contact_compliance, point, grid, response=response)
         factors = _size_factors(found, follows=around is not None)

@@ -48,6 +48,7 @@ from viscontact.meshing.mesh_warnings import (
 )
 from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
 from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact, MeshTrial
+from viscontact.meshing.whole_map import whole_map_warning
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -104,6 +105,7 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     mesh = _refined_for_largest(indenter, request, largest, size, choice)
     mesh = _refined_for_ring(problem, end, largest, choice, mesh)
     mesh = _limited_by_map(indenter, largest, mesh)
+    mesh = replace(mesh, warnings=mesh.warnings | whole_map_warning(indenter, largest, mesh.grid))
     _log(mesh)
     if request.largest_cell is None:
         return mesh
@@ -248,7 +250,9 @@ def _refined_for_largest(
                 f"tolerance of {reachable:.2g} or more, or give a grid"
             )
         chosen = replace(
-            chosen, warnings=chosen.warnings | spacing_warning(worst, chosen.errors[worst])
+            chosen,
+            warnings=chosen.warnings
+            | spacing_warning(worst, chosen.errors[worst], _points(indenter, largest)),
         )
     _refuse_few_cells(found.trial)
     return Mesh(found.trial.grid, chosen.errors, chosen.warnings)
@@ -295,8 +299,14 @@ def _limited_by_map(indenter: Indenter, largest: PointContact, mesh: Mesh) -> Me
     facets = facet_error(indenter, largest.estimate, largest.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh
-    warnings = mesh.warnings | facet_warning(facets)
+    warnings = mesh.warnings | facet_warning(facets, _points(indenter, largest))
     return replace(mesh, errors=mesh.errors | {PEAK: facets}, warnings=warnings)
+
+
+def _points(indenter: Indenter, contact: PointContact) -> tuple[float, float]:
+    """Points of a height map along and across a contact."""
+    (length, width), (dx, dy) = contact.estimate.extents, indenter.sample_spacing
+    return length / dx, width / dy
 
 
 def _resolved(

@@ -18,23 +18,28 @@ EARLY_WARNING = {
 }
 
 
-def spacing_warning(name: str, error: float) -> dict[str, str]:
-    """Warning that the spacing of a height map limits the accuracy."""
+def spacing_warning(name: str, error: float, points: tuple[float, float]) -> dict[str, str]:
+    """Warning that the spacing of a height map limits the accuracy.
+
+    `points` of the map lie along and across the contact.
+    """
     return {
         "map spacing": (
-            f"cells as small as the steps of the height map leave a relative error of about "
-            f"{error:.1g} in the {name.replace('_', ' ')}; a map of smaller steps would be more "
-            "accurate"
+            f"cells as small as the steps of the height map leave {_about(error, points)} "
+            f"in the {name.replace('_', ' ')}; a map of smaller steps would be more accurate"
         )
     }
 
 
-def facet_warning(error: float) -> dict[str, str]:
-    """Warning that the facets of a height map limit the accuracy."""
+def facet_warning(error: float, points: tuple[float, float]) -> dict[str, str]:
+    """Warning that the facets of a height map limit the accuracy.
+
+    `points` of the map lie along and across the contact.
+    """
     return {
         "facets": (
-            "between its points the height map is taken as straight, which leaves a relative error "
-            f"of about {error:.1g} in the peak pressure however small the cells are; a map of "
+            "between its points the height map is taken as straight, which leaves "
+            f"{_about(error, points)} in the peak pressure however small the cells are; a map of "
             "smaller steps would be more accurate"
         )
     }
@@ -50,3 +55,13 @@ def ring_warning(error: float) -> dict[str, str]:
             "which smaller cells reduce slowly; ask for such a tolerance, or give a grid"
         )
     }
+
+
+def _about(error: float, points: tuple[float, float]) -> str:
+    """Relative error in words; one as large as the value itself is not known any closer."""
+    if error < 1:
+        return f"a relative error of about {error:.1g}"
+    along, across = points
+    return (
+        f"an error of unknown size (the contact is only {along:.0f} x {across:.0f} of its points)"
+    )

@@ -107,12 +107,16 @@ def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
     if run.mesh is None or not run.mesh.errors:
         return []
     errors = [
-        f"{name.replace('_', ' ')} {format_number(100 * error, 1)} %"
-        for name, error in run.mesh.errors.items()
+        f"{name.replace('_', ' ')} {_percent(error)}" for name, error in run.mesh.errors.items()
     ]
     # Broken here: a terminal would break between a number and its unit.
     when = ";\n".join(_when_largest(run))
     return [("grid error", f"{', '.join(errors)},\n{when}")]
+
+
+def _percent(error: float) -> str:
+    """A relative error; an estimate as large as the value itself is none."""
+    return f"{format_number(100 * error, 1)} %" if error < 1 else "unknown"
 
 
 def _when_largest(run: RunSetup) -> Iterator[str]:

@@ -1,0 +1,80 @@
+"""Warning that a height map is wholly in contact, with the force below which it is not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.rim import trace_rim
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadPoint
+from viscontact.meshing.contact_extent import PointContact
+from viscontact.meshing.elastic_estimate import ContactEstimate, elastic_contact
+from viscontact.units.formatting import format_quantity
+
+
+def whole_map_warning(indenter: Indenter, found: PointContact, grid: Grid) -> dict[str, str]:
+    """Warn if all of a height map is in contact under a load on a grid; empty otherwise.
+
+    The coarse estimate leaves out short waves, which open first: it only excludes the warning.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> from viscontact.meshing.elastic_estimate import estimate_contact
+    >>> x = np.linspace(-1e-3, 1e-3, 41)
+    >>> ball = vc.HeightMap(x, x, -vc.Sphere(0.1).gap(x[:, None], x[None, :]))
+    >>> load = vc.step(1e3).at(0.0)
+    >>> pressed = PointContact(load, 1e-9, estimate_contact(ball, 1e-9, load))
+    >>> list(whole_map_warning(ball, pressed, Grid((40, 40), (2e-3, 2e-3))))
+    ['whole map']
+    """
+    if min(indenter.sample_spacing) <= 0 or not _is_whole(found.estimate):
+        return {}
+    whole = _pressed(found, indenter.gap(grid.x[:, None], grid.y[None, :]), grid, found.point)
+    if not _is_whole(whole):
+        return {}
+    rim = trace_rim(grid, whole.pressure > 0, whole.gap, trace_outline(indenter, grid))
+    size = " x ".join(format_quantity(each, "m", 2) for each in (rim.length, rim.width))
+    less = "less"
+    if found.point.force is not None:
+        most = opening_force(replace(found, estimate=whole))
+        less = f"with less than about {format_quantity(most, 'N', 2)}"
+    return {
+        "whole map": (
+            f"the whole map ({size}) is in contact: the contact ends where the map ends, and its "
+            f"roughness is pressed flat; press {less}, or measure a larger map"
+        )
+    }
+
+
+def opening_force(found: PointContact) -> float:
+    """Return the force at which a body wholly in contact under a force begins to open [N].
+
+    While the contact does not change, the pressure is linear in the force. It is solved at the
+    given one and at twice that; the first cell whose pressure falls to zero opens.
+    """
+    estimate, force = found.estimate, found.point.force
+    assert force is not None  # under an approach there is no such force
+    doubled = replace(found.point, force=2 * force)
+    twice = _pressed(found, estimate.open_gap, estimate.grid, doubled).pressure
+    rise = np.where(twice > estimate.pressure, twice - estimate.pressure, math.inf)
+    covered = np.isfinite(estimate.open_gap)
+    return float(force * (1 - estimate.pressure / rise)[covered].max())
+
+
+def _is_whole(estimate: ContactEstimate) -> bool:
+    """True if all cells of the body are in contact."""
+    return bool((estimate.pressure > 0)[np.isfinite(estimate.open_gap)].all())
+
+
+def _pressed(
+    found: PointContact, open_gap: NDArray[np.float64], grid: Grid, point: LoadPoint
+) -> ContactEstimate:
+    """Elastic contact under a load on a grid."""
+    return elastic_contact(open_gap, found.compliance, point, grid, response=found.response)
