@@ -10,7 +10,8 @@ from viscontact.design.evaluation import Evaluation
 from viscontact.design.goals import Goal, Value, constraints_of
 from viscontact.design.parameters import space_of
 from viscontact.design.search import Search
-from viscontact.design.trials import Level, ScenarioResult, Trial, goal_name
+from viscontact.design.trials import ScenarioResult, Trial, goal_name
+from viscontact.runs.sweep.varied_runs import VariedRun
 
 #: Values of the parameters to the objective and, by name of the constraint, the other scalars.
 Function = Callable[[Mapping[str, float]], Mapping[str, Value]]
@@ -23,17 +24,23 @@ class AnalyticEvaluation(Evaluation):
     function: Function = field(default=lambda values: {})
     calls: int = 0
 
-    def _results(self, settings: Mapping[str, str], level: Level) -> tuple[ScenarioResult, ...]:
+    rounds: int = 0  # of calls at the same time
+
+    def _results(self, runs: Sequence[VariedRun]) -> list[ScenarioResult]:
+        self.rounds += 1
+        return [self._result({key: run.settings[key] for key in run.varied}) for run in runs]
+
+    def _result(self, settings: Mapping[str, str]) -> ScenarioResult:
         self.calls += 1
         if not settings:
-            return (ScenarioResult({}, "the case itself is not tried"),)
+            return ScenarioResult({}, "the case itself is not tried")
         numbers = {key: _number(text) for key, text in settings.items()}
         try:
             found = self.function(numbers)
         except ValueError as error:
-            return (ScenarioResult({}, str(error)),)
+            return ScenarioResult({}, str(error))
         names = {"force": goal_name(self.goal)}
-        return (ScenarioResult({names.get(name, name): v for name, v in found.items()}),)
+        return ScenarioResult({names.get(name, name): v for name, v in found.items()})
 
 
 def searched(
@@ -44,6 +51,7 @@ def searched(
     constraints: Sequence[str] = (),
     budget: int = 60,
     is_coarse: bool = False,
+    workers: int = 1,
 ) -> tuple[Search, Trial | None]:
     """Search for the best `force` of a function, and return the search and the best trial."""
     evaluation = AnalyticEvaluation(
@@ -55,6 +63,7 @@ def searched(
         {"grid.shape": "[32, 32]"} if is_coarse else {},
         budget,
         None,
+        workers,
         lambda trial: None,
         lambda done, allowed: None,
         function=function,

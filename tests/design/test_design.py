@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+import time
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +15,7 @@ import xarray as xr
 from tests.design.test_arguments import BALL
 
 import viscontact as vc
+from viscontact.runs.executors.local import LocalWorkers
 
 RADIUS, MODULUS = 5e-3, 4e6  # m, E* = 4 G in Pa at nu = 0.5
 
@@ -91,6 +97,59 @@ def test_a_design_goes_on_where_it_was_interrupted(ball: Path, tmp_path: Path) -
     again = designed()
     assert history.read_text().splitlines() == lines
     xr.testing.assert_identical(whole, again)
+
+
+def test_several_workers_are_used_and_give_the_same_result(
+    ball: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at_a_time: list[int] = []
+
+    class Counted(LocalWorkers):
+        def submit(self, *given: Any, **named: Any) -> Any:
+            submitted = super().submit(*given, **named)
+            at_a_time.append(len(self._busy))
+            return submitted
+
+    def designed(workers: int) -> xr.Dataset:
+        change = {"load.force": ("0.01 N", "0.1 N")}
+        limit = ["approach>=10 um"]
+        return vc.design(
+            ball, change, minimise="contact_area", constraints=limit, runs=12, workers=workers
+        ).table
+
+    monkeypatch.setattr(import_module("viscontact.design.design"), "LocalWorkers", Counted)
+    xr.testing.assert_identical(designed(2), designed(1))
+    assert max(at_a_time) == 2
+    assert at_a_time.count(2) >= 4  # of the six pairs of 12 runs
+
+
+@pytest.mark.slow
+def test_a_killed_design_ends_with_the_trials_of_an_uninterrupted_one(
+    ball: Path, tmp_path: Path
+) -> None:
+    words = "--change load.force=0.01N:0.1N --minimise contact_area --runs 12 -j 2"
+    command = [sys.executable, "-m", "viscontact", "design", str(ball), *words.split()]
+    whole, killed = tmp_path / "whole", tmp_path / "killed"
+    subprocess.run([*command, "-o", str(whole)], check=True, capture_output=True)
+    process = subprocess.Popen(
+        [*command, "-o", str(killed)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    history = killed / "trials.jsonl"
+    while not (history.exists() and len(history.read_text().splitlines()) > 4):
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    done = len(history.read_text().splitlines())
+    subprocess.run([*command, "-o", str(killed), "--resume"], check=True, capture_output=True)
+    assert done < len(history.read_text().splitlines())
+    assert history.read_text() == (whole / "trials.jsonl").read_text()
+    assert (killed / "best.yaml").read_text() == (whole / "best.yaml").read_text()
+    with (
+        xr.open_dataset(killed / "trials.nc") as ours,
+        xr.open_dataset(whole / "trials.nc") as theirs,
+    ):
+        xr.testing.assert_identical(ours, theirs)
 
 
 def test_a_directory_of_another_design_is_refused(ball: Path, tmp_path: Path) -> None:

@@ -164,3 +164,19 @@ def test_few_runs_still_give_a_certified_trial_and_a_note(budget: int) -> None:
     assert best.level == "case"
     assert search.evaluation.runs <= budget
     assert any(f"{budget} runs are too few" in note for note in notes_on(best, search))
+
+
+@pytest.mark.parametrize("workers", [2, 3, 4])
+def test_workers_compute_trials_ahead_and_do_not_change_the_search(workers: int) -> None:
+    def bowl(v: Mapping[str, float]) -> dict[str, Value]:
+        return exact(2 + (v["load.x"] - 0.27) ** 2 + 3 * (v["load.y"] - 0.61) ** 2)
+
+    one, best = searched(bowl, TWO, is_coarse=True)
+    several, same = searched(bowl, TWO, is_coarse=True, workers=workers)
+    assert several.evaluation.trials == one.evaluation.trials
+    assert best == same
+    trials = len(one.evaluation.trials)
+    rounds = several.evaluation.rounds  # type: ignore[attr-defined]
+    # Without a wrong guess there would be 1 / workers as many rounds as trials.
+    assert rounds < 1.7 * trials / workers
+    assert rounds >= trials / workers

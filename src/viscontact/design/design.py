@@ -24,7 +24,6 @@ from viscontact.design.search import Search
 from viscontact.design.trials import Trial
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.executors.local import LocalWorkers
-from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.recipes import refuse_import_by_a_worker
 from viscontact.runs.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
 from viscontact.units.formatting import format_quantity
@@ -45,7 +44,7 @@ def design(
     constraints: Sequence[str] = (),
     settings: Mapping[str, Any] | None = None,
     runs: int = 60,
-    workers: int | None = None,
+    workers: int = 1,
     directory: str | PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> DesignResult:
@@ -75,8 +74,10 @@ def design(
     runs : int, optional
         Most runs; a trial takes one for each scenario.
     workers : int, optional
-        Number of parallel processes, for the scenarios of a trial; by default as many as there are
-        cores. With 1, the runs are computed in this process.
+        Number of parallel processes. They compute the scenarios of a trial and, ahead, those of
+        the trials that are likely to follow; the result does not depend on their number. With 1,
+        the runs are computed in this process. With more, a script needs
+        ``if __name__ == "__main__":``, as for `simulate_many`.
     directory : path-like, optional
         Keep the trials there, in ``trials.jsonl``; the same call again goes on where the first one
         was interrupted. In the end it has the best case, ``best.yaml``, and the table,
@@ -142,7 +143,7 @@ def design(
         **{"change": repr(change), "goal": repr(goal), "over": repr(scenarios.rows)},
         **{"constraints": repr(limits), "settings": fixed},
     }
-    count = usable_cores() if workers is None else whole("workers", workers, 1)
+    count = whole("workers", workers, 1)
     with ExitStack() as opened:
         history = opened.enter_context(_history(directory, arguments))
         evaluation = Evaluation(
@@ -156,7 +157,8 @@ def design(
             limits,
             coarse_cells(own),
             budget,
-            opened.enter_context(_workers(min(count, len(scenarios.rows)))),
+            opened.enter_context(_workers(count)),
+            count,
             history.keep if history else _forget,
             progress or _silent,
             history.recorded if history else {},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -41,6 +41,12 @@ _SHARP = (CylindricalProfile, PartialCrown, FullCrown, TwoRadiiCrown, Chamfer)
 
 #: A scenario: values of the case by key.
 Scenario = Mapping[str, str]
+#: Values of the trials that are likely to follow, at most the given number.
+Ahead = Callable[[int], Iterable[Mapping[str, str]]]
+
+
+def _nothing_ahead(count: int) -> Iterable[Mapping[str, str]]:
+    return ()
 
 
 class BudgetSpentError(Exception):
@@ -59,11 +65,13 @@ class Evaluation:
     coarse: Mapping[str, str]  # settings of the coarse cells
     budget: int  # most runs
     executor: Executor | None
+    workers: int  # of the executor
     keep: Callable[[Trial], None]  # called after each new trial
     progress: Callable[[int, int], None]  # called with the numbers of runs, done and allowed
     recorded: dict[tuple[Any, ...], Trial] = field(default_factory=dict)
     trials: list[Trial] = field(default_factory=list)
     reserved: int = 0  # runs that the present search leaves to others
+    computed: dict[tuple[Any, ...], tuple[ScenarioResult, ...]] = field(default_factory=dict)
 
     @property
     def runs(self) -> int:
@@ -75,23 +83,47 @@ class Evaluation:
         """Levels of the search, the cheap one first."""
         return ("coarse", "case") if self.coarse else ("case",)
 
-    def evaluate(self, settings: Mapping[str, str], level: Level) -> Trial:
-        """Return the trial of some values; BudgetSpentError if it would need too many runs."""
-        known = next((t for t in self.trials if identity(t) == _key(settings, level)), None)
+    def evaluate(
+        self, settings: Mapping[str, str], level: Level, ahead: Ahead = _nothing_ahead
+    ) -> Trial:
+        """Return the trial of some values; BudgetSpentError if it would need too many runs.
+
+        Workers that are free compute the trials that are likely to follow. Those that are never
+        asked for do not count, so the number of workers changes neither trials nor budget.
+        """
+        key = _key(settings, level)
+        known = next((t for t in self.trials if identity(t) == key), None)
         if known is not None:
             return known
         if self.runs + len(self.scenarios) > self.budget - self.reserved:
             raise BudgetSpentError
-        recorded = self.recorded.get(_key(settings, level))
-        trial = recorded or Trial(dict(settings), level, self._results(settings, level))
+        recorded = self.recorded.get(key)
+        if recorded is None and key not in self.computed:
+            self._compute([settings, *self._likely(key, ahead)], level)
+        trial = recorded or Trial(dict(settings), level, self.computed.pop(key))
         self.trials.append(trial)
         if recorded is None:
             self.keep(trial)
         self.progress(self.runs, self.budget)
         return trial
 
-    def _results(self, settings: Mapping[str, str], level: Level) -> tuple[ScenarioResult, ...]:
-        runs = [self._run(settings, scenario, level) for scenario in self.scenarios]
+    def _likely(self, key: tuple[Any, ...], ahead: Ahead) -> list[Mapping[str, str]]:
+        """Values of further trials, so that all workers are in use with those of `key`."""
+        wanted = self.workers // math.gcd(self.workers, len(self.scenarios)) - 1
+        left = (self.budget - self.reserved - self.runs) // len(self.scenarios) - 1
+        count = min(wanted, left)
+        done = {key, *map(identity, self.trials), *self.recorded, *self.computed}
+        likely = {_key(each, key[0]): each for each in ahead(count)} if count > 0 else {}
+        return [each for other, each in likely.items() if other not in done][:count]
+
+    def _compute(self, trials: Sequence[Mapping[str, str]], level: Level) -> None:
+        """Compute the results of some trials at the same time."""
+        runs = [self._run(each, scenario, level) for each in trials for scenario in self.scenarios]
+        results = iter(self._results(runs))
+        for each in trials:
+            self.computed[_key(each, level)] = tuple(next(results) for _ in self.scenarios)
+
+    def _results(self, runs: Sequence[VariedRun]) -> list[ScenarioResult]:
         with warnings.catch_warnings():
             # They are kept with the trial.
             warnings.simplefilter("ignore", AccuracyWarning)
@@ -99,7 +131,7 @@ class Evaluation:
                 found = [_attempt(run) for run in runs]
             else:
                 found = simulate_many(runs, executor=self.executor, return_exceptions=True)
-        return tuple(self._measured(run, each) for run, each in zip(runs, found, strict=True))
+        return [self._measured(run, each) for run, each in zip(runs, found, strict=True)]
 
     def _run(self, settings: Mapping[str, str], scenario: Scenario, level: Level) -> VariedRun:
         cells = self.coarse if level == "coarse" else {}

@@ -42,8 +42,17 @@ SIMPLEX = 0.04
 NEAR_END = 0.1
 
 
+#: Cost of a point, and points that are likely to follow, a given number of them.
+_Cost = Callable[[Any], float]
+_Ahead = Callable[[int], Sequence[Point]]
+
+
 class _NothingGainedError(Exception):
     """The last trials of a search have gained less than the error."""
+
+
+class _ForeseenError(Exception):
+    """Enough of the next points of a search are known."""
 
 
 @dataclass
@@ -94,13 +103,15 @@ class Search:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
         choices = [each for each in self.space.parameters if isinstance(each, Choice)]
         if len(choices) == len(self.space.parameters):
-            for point in product(*(_middles(len(each.values)) for each in choices)):
-                self._try(point, level)
+            self._try_all(list(product(*(_middles(len(each.values)) for each in choices))), level)
             return
-        watched = _Watched(self, level, PATIENCE * (1 + len(self.space.parameters)))
         bounds = [(0.0, 1.0)] * len(self.space.parameters)
-        with contextlib.suppress(_NothingGainedError):
-            direct(watched, bounds, maxfun=100 * self.evaluation.budget, vol_tol=0, len_tol=1e-4)
+        most = 100 * self.evaluation.budget
+
+        def minimise(cost: _Cost) -> None:
+            direct(cost, bounds, maxfun=most, vol_tol=0, len_tol=1e-4)
+
+        _Watched(self, level, PATIENCE * (1 + len(self.space.parameters)), minimise).run()
         self._try_ends(level)
 
     def _try_ends(self, level: Level) -> None:
@@ -115,12 +126,12 @@ class Search:
             for n, end in zip(self.space.ranges, ends, strict=True)
             if abs(point[n] - end) < NEAR_END
         ]
-        for n, end in near:
-            self._try((*point[:n], float(end), *point[n + 1 :]), level)
+        tried = [(*point[:n], float(end), *point[n + 1 :]) for n, end in near]
         if len(near) > 1:
             for n, end in near:
                 point[n] = float(end)
-            self._try(tuple(point), level)
+            tried.append(tuple(point))
+        self._try_all(tried, level)
 
     def _certify(self) -> None:
         """Compute the best coarse trials on the cells of the case."""
@@ -128,7 +139,8 @@ class Search:
             return
         goal = self.evaluation.goal
         certified: list[Trial] = []
-        for coarse in self._ranked("coarse"):
+        ranked = self._ranked("coarse")
+        for rank, coarse in enumerate(ranked, 1):
             value = coarse.worst(goal)
             best = self.best("case")
             if best is not None:
@@ -138,7 +150,8 @@ class Search:
                     return
                 if len(certified) >= CANDIDATES:
                     return
-            certified.append(self._try(self.point(coarse), "case"))
+            others = [self.point(each) for each in ranked[rank:CANDIDATES]]
+            certified.append(self._try(self.point(coarse), "case", _first_of(others)))
 
     def _refine(self) -> None:
         """Search around the best certified trial on the cells of the case, by Nelder and Mead."""
@@ -149,30 +162,35 @@ class Search:
         simplex = np.tile(start[list(ranges)], (len(ranges) + 1, 1))
         for row in range(len(ranges)):
             simplex[row + 1, row] += SIMPLEX if simplex[0, row] < 0.5 else -SIMPLEX
-        watched = _Watched(self, "case", LOCAL_PATIENCE * (1 + len(ranges)))
-
-        def cost(coordinates: Any) -> float:
-            point = start.copy()
-            point[list(ranges)] = coordinates
-            return watched(point)
-
+        bounds = [(0, 1)] * len(ranges)
         options = {"initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.0}
-        with contextlib.suppress(_NothingGainedError):
-            minimize(
-                cost,
-                simplex[0],
-                method="Nelder-Mead",
-                bounds=[(0, 1)] * len(ranges),
-                options=options,
-            )
+
+        def minimise(cost: _Cost) -> None:
+            def of_ranges(coordinates: Any) -> float:
+                point = start.copy()
+                point[list(ranges)] = coordinates
+                return cost(point)
+
+            minimize(of_ranges, simplex[0], method="Nelder-Mead", bounds=bounds, options=options)
+
+        _Watched(self, "case", LOCAL_PATIENCE * (1 + len(ranges)), minimise).run()
         self._try_ends("case")
 
     def point(self, trial: Trial) -> Point:
         """Coordinates of a trial."""
         return self.points[self.evaluation.trials.index(trial)]
 
-    def _try(self, point: Sequence[float], level: Level) -> Trial:
-        trial = self.evaluation.evaluate(self.space.settings(point), level)
+    def _try_all(self, points: Sequence[Point], level: Level) -> None:
+        for number, point in enumerate(points, 1):
+            self._try(point, level, _first_of(points[number:]))
+
+    def _try(self, point: Point, level: Level, ahead: _Ahead) -> Trial:
+        """Return the trial of a point; `ahead` are the points that are likely to follow."""
+
+        def likely(count: int) -> list[dict[str, str]]:
+            return [self.space.settings(each) for each in ahead(count)]
+
+        trial = self.evaluation.evaluate(self.space.settings(point), level, likely)
         number = self.evaluation.trials.index(trial)
         self.points.setdefault(number, tuple(float(np.clip(part, 0, 1)) for part in point))
         return trial
@@ -181,18 +199,50 @@ class Search:
 class _Watched:
     """Cost of points in parts of the objective; it ends a search that gains less than the error."""
 
-    def __init__(self, search: Search, level: Level, patience: int) -> None:
+    def __init__(
+        self, search: Search, level: Level, patience: int, minimise: Callable[[_Cost], None]
+    ) -> None:
         self._search, self._level, self._patience = search, level, patience
+        self._minimise = minimise
+        self._known: dict[Point, float] = {}  # costs so far
         self._scale = self._reach = 0.0  # sizes of the first objective, and of the first reach [m]
         self._mark = math.inf  # best cost when something was gained last
         self._tried, self._last = 0, 0
 
-    def __call__(self, point: Any) -> float:
-        before = len(self._search.evaluation.trials)
-        trial = self._search._try(tuple(np.ravel(point)), self._level)
-        cost = self._cost(trial)
+    def run(self) -> None:
+        """Search until nothing is gained."""
+        with contextlib.suppress(_NothingGainedError):
+            self._minimise(self)
+
+    def __call__(self, given: Any) -> float:
+        before, point = len(self._search.evaluation.trials), tuple(map(float, np.ravel(given)))
+        trial = self._search._try(point, self._level, self._foreseen)
+        cost = self._known[point] = self._cost(trial)
         self._watch(trial, cost, is_new=len(self._search.evaluation.trials) > before)
         return cost
+
+    def _foreseen(self, count: int) -> list[Point]:
+        """Next points of the search, if each of them costs as much as the nearest known one.
+
+        The first one is the present point. A method asks for several points before it decides on
+        their costs, and repeated with the known costs it takes the same way.
+        """
+        found: dict[Point, None] = {}
+        points, costs = list(self._known), list(self._known.values())
+
+        def repeated(given: Any) -> float:
+            point = tuple(map(float, np.ravel(given)))
+            if point in self._known:
+                return self._known[point]
+            if len(found) > count:
+                raise _ForeseenError
+            found[point] = None
+            distances = [math.dist(point, each) for each in points]
+            return costs[int(np.argmin(distances))] if costs else 0.0
+
+        with contextlib.suppress(_ForeseenError):
+            self._minimise(repeated)
+        return list(found)
 
     def _cost(self, trial: Trial) -> float:
         evaluation = self._search.evaluation
@@ -217,6 +267,10 @@ class _Watched:
             patience *= NOTHING_FEASIBLE
         if self._tried - self._last >= patience:
             raise _NothingGainedError
+
+
+def _first_of(points: Sequence[Point]) -> _Ahead:
+    return lambda count: points[:count]
 
 
 def _middles(count: int) -> list[float]:

@@ -63,7 +63,7 @@ def design(
     runs: Annotated[int, typer.Option("--runs", min=1, metavar="N", help="Most runs.")] = 60,
     jobs: Annotated[
         int,
-        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of scenarios at a time."),
+        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at a time."),
     ] = 1,
     resume: Annotated[
         bool, typer.Option("--resume", help="Continue the design that DIR holds.")
