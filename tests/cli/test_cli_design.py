@@ -44,6 +44,15 @@ def test_a_design_writes_the_best_case_and_the_trials(capsys: pytest.CaptureFixt
         assert table.approach.values.argmax() == 1
 
 
+def test_the_worst_corner_of_a_scatter_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscontact.cli.design.execution._report", lambda *_: None)
+    assert main([*COMMAND, *RADIUS, "--scatter", "load.force=50mN:0.2N", "-q"]) == 0
+    with xr.open_dataset("found/trials.nc") as table:
+        names = ["as in the case", "with force 0.05 N", "with force 0.2 N"]
+        assert [name.replace("50 mN", "0.05 N") for name in table.scenario.values] == names
+        assert table.peak_pressure_of_scenarios.values.argmax(axis=1).tolist() == [2, 2, 2]
+
+
 def test_a_design_is_continued_with_resume_only(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*COMMAND, *RADIUS, "-q"]) == 0
     trials = Path("found/trials.jsonl").read_text()
@@ -84,6 +93,10 @@ REFUSED = {
         (*RADIUS, "--constraint", "approach<=1um", "--constraint", "approach>=1mm"),
         "--constraint: approach <= 1 um and approach >= 1 mm contradict each other",
     ),
+    "scatter": (
+        (*RADIUS, "--scatter", "load.force=2 N:1 N"),
+        "--scatter: load.force: the lower bound comes first",
+    ),
     "at": ((*RADIUS, "--at", "3"), "--at: write worst, end or a time"),
     "instant": ((*RADIUS, "--at", "3 s"), "--at: 3 s is no instant of the case"),
     "two goals": ((*RADIUS, "--maximise", "approach"), "give one of --minimise and --maximise"),
@@ -115,7 +128,7 @@ def test_a_design_that_is_not_feasible_ends_with_the_closest_trial(
 def test_values_of_lists_are_no_ranges() -> None:
     request = DesignRequest(
         *(Path("ball.yaml"), Path("found"), ["grid.size=[1 mm, 1 mm], [2 mm, 2 mm]"]),
-        *("approach", None, "10 min", ["load.force=1 N,2 N"], [], [], 9, 1),
+        *("approach", None, "10 min", ["load.force=1 N,2 N"], [], [], [], 9, 1),
     )
     found = request.arguments()
     assert found["change"] == {"grid.size": ["[1 mm, 1 mm]", "[2 mm, 2 mm]"]}

@@ -9,6 +9,7 @@ from pathlib import Path
 from viscontact.design.evaluation import Evaluation
 from viscontact.design.goals import Goal, Value, constraints_of
 from viscontact.design.parameters import space_of
+from viscontact.design.scenarios import Scenario
 from viscontact.design.search import Search
 from viscontact.design.trials import ScenarioResult, Trial, goal_name
 from viscontact.runs.sweep.varied_runs import VariedRun
@@ -57,7 +58,7 @@ def searched(
     evaluation = AnalyticEvaluation(
         Path("case.yaml"),
         {},
-        [{}],
+        [Scenario("")],
         Goal("force", least),
         constraints_of(constraints),
         {"grid.shape": "[32, 32]"} if is_coarse else {},

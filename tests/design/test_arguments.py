@@ -61,6 +61,37 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
         "are equal",
     ),
     "no list": ({"over": {"indenter.radius": "5 mm"}}, "must be a list of values"),
+    "scatter of no sense": (
+        {"scatter": {"load.force": "1 N"}},
+        "scatter: load.force: must be a tu",
+    ),
+    "reversed scatter": (
+        {"scatter": {"material.poisson_ratio": ("0.4", "0.3")}},
+        "scatter: material.poisson_ratio: the lower bound comes first",
+    ),
+    "values in place of deviations": (
+        {"scatter": {"load.force": ("0.04 N", "0.06 N")}},
+        "scatter: load.force: is changed, so that its scatter is a deviation",
+    ),
+    "deviation beyond all sense": (
+        {"scatter": {"load.force": ("-0.05 N", "0.05 N")}},
+        "load.force: must be zero or more, got '-0.04 N'",
+    ),
+    "scattered choice": (
+        {
+            "change": {"indenter.radius": ["4 mm", "5 mm"]},
+            "scatter": {"indenter.radius": ("-1 mm", "1 mm")},
+        },
+        "scatter: indenter.radius: is a choice between values, which cannot deviate",
+    ),
+    "scattered scenario": (
+        {
+            "over": {"indenter.radius": ["5 mm", "6 mm"]},
+            "scatter": {"indenter.radius": ("4 mm", "7 mm")},
+        },
+        "indenter.radius: is given twice",
+    ),
+    "unknown scatter": ({"scatter": {"load.farce": ("1 N", "2 N")}}, "farce"),
     "too few runs": (
         {"over": {"indenter.radius": ["5 mm", "6 mm"]}, "runs": 1},
         "runs: 1 are too few for 2 scenarios",

@@ -60,6 +60,41 @@ def test_the_worst_scenario_decides(ball: Path) -> None:
     assert large / small == pytest.approx(2 ** (1 / 3), rel=0.01)
 
 
+SCATTERED = {
+    # F = 4/3 E* a^3 / R (Hertz) at the largest allowed width, less the deviation of the force
+    "a deviation of the parameter": ({"load.force": ("-0.05 N", "0.05 N")}, 0.2304 - 0.05),
+    # and of the softest body, E* = 4 G
+    "another key": ({"material.shear_modulus": ("0.7 MPa", "1.1 MPa")}, 0.7 * 0.2304),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("scatter", "expected"), SCATTERED.values(), ids=SCATTERED.keys())
+def test_the_largest_force_under_scatter_is_that_of_its_worst_corner(
+    ball: Path, scatter: dict[str, tuple[str, str]], expected: float
+) -> None:
+    found = vc.design(
+        ball,
+        {"load.force": ("0.1 N", "0.4 N")},
+        maximise="approach",
+        scatter=scatter,
+        constraints=["contact_width<=1.2mm"],
+        runs=90,
+    )
+    # Without scatter it is 0.2304 N; the width is known to a part of a cell of 37 um.
+    assert float(found.best["load.force"]) == pytest.approx(expected, rel=0.1)
+    assert float(found.best.contact_width) <= 1.2e-3
+    assert found.table.scenario.values[0] == "as in the case"
+    nominal, low, high = found.best.approach_of_scenarios.values
+    assert min(low, high) < nominal < max(low, high)
+    # Hertz: the approach is proportional to (F / E*)^(2/3).
+    if "load.force" in scatter:
+        force = float(found.best["load.force"])
+        assert high / low == pytest.approx(((force + 0.05) / (force - 0.05)) ** (2 / 3), rel=0.01)
+    else:
+        assert low / high == pytest.approx((1.1 / 0.7) ** (2 / 3), rel=0.01)
+
+
 def test_the_result_states_the_case_before_and_after(ball: Path) -> None:
     found = vc.design(ball, {"load.force": ["0.05 N", "0.2 N"]}, minimise="approach", workers=1)
     ratio = float(found.table.approach[0] / found.best.approach)

@@ -20,12 +20,12 @@ from viscontact.design.history import History
 from viscontact.design.parameters import Space, space_of
 from viscontact.design.result import DesignResult, table_of
 from viscontact.design.result_files import write_result
+from viscontact.design.scenarios import Scenario, scenarios_of
 from viscontact.design.search import Search
 from viscontact.design.trials import Trial
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.executors.local import LocalWorkers
 from viscontact.runs.recipes import refuse_import_by_a_worker
-from viscontact.runs.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
 
@@ -41,6 +41,7 @@ def design(
     maximise: str | None = None,
     at: Literal["worst", "end"] | float = "worst",
     over: Mapping[str, Sequence[Any]] | None = None,
+    scatter: Mapping[str, tuple[Any, Any]] | None = None,
     constraints: Sequence[str] = (),
     settings: Mapping[str, Any] | None = None,
     runs: int = 60,
@@ -66,6 +67,11 @@ def design(
     over : mapping, optional
         Scenarios: values of some keys, as ``{"load.eccentricity_x": ["0 mm", "5 mm"]}``; all
         combinations of several keys. The scalar counts in the worst one.
+    scatter : mapping, optional
+        Scatter of at most three keys, by two bounds: values of a key, as
+        ``{"material.poisson_ratio": ("0.36", "0.40")}``, or, for a key of `change`, deviations
+        from each value that is tried, as ``{"indenter.crown_radius": ("-2 mm", "2 mm")}``. Each
+        scenario is computed without scatter and at all corners of the ranges.
     constraints : sequence of str, optional
         Bounds on the magnitudes of scalars at all instants of all scenarios, as
         ``["contact_length<=18mm"]``, or with ``>=``.
@@ -134,13 +140,16 @@ def design(
         constraints_of(constraints),
         space_of(change),
     )
-    scenarios = _scenarios(over)
-    _refuse_repeated(space.keys, scenarios.keys, tuple(fixed))
+    _refuse_repeated(space.keys, tuple(over or ()), tuple(fixed))
+    _refuse_repeated(tuple(scatter or ()), tuple(over or ()), tuple(fixed))
     budget = whole("runs", runs, 1)
+    values = _own_values(_read(path, _assignments(fixed)), (*space.keys, *(scatter or {})))
+    scenarios = scenarios_of(over, scatter, space, values)
     own = _checked(path, space, scenarios, fixed, goal)
     arguments = {
         "case": hashlib.sha256(b"".join(sorted(own.digests.values()))).hexdigest(),
-        **{"change": repr(change), "goal": repr(goal), "over": repr(scenarios.rows)},
+        **{"change": repr(change), "goal": repr(goal), "over": repr(over)},
+        **({"scatter": repr(scatter)} if scatter else {}),
         **{"constraints": repr(limits), "settings": fixed},
     }
     count = whole("workers", workers, 1)
@@ -149,10 +158,7 @@ def design(
         evaluation = Evaluation(
             path,
             fixed,
-            [
-                dict(t.split("=", 1) for t in scenarios.settings(n))
-                for n in range(len(scenarios.rows))
-            ],
+            scenarios,
             goal,
             limits,
             coarse_cells(own),
@@ -163,29 +169,27 @@ def design(
             progress or _silent,
             history.recorded if history else {},
         )
-        found = _searched(evaluation, space, scenarios, own)
+        found = _searched(evaluation, space, values)
         if directory is not None:
             write_result(Path(directory), found)
         return found
 
 
-def _searched(evaluation: Evaluation, space: Space, scenarios: Design, own: Case) -> DesignResult:
+def _searched(evaluation: Evaluation, space: Space, own: Mapping[str, str]) -> DesignResult:
     """Search, and describe the best trial; ValueError if none is feasible."""
     goal, limits = evaluation.goal, evaluation.constraints
     try:
         evaluation.evaluate({}, "case")
     except BudgetSpentError:
         raise ValueError(
-            f"runs: {evaluation.budget} are too few for {len(scenarios.rows)} scenarios"
+            f"runs: {evaluation.budget} are too few for {len(evaluation.scenarios)} scenarios"
         ) from None
     search = Search(space, evaluation)
     best = search.run()
     if best is None:
         raise InfeasibleError(why_infeasible(evaluation, search))
-    names = [scenarios.name(row) or "as in the case" for row in range(len(scenarios.rows))]
-    table = table_of(
-        evaluation.trials, space.keys, _own_values(own, space.keys), names, goal, limits
-    )
+    names = [each.name or "as in the case" for each in evaluation.scenarios]
+    table = table_of(evaluation.trials, space.keys, own, names, goal, limits)
     notes, number = tuple(notes_on(best, search)), evaluation.trials.index(best)
     about = {"goal": goal.scalar, "sense": "least" if goal.least else "largest", "at": str(goal.at)}
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
@@ -202,20 +206,6 @@ def _searched(evaluation: Evaluation, space: Space, scenarios: Design, own: Case
     )
 
 
-def _scenarios(over: Mapping[str, Sequence[Any]] | None) -> Design:
-    if not over:
-        return NOTHING_VARIED
-    for key, values in over.items():
-        if isinstance(values, str) or not len(values):
-            raise ValueError(
-                f"over: {key}: must be a list of values, as ['0 mm', '5 mm'], got {values!r}"
-            )
-    try:
-        return grid_design({key: [str(value) for value in values] for key, values in over.items()})
-    except EqualValuesError as error:
-        raise ValueError(f"over: {error}") from None
-
-
 def _refuse_repeated(*groups: Sequence[str]) -> None:
     keys = [key for group in groups for key in group]
     for key in keys:
@@ -224,19 +214,28 @@ def _refuse_repeated(*groups: Sequence[str]) -> None:
 
 
 def _checked(
-    path: Path, space: Space, scenarios: Design, fixed: Mapping[str, str], goal: Goal
+    path: Path,
+    space: Space,
+    scenarios: Sequence[Scenario],
+    fixed: Mapping[str, str],
+    goal: Goal,
 ) -> Case:
     """Check the case at its own values, at the bounds and in all scenarios, and return it."""
-    first = scenarios.settings(0)
-    own = _read(path, (*_assignments(fixed), *first))
+
+    def read(scenario: Scenario, trial: Mapping[str, str]) -> Case:
+        return _read(path, (*_assignments(fixed), *_assignments(scenario.settings(trial))))
+
+    own = read(scenarios[0], {})
     if own.steady is not None:
         raise ValueError(f"{path}: is in steady motion; a design takes a case over time")
     if own.adaptive is None and not isinstance(goal.at, str):
         _require_instant(own.instants, goal.at)
     for corner in space.corners():
-        _read(path, (*_assignments(fixed), *first, *_assignments(corner)))
-    for row in range(1, len(scenarios.rows)):
-        _read(path, (*_assignments(fixed), *scenarios.settings(row)))
+        for each in scenarios:
+            if each is scenarios[0] or each.deviations:
+                read(each, corner)
+    for each in scenarios[1:]:
+        read(each, {})
     return own
 
 

@@ -15,6 +15,7 @@ import xarray as xr
 from viscontact.case import Case, read_case
 from viscontact.checks.half_space_theory import AT_THE_END
 from viscontact.design.goals import Constraint, Goal, magnitude
+from viscontact.design.scenarios import Scenario
 from viscontact.design.trials import REACH, Level, ScenarioResult, Trial, goal_name
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
@@ -39,8 +40,6 @@ LEAST_CELLS, MOST_CELLS = 32, 2**12
 PEAK = "peak_pressure"
 _SHARP = (CylindricalProfile, PartialCrown, FullCrown, TwoRadiiCrown, Chamfer)
 
-#: A scenario: values of the case by key.
-Scenario = Mapping[str, str]
 #: Values of the trials that are likely to follow, at most the given number.
 Ahead = Callable[[int], Iterable[Mapping[str, str]]]
 
@@ -135,7 +134,7 @@ class Evaluation:
 
     def _run(self, settings: Mapping[str, str], scenario: Scenario, level: Level) -> VariedRun:
         cells = self.coarse if level == "coarse" else {}
-        whole = {**self.settings, **cells, "output.fields": "none", **scenario, **settings}
+        whole = {**self.settings, **cells, "output.fields": "none", **scenario.settings(settings)}
         return VariedRun(self.case, whole, tuple(settings), "", "", "cases")
 
     def _measured(self, run: VariedRun, found: xr.Dataset | Exception) -> ScenarioResult:

@@ -13,6 +13,7 @@ import xarray as xr
 
 from viscontact.case import Case, read_case
 from viscontact.design.goals import Constraint, Goal, Value
+from viscontact.design.scenarios import Scenario
 from viscontact.design.trials import Trial, goal_name
 from viscontact.display import write_design_report
 from viscontact.errors import AccuracyWarning
@@ -69,7 +70,7 @@ class DesignResult:
     fixed: Mapping[str, str]
     goal: Goal
     number: int  # of the best trial
-    scenarios: tuple[Mapping[str, str], ...]
+    scenarios: tuple[Scenario, ...]
 
     @property
     def best(self) -> xr.Dataset:
@@ -120,7 +121,7 @@ class DesignResult:
         values = self.best[f"{self.goal.scalar}_of_scenarios"].values
         number = values.argmax() if self.goal.least else values.argmin()
         scenario = self.scenarios[int(number)]
-        whole = {**self.fixed, **scenario, **settings}
+        whole = {**self.fixed, **scenario.settings(settings)}
         texts = [f"{key}={value}" for key, value in whole.items()]
         instants = read_case(self.case, [*texts, "output.fields=none"]).instants
         ends = dict.fromkeys((float(instants[0]), float(instants[-1])))

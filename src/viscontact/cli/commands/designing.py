@@ -26,6 +26,16 @@ Scenarios = Annotated[
         help="Scenarios, of which the worst one counts, e.g. load.eccentricity_x='0 mm,5 mm'.",
     ),
 ]
+Scatter = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--scatter",
+        metavar="KEY=LOW:HIGH",
+        help="Scatter, of which the worst corner counts: values, e.g. "
+        "material.poisson_ratio=0.36:0.40, or deviations of a changed parameter, e.g. "
+        "indenter.crown_radius='-2 mm:2 mm'.",
+    ),
+]
 Constraints = Annotated[
     list[str] | None,
     typer.Option(
@@ -58,6 +68,7 @@ def design(
         ),
     ] = "worst",
     over: Scenarios = None,
+    scatter: Scatter = None,
     constraint: Constraints = None,
     settings: Settings = None,
     runs: Annotated[int, typer.Option("--runs", min=1, metavar="N", help="Most runs.")] = 60,
@@ -80,6 +91,6 @@ def design(
 
     request = DesignRequest(
         *(case, output, change or (), minimise, maximise, at),
-        *(over or (), constraint or (), settings or (), runs, jobs),
+        *(over or (), scatter or (), constraint or (), settings or (), runs, jobs),
     )
     execute_design(request, resume=resume, quiet=quiet)

@@ -16,6 +16,7 @@ from viscontact.units.parsing import parse_quantity
 _OPTIONS = {
     "change": "--change",
     "over": "--over",
+    "scatter": "--scatter",
     "constraints": "--constraint",
     "minimise": "--minimise",
     "maximise": "--maximise",
@@ -36,6 +37,7 @@ class DesignRequest:
     maximise: str | None
     at: str
     over: Sequence[str]  # KEY=A,B,...
+    scatter: Sequence[str]  # KEY=LOW:HIGH
     constraints: Sequence[str]
     settings: Sequence[str]
     runs: int
@@ -56,6 +58,7 @@ class DesignRequest:
             "maximise": self.maximise,
             "at": _instant(self.at),
             "over": _keys("--over", self.over, split_values),
+            "scatter": _keys("--scatter", self.scatter, _parameter),
             "constraints": list(self.constraints),
             "settings": _keys("--set", self.settings, str),
             "runs": self.runs,
@@ -91,6 +94,7 @@ def _keys(option: str, texts: Sequence[str], read: Any) -> dict[str, Any]:
 _EXAMPLES = {
     "--change": "'indenter.crown_radius=20 mm:2 m:log'",
     "--over": "'load.eccentricity_x=0 mm,5 mm'",
+    "--scatter": "'material.poisson_ratio=0.36:0.40'",
     "--set": "'load.force=20 kN'",
 }
 
