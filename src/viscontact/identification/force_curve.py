@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.identification.record import finite_column
+from viscontact.tables import Table
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
@@ -89,6 +90,45 @@ class ForceCurve:
         """Number of rows up to the first one at which the position is (nearly) largest."""
         largest, extent = self.position.max(), np.ptp(self.position)
         return int(np.argmax(self.position >= largest - 1e-3 * extent)) + 1
+
+
+def tabulated_curve(
+    table: Table, spring_constant: float, sensitivity: float | None = None
+) -> ForceCurve:
+    """Return the force curve of a table of time, position, and deflection, force or signal.
+
+    Parameters
+    ----------
+    table : Table
+        The measured table.
+    spring_constant : float
+        Spring constant of the cantilever [N/m].
+    sensitivity : float, optional
+        Deflection per signal [m/V] of a deflection in volts.
+
+    Raises
+    ------
+    ValueError
+        If a column is missing, or a signal without `sensitivity`; or the curve is not valid.
+
+    Examples
+    --------
+    >>> from viscontact.tables import read_table
+    >>> curve = tabulated_curve(read_table("curve.csv"), 0.1)  # doctest: +SKIP
+    """
+    found = [name for name in ("deflection", "force", "signal") if name in table]
+    if not {"time", "position"} <= set(table.columns) or not found:
+        raise ValueError(
+            f"{table.source.name}: a force curve has columns time, position, and deflection or "
+            f"force; {table.contents}"
+        )
+    if found[0] == "signal" and sensitivity is None:
+        raise ValueError(
+            f"{table.source.name}: a deflection in volts needs the sensitivity, such as 50 nm/V"
+        )
+    scale = {"deflection": 1.0, "force": 1.0 / spring_constant, "signal": sensitivity or 0.0}
+    deflection = scale[found[0]] * table[found[0]]
+    return ForceCurve(table["time"], table["position"], deflection, spring_constant)
 
 
 def _falls(position: Array, deflection: Array) -> bool:

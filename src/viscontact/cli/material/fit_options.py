@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from viscontact.identification import ForceCurve, read_force_curve
+from viscontact.identification.force_curve import tabulated_curve
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.series_fits.prony import FitOptions
 from viscontact.tables import Table
@@ -86,18 +87,14 @@ class FitArguments:
             raise ValueError(
                 f"{table.source.name}: --sensitivity goes with a deflection in volts; leave it out"
             )
-        if "deflection" in table:
-            deflection = table["deflection"]
-        elif "force" in table:
-            deflection = table["force"] / stiffness
-        elif self.sensitivity is None:
+        if "signal" in table and self.sensitivity is None:
             raise ValueError(
                 f"{table.source.name}: a deflection in volts needs --sensitivity, such as '50 nm/V'"
             )
-        else:
-            sensitivity = _read_option("--sensitivity", self.sensitivity, "sensitivity")
-            deflection = sensitivity * table["signal"]
-        return ForceCurve(table["time"], table["position"], deflection, stiffness)
+        sensitivity = self.sensitivity and _read_option(
+            "--sensitivity", self.sensitivity, "sensitivity"
+        )
+        return tabulated_curve(table, stiffness, sensitivity or None)
 
     def stiffness(self) -> float | None:
         """Return the spring constant [N/m], None where it is not given."""

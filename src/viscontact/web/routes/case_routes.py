@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import asdict
 from functools import cache
@@ -9,7 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel
 
 from viscontact import __version__
@@ -21,10 +22,12 @@ from viscontact.plot.layout.page import Width
 from viscontact.results.run_axis import SPEED, TIME
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import unit_ladder
-from viscontact.units.systems import SYSTEM_NAMES, SYSTEMS
+from viscontact.units.systems import AUTOMATIC, SYSTEM_NAMES, SYSTEMS
 from viscontact.web.calculator import Calculator
 from viscontact.web.cases.case_reader import filled, form_values
+from viscontact.web.cases.curve_fits import CurveFitRequest, fitted_curve
 from viscontact.web.cases.drawings import Drawing, drawings
+from viscontact.web.runs.run_figures import look_of
 from viscontact.web.workspace.naming import suggested_title
 from viscontact.web.workspace.pictures import FigureChoice, picture
 from viscontact.web.workspace.problems import RequestError
@@ -90,7 +93,7 @@ def schema() -> dict[str, Any]:
 
 
 @router.get("/units")
-def units() -> dict[str, Any]:
+def unit_table() -> dict[str, Any]:
     """Return the systems of units, and the units of each SI unit of a result, by least size."""
     fixed = {
         system: {si: asdict(unit) for si, unit in found.items()}
@@ -185,6 +188,17 @@ async def draw(
 
 def _svg(drawn: Drawing, choice: FigureChoice) -> str:
     return "" if drawn.figure is None else picture(drawn.figure, choice).decode()
+
+
+@router.post("/fit")
+async def fit(
+    body: CurveFitRequest, calculator: AppCalculator, request: Request,
+    dark: bool = False, units: str = AUTOMATIC,
+) -> Response:  # fmt: skip
+    """Fit a law to an uploaded force curve or indentation record."""
+    look, folder = look_of(units, dark=dark), calculator.folder.case.parent
+    found = await calculator.do(lambda: fitted_curve(body, folder, look), request)
+    return Response(json.dumps(found, allow_nan=False), media_type="application/json")
 
 
 @router.get("/files")

@@ -221,7 +221,7 @@ function mapping(path) {
   return area;
 }
 
-function fileEntry(path, input) {
+export function fileEntry(path, input) {
   const list = suggest(input, []);
   input.addEventListener("focus", async () => {
     const files = await get("/api/files").catch(() => []);

@@ -11,7 +11,7 @@ let shownId = null;
 let latest = null;
 
 // The library is large, so it is loaded with the first result.
-function plotly() {
+export function plotly() {
   loading ??= new Promise((ready, failed) => {
     const script = make("script", { src: "/static/plotly.min.js" });
     script.onload = ready;

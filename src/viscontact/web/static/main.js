@@ -7,6 +7,7 @@ import {
 import { make, place, settled } from "./dom.js";
 import { draw, placeDrawings, setUpDrawings } from "./drawings.js";
 import { setUpFigures } from "./figures.js";
+import { setUpFit } from "./fit.js";
 import { drawForm, useMaterials } from "./form.js";
 import { START } from "./hints.js";
 import { goToProblem } from "./problems.js";
@@ -206,6 +207,7 @@ async function open() {
   setUpDrawings();
   setUpCase();
   setUpChecking();
+  setUpFit();
   setUpProgress(complain);
   setUpRuns();
   draft.addEventListener("replaced", redrawForm);

@@ -1,0 +1,192 @@
+"""Fit of a law to a force curve or an indentation record that was uploaded to the page."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viscontact.case.data_file import is_plain_name
+from viscontact.errors import AccuracyWarning
+from viscontact.figures.indentation_fits import contact_point, fit_over_time, force_over_approach
+from viscontact.figures.look import Look, plain
+from viscontact.identification import (
+    ContactPoint,
+    ForceCurve,
+    IndentationFit,
+    IndentationRecord,
+    find_contact,
+    fit_indentation,
+    material_section,
+    read_force_curve,
+)
+from viscontact.identification.force_curve import tabulated_curve
+from viscontact.identification.instrument_curves import is_instrument_file, split_number
+from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.tables import Table, read_table, split_sheet
+from viscontact.units.formatting import format_number, format_quantity, readable_unit
+from viscontact.units.parsing import parse_quantity
+from viscontact.web.cases.case_reader import form_values
+from viscontact.web.workspace.problems import Problem, RequestError, without_folder
+
+#: Tips by their names, with the dimension of their size.
+_TIPS = {
+    "sphere": (Sphere, "length"),
+    "cone": (Cone, "angle"),
+    "punch": (FlatPunch, "length"),
+}
+
+
+@dataclass(frozen=True)
+class CurveFitRequest:
+    """File of a measurement, its instrument and the law to fit, quantities as typed."""
+
+    file: str
+    size: str
+    tip: str = "sphere"
+    spring_constant: str = ""
+    sensitivity: str = ""
+    law: str = "zener"
+    terms: int = 1
+    poisson_ratio: str = ""
+    bulk_modulus: str = ""
+
+
+def fitted_curve(asked: CurveFitRequest, folder: Path, look: Look) -> dict[str, Any]:
+    """Return the fit to a file of a folder: parameters, figures, and the material of a case."""
+    given = _quantities(asked)
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", AccuracyWarning)
+            record, contact = _record(asked, folder, given)
+            fit = fit_indentation(
+                record,
+                asked.law,
+                terms=asked.terms,
+                poisson_ratio=given["poisson_ratio"],
+                bulk_modulus=given["bulk_modulus"],
+            )
+    except (ValueError, OSError) as error:
+        raise RequestError(422, without_folder(str(error), folder)) from error
+    section = material_section(fit)
+    figures = [force_over_approach(fit, look), fit_over_time(fit, look)]
+    if contact is not None:
+        figures.insert(0, contact_point(contact, look))
+    return {
+        "contact": [] if contact is None else _contact_rows(contact),
+        "parameters": _parameter_rows(fit),
+        "residual": f"{100 * fit.residual:.2g} % rms of the largest value",
+        "warnings": [str(each.message) for each in caught],
+        "figures": [plain(figure) for figure in figures],
+        "yaml": section,
+        "material": form_values(section, folder)["material"],
+    }
+
+
+def _quantities(asked: CurveFitRequest) -> dict[str, float | None]:
+    """Quantities in SI, None where left out; RequestError with each that cannot be read."""
+    dimensions = {
+        **{"spring_constant": "stiffness", "sensitivity": "sensitivity"},
+        **{"poisson_ratio": "", "bulk_modulus": "pressure"},
+    }
+    found: dict[str, float | None] = {}
+    problems = []
+    for name, dimension in dimensions.items():
+        text = str(getattr(asked, name)).strip()
+        try:
+            found[name] = _read(text, dimension) if text else None
+        except ValueError as error:
+            problems.append(Problem(str(error), name))
+    if not asked.poisson_ratio.strip() and not asked.bulk_modulus.strip():
+        problems.append(
+            Problem("give Poisson's ratio, such as 0.5, or a bulk modulus", "poisson_ratio")
+        )
+    if asked.tip not in _TIPS:
+        problems.append(Problem(f"must be one of {', '.join(_TIPS)}", "tip"))
+    elif not asked.size.strip():
+        problems.append(Problem("is missing; the size of the tip, such as 5 um", "size"))
+    if problems:
+        raise RequestError(422, *problems)
+    return found
+
+
+def _read(text: str, dimension: str) -> float:
+    if dimension:
+        return parse_quantity(text, dimension)
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"{text!r} is not a number; write e.g. 0.5") from None
+
+
+def _record(
+    asked: CurveFitRequest, folder: Path, given: dict[str, float | None]
+) -> tuple[IndentationRecord, ContactPoint | None]:
+    """Record of indentation, and the contact point of a force curve."""
+    indenter, path = _tip(asked), _path(asked.file, folder)
+    stiffness = given["spring_constant"]
+    if is_instrument_file(path):
+        return _from_curve(read_force_curve(path, spring_constant=stiffness), indenter)
+    table = read_table(path)
+    if "force" in table and "approach" in table:
+        return IndentationRecord(indenter, table["time"], table["approach"], table["force"]), None
+    return _from_curve(_tabulated(table, stiffness, given["sensitivity"]), indenter)
+
+
+def _tabulated(table: Table, stiffness: float | None, sensitivity: float | None) -> ForceCurve:
+    if stiffness is None:
+        why = "a force curve in a table needs the spring constant, such as 0.1 N/m"
+        raise RequestError(422, Problem(why, "spring_constant"))
+    return tabulated_curve(table, stiffness, sensitivity)
+
+
+def _from_curve(curve: ForceCurve, indenter: Indenter) -> tuple[IndentationRecord, ContactPoint]:
+    contact = find_contact(curve, indenter)
+    return contact.record(), contact
+
+
+def _tip(asked: CurveFitRequest) -> Indenter:
+    kind, dimension = _TIPS[asked.tip]
+    try:
+        return kind(parse_quantity(asked.size, dimension))
+    except ValueError as error:
+        raise RequestError(422, Problem(str(error), "size")) from error
+
+
+def _path(name: str, folder: Path) -> Path:
+    """Path of an uploaded file, with the sheet or the number of a curve behind it."""
+    if not is_plain_name(name.partition("#")[0]) or "/" in name or "\\" in name:
+        raise RequestError(422, Problem("upload the file, and give its name alone", "file"))
+    path = folder / name
+    if not split_number(split_sheet(path)[0])[0].is_file():
+        raise RequestError(422, Problem(f"there is no file {name!r}; upload it", "file"))
+    return path
+
+
+def _contact_rows(contact: ContactPoint) -> list[tuple[str, str]]:
+    at = format_quantity(contact.position, "m", 5).replace("-", "−")
+    return [
+        ("Contact point", f"{at} ± {format_quantity(contact.position_error, 'm', 2)}"),
+        ("Slope of the baseline", f"{format_number(contact.slope, 3)}"),
+        ("Noise (rms)", format_quantity(contact.noise, "m", 2)),
+        ("E/(1 − ν²) of an elastic body", format_quantity(contact.contact_modulus, "Pa", 4)),
+        ("Spring constant", format_quantity(contact.curve.spring_constant, "N/m", 4)),
+    ]
+
+
+def _parameter_rows(fit: IndentationFit) -> list[dict[str, Any]]:
+    """Name, value and confidence interval of each parameter, as text."""
+    rows = []
+    for (name, value), si in zip(fit.parameters.items(), fit.units, strict=True):
+        unit = readable_unit(si or "1", value)
+        low, high = (format_number(each / unit.factor, 4) for each in fit.intervals[name])
+        number = format_number(value / unit.factor, 4)
+        rows.append(
+            {
+                **{"name": name, "value": f"{number} {unit.symbol}".strip()},
+                "interval": f"{low} to {high} {unit.symbol}".strip(),
+                "confidence": f"{100 * fit.confidence:.0f} %",
+            }
+        )
+    return rows
