@@ -99,7 +99,7 @@ REFUSED = {
     ),
     "at": ((*RADIUS, "--at", "3"), "--at: write worst, end or a time"),
     "instant": ((*RADIUS, "--at", "3 s"), "--at: 3 s is no instant of the case"),
-    "two goals": ((*RADIUS, "--maximise", "approach"), "give one of --minimise and --maximise"),
+    "a goal twice": ((*RADIUS, "--maximise", "peak_pressure"), "peak_pressure: is given twice"),
 }
 
 
@@ -128,7 +128,7 @@ def test_a_design_that_is_not_feasible_ends_with_the_closest_trial(
 def test_values_of_lists_are_no_ranges() -> None:
     request = DesignRequest(
         *(Path("ball.yaml"), Path("found"), ["grid.size=[1 mm, 1 mm], [2 mm, 2 mm]"]),
-        *("approach", None, "10 min", ["load.force=1 N,2 N"], [], [], [], 9, 1),
+        *(["approach"], [], "10 min", ["load.force=1 N,2 N"], [], [], [], 9, 1),
     )
     found = request.arguments()
     assert found["change"] == {"grid.size": ["[1 mm, 1 mm]", "[2 mm, 2 mm]"]}

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from viscontact.design.evaluation import Evaluation
 from viscontact.design.goals import Goal, Value, constraints_of
+from viscontact.design.objectives import Objective
 from viscontact.design.parameters import space_of
 from viscontact.design.scenarios import Scenario
 from viscontact.design.search import Search
@@ -40,7 +41,7 @@ class AnalyticEvaluation(Evaluation):
             found = self.function(numbers)
         except ValueError as error:
             return ScenarioResult({}, str(error))
-        names = {"force": goal_name(self.goal)}
+        names = {goal.scalar: goal_name(goal) for goal in self.goals}
         return ScenarioResult({names.get(name, name): v for name, v in found.items()})
 
 
@@ -55,11 +56,35 @@ def searched(
     workers: int = 1,
 ) -> tuple[Search, Trial | None]:
     """Search for the best `force` of a function, and return the search and the best trial."""
-    evaluation = AnalyticEvaluation(
+    goals = (Goal("force", least),)
+    evaluation = evaluation_of(
+        function,
+        goals,
+        constraints=constraints,
+        budget=budget,
+        is_coarse=is_coarse,
+        workers=workers,
+    )
+    evaluation.evaluate({}, "case")
+    search = Search(space_of(change), evaluation, Objective(goals))
+    return search, search.run()
+
+
+def evaluation_of(
+    function: Function,
+    goals: tuple[Goal, ...],
+    *,
+    constraints: Sequence[str] = (),
+    budget: int = 60,
+    is_coarse: bool = False,
+    workers: int = 1,
+) -> AnalyticEvaluation:
+    """Evaluation of a function in one scenario."""
+    return AnalyticEvaluation(
         Path("case.yaml"),
         {},
         [Scenario("")],
-        Goal("force", least),
+        goals,
         constraints_of(constraints),
         {"grid.shape": "[32, 32]"} if is_coarse else {},
         budget,
@@ -69,9 +94,6 @@ def searched(
         lambda done, allowed: None,
         function=function,
     )
-    evaluation.evaluate({}, "case")
-    search = Search(space_of(change), evaluation)
-    return search, search.run()
 
 
 def _number(text: str) -> float:

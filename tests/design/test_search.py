@@ -19,7 +19,7 @@ def exact(number: float) -> dict[str, Value]:
 
 
 def value_of(search: object, trial: object) -> float:
-    return trial.worst(search.evaluation.goal).value  # type: ignore[attr-defined,no-any-return]
+    return trial.worst(search.evaluation.goals[0]).value  # type: ignore[attr-defined,no-any-return]
 
 
 def test_a_parabola_is_minimised_in_less_than_forty_runs() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from viscontact.design.evaluation import Evaluation
 from viscontact.design.goals import Constraint
@@ -23,7 +23,8 @@ class InfeasibleError(ValueError):
 
 def why_infeasible(evaluation: Evaluation, search: Search) -> str:
     """Reason why no trial is feasible, with the closest one."""
-    goal, limits = evaluation.goal, evaluation.constraints
+    names = " or the ".join(goal.scalar for goal in evaluation.goals)
+    limits = evaluation.constraints
     tried = [evaluation.trials[number] for number in search.points]
     said = f"no feasible design in {evaluation.runs} runs"
     done = [trial for trial in tried if not trial.failure]
@@ -34,7 +35,7 @@ def why_infeasible(evaluation: Evaluation, search: Search) -> str:
     where = ", ".join((f"{key}={value}" for key, value in closest.settings.items()))
     if closest.violation(limits) == 0.0:
         return (
-            f"{said}: the {goal.scalar} has no limit, as at a sharp end, or the trials on coarse "
+            f"{said}: the {names} has no limit, as at a sharp end, or the trials on coarse "
             f"cells were not confirmed on those of the case (closest: {where}); constrain the "
             "contact, choose another scalar, or allow more runs"
         )
@@ -46,8 +47,9 @@ def why_infeasible(evaluation: Evaluation, search: Search) -> str:
 def notes_on(best: Trial, search: Search) -> Iterator[str]:
     """Yield what is to be known of the best trial."""
     evaluation, space = search.evaluation, search.space
-    goal, point = evaluation.goal, search.point(best)
-    for number in space.ranges:
+    goals, point = search.objective.goals, search.point(best)
+    for number in space.ranges if len(goals) == 1 else ():
+        goal = goals[0]
         part, key = point[number], space.parameters[number].key
         if min(part, 1 - part) <= AT_BOUND:
             which, verb = "upper" if part > 0.5 else "lower", "falls" if goal.least else "grows"
@@ -61,11 +63,23 @@ def notes_on(best: Trial, search: Search) -> Iterator[str]:
     if search.is_cut_short:
         yield f"{evaluation.budget} runs are too few to search until the gain is within the error"
     before = evaluation.trials[0]
-    if before.is_feasible(goal, evaluation.constraints):
-        own, found = (goal.cost(each.worst(goal).value) for each in (before, best))
+    if before.is_feasible(evaluation.goals, evaluation.constraints):
+        own, found = (search.objective.cost(each).value for each in (before, best))
         if own < found:
             yield "the values of the case itself are better than the best ones that were found"
     yield from best.warnings
+
+
+def notes_on_trade_off(searches: Sequence[tuple[Search, Trial | None]]) -> Iterator[str]:
+    """Yield what is to be known of the trials of a trade-off, each note once."""
+    yield (
+        "the best trial is the compromise whose scalars are equally far from their best values; "
+        "the table has all trials that are not dominated"
+    )
+    notes = (
+        note for search, best in searches if best is not None for note in notes_on(best, search)
+    )
+    yield from dict.fromkeys(notes)
 
 
 def _undecided(best: Trial, limit: Constraint) -> Iterator[str]:

@@ -13,21 +13,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.case import Case, CaseError, read_case
-from viscontact.design.conclusions import InfeasibleError, notes_on, why_infeasible
+from viscontact.design.conclusions import (
+    InfeasibleError,
+    notes_on,
+    notes_on_trade_off,
+    why_infeasible,
+)
 from viscontact.design.evaluation import BudgetSpentError, Evaluation, coarse_cells
-from viscontact.design.goals import Goal, constraints_of, goal_of
+from viscontact.design.goals import Goal, constraints_of, goals_of
 from viscontact.design.history import History
+from viscontact.design.objectives import Objective
 from viscontact.design.parameters import Space, space_of
 from viscontact.design.result import DesignResult, table_of
 from viscontact.design.result_files import write_result
 from viscontact.design.scenarios import Scenario, scenarios_of
 from viscontact.design.search import Search
+from viscontact.design.trade_off import compromises, searched_trade_off
 from viscontact.design.trials import Trial
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.executors.local import LocalWorkers
 from viscontact.runs.recipes import refuse_import_by_a_worker
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
+
+#: Most runs of a search, where none are given.
+RUNS = 60
 
 #: Called with the numbers of runs, done and allowed, after each trial.
 Progress = Callable[[int, int], None]
@@ -37,14 +47,14 @@ def design(
     case: str | PathLike[str],
     change: Mapping[str, Any],
     *,
-    minimise: str | None = None,
-    maximise: str | None = None,
+    minimise: str | Sequence[str] | None = None,
+    maximise: str | Sequence[str] | None = None,
     at: Literal["worst", "end"] | float = "worst",
     over: Mapping[str, Sequence[Any]] | None = None,
     scatter: Mapping[str, tuple[Any, Any]] | None = None,
     constraints: Sequence[str] = (),
     settings: Mapping[str, Any] | None = None,
-    runs: int = 60,
+    runs: int | None = None,
     workers: int = 1,
     directory: str | PathLike[str] | None = None,
     progress: Progress | None = None,
@@ -59,8 +69,10 @@ def design(
         Parameters by dotted key, at most eight: a tuple of two bounds, and ``"log"`` for a
         logarithmic scale, as ``{"indenter.crown_radius": ("20 mm", "2 m", "log")}``; or a list of
         values to choose from, as ``{"material": ["pmma-paper", "epdm-70-25c"]}``.
-    minimise, maximise : str, optional
-        Name of the scalar whose magnitude is to be least, or largest; one of both.
+    minimise, maximise : str or sequence of str, optional
+        Name of the scalar whose magnitude is to be least, or largest. Two or three scalars give a
+        trade-off: the trials of which no other one is better in one scalar and as good in the
+        others.
     at : {"worst", "end"} or float, optional
         Instant of the scalar: that of its worst value in the run, the last one, or a time of the
         run [s].
@@ -78,7 +90,8 @@ def design(
     settings : mapping, optional
         Values of other keys, the same in all runs.
     runs : int, optional
-        Most runs; a trial takes one for each scenario.
+        Most runs; a trial takes one for each scenario. By default 60, and for a trade-off 60 for
+        each of its searches: 300 for two scalars, 420 for three.
     workers : int, optional
         Number of parallel processes. They compute the scenarios of a trial and, ahead, those of
         the trials that are likely to follow; the result does not depend on their number. With 1,
@@ -111,7 +124,9 @@ def design(
     the case, and the search goes on around the best one by the method of Nelder and Mead (1965).
     Each search ends when its last trials have gained less than the error of the scalar. A global
     optimum is not guaranteed. A peak pressure without a limit, as where a contact reaches the sharp
-    end of a roller, is never the best one.
+    end of a roller, is never the best one. A trade-off is searched for the best value of each
+    scalar, then for compromises of different weights, by the augmented weighted Chebyshev distance
+    (Steuer and Choo 1983), which also finds curves that are not convex.
 
     Examples
     --------
@@ -135,20 +150,20 @@ def design(
     """
     refuse_import_by_a_worker()
     path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
-    goal, limits, space = (
-        goal_of(minimise, maximise, at),
+    goals, limits, space = (
+        goals_of(minimise, maximise, at),
         constraints_of(constraints),
         space_of(change),
     )
     _refuse_repeated(space.keys, tuple(over or ()), tuple(fixed))
     _refuse_repeated(tuple(scatter or ()), tuple(over or ()), tuple(fixed))
-    budget = whole("runs", runs, 1)
+    budget = whole("runs", _default_runs(len(goals)) if runs is None else runs, 1)
     values = _own_values(_read(path, _assignments(fixed)), (*space.keys, *(scatter or {})))
     scenarios = scenarios_of(over, scatter, space, values)
-    own = _checked(path, space, scenarios, fixed, goal)
+    own = _checked(path, space, scenarios, fixed, goals[0])
     arguments = {
         "case": hashlib.sha256(b"".join(sorted(own.digests.values()))).hexdigest(),
-        **{"change": repr(change), "goal": repr(goal), "over": repr(over)},
+        **{"change": repr(change), "goal": repr(goals), "over": repr(over)},
         **({"scatter": repr(scatter)} if scatter else {}),
         **{"constraints": repr(limits), "settings": fixed},
     }
@@ -159,7 +174,7 @@ def design(
             path,
             fixed,
             scenarios,
-            goal,
+            goals,
             limits,
             coarse_cells(own),
             budget,
@@ -175,23 +190,36 @@ def design(
         return found
 
 
+def _default_runs(goals: int) -> int:
+    """Most runs of each search; there is one for each goal and for each compromise."""
+    if goals == 1:
+        return RUNS
+    return RUNS * (goals + len(compromises(goals)))
+
+
 def _searched(evaluation: Evaluation, space: Space, own: Mapping[str, str]) -> DesignResult:
     """Search, and describe the best trial; ValueError if none is feasible."""
-    goal, limits = evaluation.goal, evaluation.constraints
+    goals, limits = evaluation.goals, evaluation.constraints
     try:
         evaluation.evaluate({}, "case")
     except BudgetSpentError:
         raise ValueError(
             f"runs: {evaluation.budget} are too few for {len(evaluation.scenarios)} scenarios"
         ) from None
-    search = Search(space, evaluation)
-    best = search.run()
+    if len(goals) == 1:
+        search = Search(space, evaluation, Objective(goals))
+        searches = [(search, search.run())]
+    else:
+        searches = searched_trade_off(space, evaluation)
+    search, best = searches[-1]
     if best is None:
         raise InfeasibleError(why_infeasible(evaluation, search))
     names = [each.name or "as in the case" for each in evaluation.scenarios]
-    table = table_of(evaluation.trials, space.keys, own, names, goal, limits)
-    notes, number = tuple(notes_on(best, search)), evaluation.trials.index(best)
-    about = {"goal": goal.scalar, "sense": "least" if goal.least else "largest", "at": str(goal.at)}
+    table = table_of(evaluation.trials, space.keys, own, names, goals, limits)
+    said = notes_on(best, search) if len(goals) == 1 else notes_on_trade_off(searches)
+    notes, number = tuple(said), evaluation.trials.index(best)
+    about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
+    about["sense"] = " ".join("least" if goal.least else "largest" for goal in goals)
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
     return DesignResult(
         table.assign_attrs(about, best=number),
@@ -200,7 +228,7 @@ def _searched(evaluation: Evaluation, space: Space, own: Mapping[str, str]) -> D
         evaluation.runs,
         evaluation.case,
         evaluation.settings,
-        goal,
+        goals,
         number,
         tuple(evaluation.scenarios),
     )

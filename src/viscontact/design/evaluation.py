@@ -59,7 +59,7 @@ class Evaluation:
     case: Path
     settings: Mapping[str, str]
     scenarios: Sequence[Scenario]
-    goal: Goal
+    goals: tuple[Goal, ...]
     constraints: tuple[Constraint, ...]
     coarse: Mapping[str, str]  # settings of the coarse cells
     budget: int  # most runs
@@ -142,12 +142,12 @@ class Evaluation:
             return ScenarioResult({}, str(found).splitlines()[0])
         if isinstance(found, Exception):
             raise found
-        values = {goal_name(self.goal): self.goal.value(found)}
+        values = {goal_name(goal): goal.value(found) for goal in self.goals}
         values |= {str(each): each.value(found) for each in self.constraints}
         values[REACH] = magnitude(found, REACH, "worst", largest=True)
         warned = str(found.attrs.get("warnings", ""))
         if AT_THE_END in warned and ends_sharply(read_case(run.case, run.assignments).indenter):
-            peaks = [goal_name(self.goal)] * (self.goal.scalar == PEAK)
+            peaks = [goal_name(goal) for goal in self.goals if goal.scalar == PEAK]
             peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
             values |= {name: replace(values[name], error=math.inf) for name in peaks}
         return ScenarioResult(values, "", warned)

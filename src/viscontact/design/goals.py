@@ -19,6 +19,10 @@ from viscontact.units.parsing import parse_any_quantity
 
 #: Instant of a goal: that of the worst value, the last one, or a time [s].
 At = Literal["worst", "end"] | float
+#: Scalars that are to be least, or largest.
+Names = str | Sequence[str] | None
+#: Most scalars of a trade-off.
+MOST_GOALS = 3
 
 _CONSTRAINT = re.compile(r"\s*(\w+)\s*(<=|>=)\s*(.+?)\s*")
 #: Units of the results in the words of quantities.
@@ -115,15 +119,26 @@ def magnitude(results: xr.Dataset, scalar: str, at: At, *, largest: bool) -> Val
     return Value(float(sizes[row]), float(errors[row]))
 
 
-def goal_of(minimise: str | None, maximise: str | None, at: At) -> Goal:
-    """Return the goal of `design`; ValueError if an argument does not fit."""
-    if (minimise is None) == (maximise is None):
-        raise ValueError("give one of minimise and maximise, e.g. minimise='peak_pressure'")
-    option = "minimise" if maximise is None else "maximise"
-    scalar = _known(minimise or maximise or "", option)
+def goals_of(minimise: Names, maximise: Names, at: At) -> tuple[Goal, ...]:
+    """Return the goals of `design`; ValueError if an argument does not fit."""
+    least, largest = _names(minimise), _names(maximise)
+    if not least and not largest:
+        raise ValueError("give minimise or maximise, e.g. minimise='peak_pressure'")
     if isinstance(at, str) and at not in ("worst", "end"):
         raise ValueError(f"at: must be 'worst', 'end' or a time [s], got {at!r}")
-    return Goal(scalar, maximise is None, at)
+    goals = [Goal(_known(name, "minimise"), True, at) for name in least]
+    goals += [Goal(_known(name, "maximise"), False, at) for name in largest]
+    names = [each.scalar for each in goals]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ValueError(f"{twice}: is given twice, in minimise or maximise; give it once")
+    if len(goals) > MOST_GOALS:
+        raise ValueError(f"minimise, maximise: {MOST_GOALS} scalars at most, got {len(goals)}")
+    return tuple(goals)
+
+
+def _names(given: Names) -> list[str]:
+    return [given] if isinstance(given, str) else list(given or ())
 
 
 def constraints_of(texts: Sequence[str]) -> tuple[Constraint, ...]:

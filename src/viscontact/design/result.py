@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -14,6 +14,7 @@ import xarray as xr
 from viscontact.case import Case, read_case
 from viscontact.design.goals import Constraint, Goal, Value
 from viscontact.design.scenarios import Scenario
+from viscontact.design.trade_off import costs_of, not_dominated
 from viscontact.design.trials import Trial, goal_name
 from viscontact.display import write_design_report
 from viscontact.errors import AccuracyWarning
@@ -34,7 +35,8 @@ class DesignResult:
         coordinates, the goal and the constraints by their names, in the worst scenario, with their
         errors; the goal over (trial, scenario) as ``<name>_of_scenarios``; ``level`` ("coarse", or
         "case" for the cells of the case), ``feasible`` and ``message``, the reason of a failed run.
-        Trial 0 is the case as it is.
+        A trade-off has ``on_front``, the trials that are not dominated. Trial 0 is the case as it
+        is.
     settings : mapping of str to str
         Best values by key, as ``--set`` takes them.
     notes : tuple of str
@@ -68,7 +70,7 @@ class DesignResult:
     runs: int
     case: Path
     fixed: Mapping[str, str]
-    goal: Goal
+    goals: tuple[Goal, ...]
     number: int  # of the best trial
     scenarios: tuple[Scenario, ...]
 
@@ -76,6 +78,22 @@ class DesignResult:
     def best(self) -> xr.Dataset:
         """Best trial: its row of the table."""
         return self.table.isel(trial=self.number)
+
+    @property
+    def goal(self) -> Goal:
+        """The scalar that is to be least or largest; of several the first one."""
+        return self.goals[0]
+
+    @property
+    def front(self) -> xr.Dataset:
+        """Trials of which no other one is better in one scalar and as good in all others.
+
+        They are on the cells of the case, and sorted by the first scalar; of a design with one
+        scalar it is the best trial.
+        """
+        if len(self.goals) == 1:
+            return self.table.isel(trial=[self.number])
+        return self.table.isel(trial=self.table["on_front"].values).sortby(self.goal.scalar)
 
     @property
     def best_case(self) -> Case:
@@ -105,7 +123,7 @@ class DesignResult:
         OSError
             If the file cannot be written.
         """
-        title = f"Design of {self.case.stem}: {self.goal}"
+        title = f"Design of {self.case.stem}: {_listed(map(str, self.goals))}"
         runs = self.before_and_after()
         write_design_report(self.table, runs, path, title=title, headline=str(self))
 
@@ -132,15 +150,22 @@ class DesignResult:
 
     def __str__(self) -> str:
         values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
-        return f"{self.goal}: {self._format(self.number)} at {values}{self._before()}"
+        if len(self.goals) == 1:
+            goal = self.goal
+            return f"{goal}: {self._format(goal, self.number)} at {values}{self._before(goal)}"
+        each = (f"{g.scalar} {self._format(g, self.number)}{self._before(g)}" for g in self.goals)
+        return (
+            f"{_listed(map(str, self.goals))}: {self.front.sizes['trial']} trials are not "
+            f"dominated; the compromise has {_listed(each)}, at {values}"
+        )
 
-    def _before(self) -> str:
-        if not np.isfinite(self.table[self.goal.scalar].values[0]):
+    def _before(self, goal: Goal) -> str:
+        if not np.isfinite(self.table[goal.scalar].values[0]):
             return ""
-        return f", where the case has {self._format(0)}"
+        return f", where the case has {self._format(goal, 0)}"
 
-    def _format(self, trial: int) -> str:
-        name = self.goal.scalar
+    def _format(self, goal: Goal, trial: int) -> str:
+        name = goal.scalar
         value, error = (float(self.table[n].values[trial]) for n in (name, error_name(name)))
         return format_with_error(value, error, SCALARS[name].units)
 
@@ -150,7 +175,7 @@ def table_of(
     keys: Sequence[str],
     own: Mapping[str, str],
     scenarios: Sequence[str],
-    goal: Goal,
+    goals: tuple[Goal, ...],
     constraints: tuple[Constraint, ...],
 ) -> xr.Dataset:
     """Table of the trials; `own` are the values of the case, of trials without others."""
@@ -160,9 +185,12 @@ def table_of(
     data: dict[str, xr.Variable] = {}
     for each in constraints:
         data |= _columns(each.scalar, [trial.extreme(each) for trial in trials])
-    data |= _columns(goal.scalar, [trial.worst(goal) for trial in trials])
-    data |= _of_scenarios(trials, goal)
-    feasible = [trial.is_feasible(goal, constraints) for trial in trials]
+    for goal in goals:
+        data |= _columns(goal.scalar, [trial.worst(goal) for trial in trials])
+        data |= _of_scenarios(trials, goal)
+    feasible = [trial.is_feasible(goals, constraints) for trial in trials]
+    if len(goals) > 1:
+        data["on_front"] = _on_front(trials, goals, feasible)
     data["feasible"] = xr.Variable("trial", feasible, {"long_name": "all constraints are kept"})
     data["level"] = _texts([trial.level for trial in trials], "cells of the runs")
     data["message"] = _texts([trial.failure for trial in trials], "reason of a failed run")
@@ -187,6 +215,19 @@ def _of_scenarios(trials: Sequence[Trial], goal: Goal) -> dict[str, xr.Variable]
         name: xr.Variable(dims, [[v.value for v in row] for row in found], about),
         error_name(name): xr.Variable(dims, [[v.error for v in row] for row in found], about),
     }
+
+
+def _on_front(
+    trials: Sequence[Trial], goals: tuple[Goal, ...], feasible: Sequence[bool]
+) -> xr.Variable:
+    compared = np.array([each.level == "case" for each in trials]) & feasible
+    costs = np.where(compared[:, None], costs_of(trials, goals), np.nan)
+    about = {"long_name": "no trial is better in one scalar and as good in all others"}
+    return xr.Variable("trial", not_dominated(costs), about)
+
+
+def _listed(texts: Iterable[str]) -> str:
+    return " and ".join(texts)
 
 
 def _texts(texts: Sequence[str], long_name: str) -> xr.Variable:

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import direct, minimize
 
 from viscontact.design.evaluation import BudgetSpentError, Evaluation
+from viscontact.design.objectives import Objective
 from viscontact.design.parameters import Choice, Space
 from viscontact.design.trials import Level, Trial
 
@@ -61,18 +62,21 @@ class Search:
 
     space: Space
     evaluation: Evaluation
+    objective: Objective
     points: dict[int, Point] = field(default_factory=dict)  # of the trials, by their number
+    held: int = 0  # runs that are left to other searches
     is_cut_short: bool = False  # the runs were used up before the gain was within the error
 
     def run(self) -> Trial | None:
         """Return the best feasible trial on the cells of the case; None without one."""
         evaluation = self.evaluation
+        evaluation.reserved = self.held
         if len(evaluation.levels) > 1:
             # The best trials are to be computed on the cells of the case in any event.
-            most = evaluation.budget // RESERVED
-            evaluation.reserved = min(CANDIDATES * len(evaluation.scenarios), most)
+            most = (evaluation.budget - evaluation.runs - self.held) // RESERVED
+            evaluation.reserved += min(CANDIDATES * len(evaluation.scenarios), most)
         self._within_budget(partial(self._explore, evaluation.levels[0]))
-        evaluation.reserved = 0
+        evaluation.reserved = self.held
         self._within_budget(self._certify)
         self._within_budget(self._refine)
         return self.best("case")
@@ -91,13 +95,13 @@ class Search:
 
     def _ranked(self, level: Level) -> list[Trial]:
         """Feasible trials of a level, the best first."""
-        goal, limits = self.evaluation.goal, self.evaluation.constraints
+        goals, limits = self.evaluation.goals, self.evaluation.constraints
         found = [
             each
             for number, each in enumerate(self.evaluation.trials)
-            if number in self.points and each.level == level and each.is_feasible(goal, limits)
+            if number in self.points and each.level == level and each.is_feasible(goals, limits)
         ]
-        return sorted(found, key=lambda each: goal.cost(each.worst(goal).value))
+        return sorted(found, key=lambda each: self.objective.cost(each).value)
 
     def _explore(self, level: Level) -> None:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
@@ -137,16 +141,15 @@ class Search:
         """Compute the best coarse trials on the cells of the case."""
         if self.evaluation.levels[0] == "case":
             return
-        goal = self.evaluation.goal
         certified: list[Trial] = []
         ranked = self._ranked("coarse")
         for rank, coarse in enumerate(ranked, 1):
-            value = coarse.worst(goal)
+            value = self.objective.cost(coarse)
             best = self.best("case")
             if best is not None:
                 # The others are worse by more than the cells can explain.
                 known = value.error if math.isfinite(value.error) else 0.0
-                if goal.cost(value.value) - known > goal.cost(best.worst(goal).value):
+                if value.value - known > self.objective.cost(best).value:
                     return
                 if len(certified) >= CANDIDATES:
                     return
@@ -246,19 +249,19 @@ class _Watched:
 
     def _cost(self, trial: Trial) -> float:
         evaluation = self._search.evaluation
-        value = trial.worst(evaluation.goal)
+        value = self._search.objective.cost(trial)
         if not math.isfinite(value.value):
             return 2 * PENALTY
         self._scale = self._scale or abs(value.value) or 1.0
         self._reach = self._reach or trial.reach() or 1.0
         if value.depends_on_mesh:
             return PENALTY + min(trial.reach() / self._reach, MOST_REACH)
-        cost = evaluation.goal.cost(value.value) / self._scale
+        cost = value.value / self._scale
         return cost + PENALTY * min(trial.violation(evaluation.constraints), 1.0)
 
     def _watch(self, trial: Trial, cost: float, *, is_new: bool) -> None:
         self._tried += is_new
-        error = trial.worst(self._search.evaluation.goal).error
+        error = self._search.objective.cost(trial).error
         least = max(LEAST_GAIN, error / self._scale if math.isfinite(error) else 0.0)
         if cost < self._mark - least:
             self._mark, self._last = cost, self._tried

@@ -67,11 +67,11 @@ class Trial:
         excess = (each.violation(self.extreme(each).value) for each in constraints)
         return max(0.0, *excess, 0.0)
 
-    def is_feasible(self, goal: Goal, constraints: tuple[Constraint, ...]) -> bool:
+    def is_feasible(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
         """True if all runs have a result with a limit, and all constraints are kept."""
-        value = self.worst(goal)
-        has_limit = math.isfinite(value.value) and not value.depends_on_mesh
-        return has_limit and self.violation(constraints) == 0.0
+        values = [self.worst(goal) for goal in goals]
+        have_limits = all(math.isfinite(v.value) and not v.depends_on_mesh for v in values)
+        return have_limits and self.violation(constraints) == 0.0
 
 
 _NONE = Value(math.nan, math.nan)

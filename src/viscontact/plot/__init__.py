@@ -45,6 +45,7 @@ from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
 from viscontact.plot.sweeps.response import response
 from viscontact.plot.sweeps.tornado import tornado
+from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import trials
 
 FIGURES: dict[str, Callable[..., Figure]] = {
@@ -134,6 +135,7 @@ __all__ = [
     "save_figure",
     "stress_section",
     "tornado",
+    "trade_off",
     "trials",
     "von_mises_history",
 ]

@@ -17,6 +17,7 @@ from viscontact.notebook.html import element, written
 from viscontact.plot.histories.history import compare_histories
 from viscontact.plot.pressure.line_load import compare_line_loads
 from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
+from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import parameters_of, trials
 from viscontact.report.blocks import drawn_figure, listed_notes, text_table
 from viscontact.results.formatting import format_percent, format_with_error
@@ -59,31 +60,44 @@ def _chapters(
         listed_notes(table),
     )
     yield element("section", element("h2", "Before and after"), *_values(table), *_figures(runs))
-    yield element("section", element("h2", "Trials"), _trials_figure(table), *_trials(table))
+    if len(_goals(table)) > 1:
+        yield element("section", element("h2", "Trade-off"), *_trade_off(table))
+    figures = (_trials_figure(table, goal) for goal in _goals(table))
+    yield element("section", element("h2", "Trials"), *figures, *_trials(table))
     yield element("p", f"Made by viscontact {__version__}.", class_="faint")
 
 
 def _values(table: xr.Dataset) -> Iterator[Element]:
     """Parameters, and the goal in each scenario, before and after."""
-    goal, best = str(table.attrs["goal"]), int(table.attrs["best"])
+    best = int(table.attrs["best"])
     rows = [
         (key_label(key), *(_parameter(table[key], trial) for trial in (0, best)), "")
         for key in parameters_of(table)
     ]
+    for goal in _goals(table):
+        rows.extend(_values_of(table, goal, best))
+    for text in filter(None, str(table.attrs.get("constraints", "")).split("; ")):
+        name = text.split()[0]
+        rows.append((text, *(_goal(table, name, trial) for trial in (0, best)), ""))
+    yield text_table(("", "case", "best", "change"), rows)
+
+
+def _goals(table: xr.Dataset) -> list[str]:
+    """Names of the scalars that are to be least or largest."""
+    return str(table.attrs["goal"]).split()
+
+
+def _values_of(table: xr.Dataset, goal: str, best: int) -> Iterator[tuple[str, ...]]:
+    """Rows of a goal, in the worst scenario and in each one."""
     worst = f"{SCALARS[goal].label}, worst scenario"
-    rows.append(
-        (worst, *(_goal(table, goal, trial) for trial in (0, best)), _gain(table, goal, best))
-    )
+    columns = [_goal(table, goal, trial) for trial in (0, best)]
+    yield (worst, *columns, _gain(table, goal, best))
     if table.sizes["scenario"] > 1:
         for number, name in enumerate(table["scenario"].values.tolist()):
             one = table.isel(scenario=number)
             columns = [_goal(one, goal, trial, "_of_scenarios") for trial in (0, best)]
             gain = _gain(one, goal, best, "_of_scenarios")
-            rows.append((f"{SCALARS[goal].label}, {name}", *columns, gain))
-    for text in filter(None, str(table.attrs.get("constraints", "")).split("; ")):
-        name = text.split()[0]
-        rows.append((text, *(_goal(table, name, trial) for trial in (0, best)), ""))
-    yield text_table(("", "case", "best", "change"), rows)
+            yield (f"{SCALARS[goal].label}, {name}", *columns, gain)
 
 
 def _goal(table: xr.Dataset, name: str, trial: int, suffix: str = "") -> str:
@@ -131,19 +145,42 @@ def _figures(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
             yield element("p", f"{caption} Not drawn: {error}", class_="faint")
 
 
-def _trials_figure(table: xr.Dataset) -> Element:
-    return drawn_figure(trials(table), "The goal in the worst scenario over each parameter.")
+def _trials_figure(table: xr.Dataset, goal: str) -> Element:
+    caption = f"{SCALARS[goal].label} in the worst scenario over each parameter."
+    return drawn_figure(trials(table.assign_attrs(goal=goal)), caption)
+
+
+def _trade_off(table: xr.Dataset) -> Iterator[Element]:
+    """Figure and table of the trials that are not dominated."""
+    yield drawn_figure(
+        trade_off(table), "Trials of which no other one is better in one and as good in the others."
+    )
+    goals, keys = _goals(table), parameters_of(table)
+    front = table.isel(trial=table["on_front"].values).sortby(goals[0])
+    rows = [
+        (
+            str(front["trial"].values[row]),
+            *(_parameter(front[key], row) for key in keys),
+            *(_goal(front, goal, row) for goal in goals),
+        )
+        for row in range(front.sizes["trial"])
+    ]
+    labels = [SCALARS[goal].label for goal in goals]
+    yield text_table(("trial", *map(key_label, keys), *labels), rows)
 
 
 def _trials(table: xr.Dataset) -> Iterator[Element]:
     """Table of all trials."""
-    goal, keys = str(table.attrs["goal"]), parameters_of(table)
+    goals, keys = _goals(table), parameters_of(table)
     rows = []
     for trial in range(table.sizes["trial"]):
         values = [_parameter(table[key], trial) for key in keys]
         level, message = (str(table[name].values[trial]) for name in ("level", "message"))
-        why = "no limit" if np.isposinf(table[error_name(goal)].values[trial]) else "not feasible"
+        has_limit = not any(np.isposinf(table[error_name(goal)].values[trial]) for goal in goals)
+        why = "not feasible" if has_limit else "no limit"
         state = "feasible" if table["feasible"].values[trial] else message or why
-        rows.append((str(trial), level, *values, _goal(table, goal, trial), state))
-    head = ("trial", "cells", *map(key_label, keys), SCALARS[goal].label, "")
+        sizes = [_goal(table, goal, trial) for goal in goals]
+        rows.append((str(trial), level, *values, *sizes, state))
+    labels = [SCALARS[goal].label for goal in goals]
+    head = ("trial", "cells", *map(key_label, keys), *labels, "")
     yield text_table(head, rows)

@@ -53,11 +53,16 @@ def design(
     ],
     change: Changes = None,
     minimise: Annotated[
-        str | None,
-        typer.Option("--minimise", metavar="SCALAR", help="Scalar to make least: peak_pressure."),
+        list[str] | None,
+        typer.Option(
+            "--minimise",
+            metavar="SCALAR",
+            help="Scalar to make least: peak_pressure; two or three scalars give a trade-off.",
+        ),
     ] = None,
     maximise: Annotated[
-        str | None, typer.Option("--maximise", metavar="SCALAR", help="Scalar to make largest.")
+        list[str] | None,
+        typer.Option("--maximise", metavar="SCALAR", help="Scalar to make largest, likewise."),
     ] = None,
     at: Annotated[
         str,
@@ -71,7 +76,15 @@ def design(
     scatter: Scatter = None,
     constraint: Constraints = None,
     settings: Settings = None,
-    runs: Annotated[int, typer.Option("--runs", min=1, metavar="N", help="Most runs.")] = 60,
+    runs: Annotated[
+        int | None,
+        typer.Option(
+            "--runs",
+            min=1,
+            metavar="N",
+            help="Most runs; by default 60, and several times as many for a trade-off.",
+        ),
+    ] = None,
     jobs: Annotated[
         int,
         typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at a time."),
@@ -90,7 +103,7 @@ def design(
     from viscontact.cli.design.options import DesignRequest
 
     request = DesignRequest(
-        *(case, output, change or (), minimise, maximise, at),
+        *(case, output, change or (), minimise or (), maximise or (), at),
         *(over or (), scatter or (), constraint or (), settings or (), runs, jobs),
     )
     execute_design(request, resume=resume, quiet=quiet)

@@ -33,14 +33,14 @@ class DesignRequest:
     case: Path
     output: Path
     change: Sequence[str]  # KEY=LOW:HIGH[:log] or KEY=A,B,...
-    minimise: str | None
-    maximise: str | None
+    minimise: Sequence[str]
+    maximise: Sequence[str]
     at: str
     over: Sequence[str]  # KEY=A,B,...
     scatter: Sequence[str]  # KEY=LOW:HIGH
     constraints: Sequence[str]
     settings: Sequence[str]
-    runs: int
+    runs: int | None
     jobs: int
 
     def arguments(self) -> dict[str, Any]:
@@ -49,8 +49,8 @@ class DesignRequest:
             refuse(
                 "--change: name a parameter, e.g. --change indenter.crown_radius='20 mm:2 m:log'"
             )
-        if (self.minimise is None) == (self.maximise is None):
-            refuse("give one of --minimise and --maximise, e.g. --minimise peak_pressure")
+        if not self.minimise and not self.maximise:
+            refuse("give --minimise or --maximise, e.g. --minimise peak_pressure")
         return {
             "case": self.case,
             "change": _keys("--change", self.change, _parameter),

@@ -56,7 +56,7 @@ def trials(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     panels = list(figure.subplots(rows, columns, squeeze=False, sharey=True).flat)
     for unused in panels[len(keys) :]:
         unused.remove()
-    name = str(table.attrs["goal"])
+    name = _goal(table)
     unit = readable_unit(SCALARS[name].units, table[name].values)
     for key, axes in zip(keys, panels, strict=False):
         style.dress(axes)
@@ -79,8 +79,13 @@ def parameters_of(table: xr.Dataset) -> list[str]:
     return [str(name) for name in table.coords if name not in ("trial", "scenario")]
 
 
+def _goal(table: xr.Dataset) -> str:
+    """The goal, of several the first one."""
+    return str(table.attrs["goal"]).split()[0]
+
+
 def _draw(axes: Axes, table: xr.Dataset, places: NDArray[np.float64], unit: ReadableUnit) -> None:
-    name = str(table.attrs["goal"])
+    name = _goal(table)
     values, errors = (unit(table[each].values) for each in (name, error_name(name)))
     feasible, is_coarse = table["feasible"].values.astype(bool), table["level"].values == "coarse"
     bars = np.where(np.isfinite(errors), errors, 0.0)
