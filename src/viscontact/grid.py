@@ -16,6 +16,13 @@ from viscontact.units.numbers import as_real, finite, positive, whole
 #: Quantities that a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
 
+#: Further ones that can be requested. Errors of the other results follow from the whole history.
+FURTHER_QUANTITIES = (
+    *("mean_pressure", "contact_length", "contact_width", "peak_line_load", "force"),
+    *("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y"),
+)
+MESH_QUANTITIES = GRID_QUANTITIES + FURTHER_QUANTITIES
+
 #: Least number of cells across the largest contact of a run.
 MIN_CELLS_ACROSS = 4
 
@@ -243,7 +250,11 @@ class AutomaticGrid(Displayable):
     tolerance : float, optional
         Largest relative error of the quantities due to the mesh, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
-        Any of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``; all when left out.
+        Any of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``; these three when left out.
+        Also ``"mean_pressure"``, ``"contact_length"``, ``"contact_width"``, ``"peak_line_load"``,
+        ``"force"``, ``"eccentricity_x"``, ``"eccentricity_y"``, ``"tilt_x"``, ``"tilt_y"``. Errors
+        of eccentricities and tilts are relative to their absolute value, or where that is smaller,
+        to a hundredth of the contact's extent, and of the displacement over that extent.
     largest_cell : tuple of float, optional
         Largest edge lengths (dx, dy) of a cell [m]; cells that the tolerance allows to be larger
         get these. Runs on equal cells can be compared where a peak pressure has no limit.
@@ -272,9 +283,10 @@ class AutomaticGrid(Displayable):
             )
         named = self.quantities
         names = tuple(named) if isinstance(named, tuple | list) else ()
-        if not names or any(name not in GRID_QUANTITIES for name in names):
+        if not names or any(name not in MESH_QUANTITIES for name in names):
             raise ValueError(
-                f"quantities must name some of {', '.join(GRID_QUANTITIES)}, got {named!r}"
+                f"quantities must name some of {', '.join(MESH_QUANTITIES)}, got {named!r}; the "
+                "errors of other results follow from the whole history: see their error bars"
             )
         object.__setattr__(self, "tolerance", allowed)
         object.__setattr__(self, "quantities", tuple(dict.fromkeys(names)))

@@ -441,6 +441,7 @@ def test_tags_that_name_code_do_not_run_it(tag: str, tmp_path: Path) -> None:
     ("grid", "wish"),
     [
         ({"tolerance": "0.5 %", "quantities": ["approach"]}, (0.005, ["approach"])),
+        ({"quantities": ["contact_width", "tilt_x"]}, (0.01, ["contact_width", "tilt_x"])),
         ({"tolerance": 0.03}, (0.03, vc.AutomaticGrid().quantities)),
         ({}, (0.01, vc.AutomaticGrid().quantities)),
     ],

@@ -76,6 +76,59 @@ def test_elliptical_contacts_are_hertzs_within_what_is_asked_and_what_is_expecte
     assert np.mean(cells) <= 3000 + 0.1 / tolerance**2
 
 
+@pytest.mark.parametrize("seeds", [range(2), pytest.param(range(100, 112), marks=pytest.mark.slow)])
+def test_requested_extents_and_loads_of_ellipses_are_hertzs_within_the_tolerance(seeds):
+    names = ("mean_pressure", "contact_length", "contact_width", "peak_line_load")
+    for seed in seeds:
+        indenter, load, _ = random_ellipse(seed)
+        request = vc.AutomaticGrid(0.01, names)
+        run = prepare_run(Problem(indenter, STIFF, load, request, [0.0]))
+        ds = vc.simulate(indenter, STIFF, load, run.grid, [0.0], fields="none", errors=False)
+        force, J = load.at(0.0).force, STIFF.contact_compliance()(0.0)
+        exact = reference.hertz_elliptical(force, indenter.radius_x, indenter.radius_y, 1 / J)
+        a, b = exact.semi_axis_x, exact.semi_axis_y
+        # The line load is that of a parabola; a mean over a tenth of a loses (1/20)^2/3 of it.
+        truth = (force / (math.pi * a * b), 2 * a, 2 * b, 0.75 * force / a * (1 - 0.05**2 / 3))
+        for name, value in zip(names, truth, strict=True):
+            error = abs(float(ds[name][0]) / value - 1)
+            assert error <= run.mesh.errors[name] + TRIAL_TOLERANCE_SHARE * 0.01, (seed, name)
+            assert run.mesh.errors[name] <= 0.01, (seed, name)
+
+
+def test_requested_tilt_of_a_punch_and_force_on_a_ball_meet_the_tolerance():
+    """Borowicka (1943): tilt 3 M / (4 E* a^3); Hertz: F = 4/3 E* sqrt(R) d^(3/2)."""
+    modulus = 1 / STIFF.contact_compliance()(0.0)
+    tilt = 0.75 * 10.0 * 1e-4 / modulus / 1e-9
+    force = 4 / 3 * modulus * 0.01**0.5 * 1e-5**1.5
+    for body, load, truth in (
+        (vc.FlatPunch(1e-3), vc.step(10.0, eccentricity_x=1e-4), {"tilt_x": tilt, "tilt_y": 0.0}),
+        (vc.Paraboloid(0.01, 0.01), vc.step(approach=1e-5), {"force": force, "eccentricity_x": 0}),
+    ):
+        run = prepare_run(Problem(body, STIFF, load, vc.AutomaticGrid(0.01, [*truth]), [0.0]))
+        ds = vc.simulate(body, STIFF, load, run.grid, [0.0], fields="none", errors=False)
+        for name, value in truth.items():
+            assert float(ds[name][0]) == pytest.approx(value, rel=0.01, abs=1e-12), name
+            assert run.mesh.errors[name] <= 0.01
+
+
+def test_width_at_a_sharp_end_is_left_out_and_reported():
+    """It grows by some per cent on cells of half the length, as the peak pressure does."""
+    body, names = vc.Roller(5e-3, 10e-3), ("eccentricity_x", "contact_width")
+    request, load = vc.AutomaticGrid(0.01, names), vc.step(500.0, tilt_x=5e-4)
+    run = prepare_run(Problem(body, STIFF, load, request, [0.0]))
+    assert [*run.mesh.errors] == ["eccentricity_x"]
+    assert run.mesh.errors["eccentricity_x"] <= 0.01
+    assert "the contact width depends on the mesh here" in run.mesh.warnings["contact_width"]
+    values = []
+    for factor in (1, 2):
+        cells = tuple(factor * count for count in run.grid.shape)
+        grid = vc.Grid(cells, run.grid.size)
+        values.append(vc.simulate(body, STIFF, load, grid, [0.0], fields="none", errors=False))
+    coarse, fine = values
+    assert float(coarse.eccentricity_x[0] / fine.eccentricity_x[0]) == pytest.approx(1, abs=0.01)
+    assert float(fine.contact_width[0] / coarse.contact_width[0]) > 1.01
+
+
 def test_cost_follows_the_tolerance_and_the_quantities():
     indenter, load = vc.Paraboloid(0.1, 0.01), vc.step(1.0)
     wishes = [(0.03, QUANTITIES), (0.01, QUANTITIES), (0.003, QUANTITIES)]

@@ -140,9 +140,11 @@ class Cells(Section):
         description="in place of shape and size: relative error that the cells of an automatic "
         f"grid may cause; {DEFAULT_TOLERANCE:g} if not",
     )
-    quantities: list[Literal["peak_pressure", "contact_area", "approach"]] | None = Field(
+    quantities: list[Literal[*grid.MESH_QUANTITIES]] | None = Field(  # type: ignore[valid-type]
         default=None,
-        description="with an automatic grid: quantities with this error; all when left out",
+        description="with an automatic grid: quantities with this error; peak_pressure, "
+        "contact_area and approach when left out",
+        examples=[["contact_width", "approach"]],
     )
     largest_cell: Annotated[tuple[Length, Length], Field(strict=False)] | None = Field(
         default=None,

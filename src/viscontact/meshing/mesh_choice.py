@@ -41,13 +41,14 @@ from viscontact.meshing.edge_ring import resolve_ring
 from viscontact.meshing.height_map_error import facet_error
 from viscontact.meshing.mesh_warnings import (
     EARLY_WARNING,
+    EXTENT_WARNING,
     PEAK_WARNING,
     facet_warning,
     ring_warning,
     spacing_warning,
 )
-from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
-from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact, MeshTrial
+from viscontact.meshing.refinement import USUAL_ORDER, Resolution, refine_mesh
+from viscontact.meshing.trial_mesh import PEAK, RIM_SCATTER, ElasticContact, MeshTrial
 from viscontact.meshing.whole_map import whole_map_warning
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
@@ -153,8 +154,11 @@ class _MeshChoice:
         }
         left_out = set(self.quantities) - set(found.quantities)
         warnings = self.warnings
-        if left_out:
+        if PEAK in left_out:
             warnings = warnings | {"peak": PEAK_WARNING + self.remedy}
+        for name in sorted(left_out - {PEAK}):
+            said = EXTENT_WARNING.format(extent=name.replace("_", " "))
+            warnings = warnings | {name: said + self.remedy}
         return replace(
             self, cells=cells, quantities=found.quantities, errors=errors, warnings=warnings
         )

@@ -10,6 +10,10 @@ PEAK_WARNING = (
     "the peak pressure depends on the mesh here: at a sharp edge or tip it grows on as cells get "
     "smaller, and the grid was not chosen for it; "
 )
+EXTENT_WARNING = (
+    "the {extent} depends on the mesh here: towards a sharp end the contact becomes wider as cells "
+    "get smaller, and the grid was not chosen for it; "
+)
 EARLY_WARNING = {
     "early": (
         "the contact is much smaller when the load is first largest than it becomes: the grid does "

@@ -8,8 +8,9 @@
 3. Else multiply the cells along each axis by (2 change/tolerance)^(1/USUAL_ORDER), between
    MIN_AT_ONCE and MAX_AT_ONCE, and repeat.
 4. Leave out the peak pressure if it grows, and its changes do not fall with the cells: it is
-   singular. Rounded edges and logarithmic ends seem so on large cells, so that the refinement
-   continues for a while, unless the peak grows like the inverse square root at a sharp end.
+   singular. So is the width of the contact at such an end. Rounded edges and logarithmic ends seem
+   so on large cells, so that the refinement continues for a while, unless the peak grows like the
+   inverse square root at a sharp end.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from viscontact.grid import GRID_QUANTITIES
-from viscontact.meshing.trial_mesh import ElasticContact, MeshTrial, try_mesh
+from viscontact.grid import MESH_QUANTITIES
+from viscontact.meshing.trial_mesh import PEAK, ElasticContact, MeshTrial, try_mesh
 
 _LOG = logging.getLogger("viscontact")
 
@@ -54,9 +55,6 @@ CELLS_AT_END = 100_000
 #: it is 1/2 at a sharp end (Johnson 1985, Contact Mechanics, eq. 2.64), approached from below.
 SINGULAR_EXPONENT = 1 / 3
 
-#: The quantity that may be singular.
-PEAK = "peak_pressure"
-
 
 @dataclass(frozen=True, eq=False)
 class Resolution:
@@ -78,7 +76,7 @@ def refine_mesh(
     finest: ArrayLike = math.inf,
     most_cells: float = math.inf,
 ) -> Resolution:
-    """Refine the mesh of an elastic contact until some `GRID_QUANTITIES` meet a relative tolerance.
+    """Refine the mesh of an elastic contact until some `MESH_QUANTITIES` meet a relative tolerance.
 
     `fewest` cells along x and y to begin with, no more than `finest`, and `most_cells` in all.
 
@@ -87,7 +85,7 @@ def refine_mesh(
     >>> from viscontact.indenters import Sphere
     >>> from viscontact.loads import step
     >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
-    >>> found = refine_mesh(ball, GRID_QUANTITIES, 0.01, fewest=(24, 24))
+    >>> found = refine_mesh(ball, ["contact_area"], 0.01, fewest=(24, 24))
     >>> found.is_enough, found.trial.shape
     (True, (48, 48))
     """
@@ -100,10 +98,11 @@ def refine_mesh(
         _LOG.debug("trial grid: %d x %d cells", *trial.shape)
         trials.append(trial)
         is_last = _is_last(trial, _refined(trial, names, tolerance, finest), most_cells)
-        is_exact = PEAK not in names or (_factors(trial, (PEAK,), tolerance) == 1).all()
-        # Step 4: a singular peak is not refined for.
-        if not is_exact and _has_no_limit(trials, patient=not is_last):
-            names = tuple(name for name in names if name != PEAK)
+        doubtful = tuple(name for name in trial.unlimited if name in names)
+        is_exact = (_factors(trial, doubtful, tolerance) == 1).all()
+        # Step 4: a singular peak is not refined for, nor the width of the contact below it.
+        if doubtful and not is_exact and _has_no_limit(trials, patient=not is_last):
+            names = tuple(name for name in names if name not in doubtful)
         # Step 2: the first mesh that is fine enough for the remaining quantities, not by chance.
         following = _refined(trial, names, tolerance, finest)
         is_last = _is_last(trial, following, most_cells)
@@ -126,8 +125,10 @@ def refine_mesh(
 
 def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: float) -> bool:
     """True if two meshes agree in these quantities to the tolerance."""
-    which = [GRID_QUANTITIES.index(name) for name in names]
-    return np.allclose(trial.values[which], finer.values[which], rtol=tolerance, atol=0.0)
+    which = [MESH_QUANTITIES.index(name) for name in names]
+    # Relative to the value, or to what an eccentricity or a tilt near zero counts against.
+    allowed = tolerance * np.maximum(np.abs(finer.values), finer.least_scales)
+    return bool((np.abs(trial.values - finer.values) <= allowed)[which].all())
 
 
 def _needs_confirmation(trial: MeshTrial, names: Sequence[str]) -> bool:
@@ -153,7 +154,7 @@ def _refined(
 
 def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArray[np.float64]:
     """Factors by which the cells along x and y must increase; 1 where there are enough."""
-    changes = trial.changes[:, [GRID_QUANTITIES.index(name) for name in names]] / tolerance
+    changes = trial.changes[:, [MESH_QUANTITIES.index(name) for name in names]] / tolerance
     # Each axis gets half of the allowed error, even where the other causes less.
     changes = np.where(changes.sum(axis=0) > 1, 2 * changes, 0.0)
     factors = changes.max(axis=1, initial=0.0) ** (1 / USUAL_ORDER)
@@ -170,7 +171,7 @@ def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
     if len(resolved) < 2:
         return False
     before, now = resolved[-2:]
-    peak = GRID_QUANTITIES.index(PEAK)
+    peak = MESH_QUANTITIES.index(PEAK)
     along = int(now.changes[:, peak].argmax())
     fall = before.changes[along, peak] / now.changes[along, peak]
     refined = now.shape[along] / before.shape[along]
@@ -186,7 +187,7 @@ def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
 
 def _growth(before: MeshTrial, now: MeshTrial) -> float:
     """Exponent with which the peak pressure grows with the cells along the axis refined more."""
-    peak = GRID_QUANTITIES.index(PEAK)
+    peak = MESH_QUANTITIES.index(PEAK)
     refined = max(fine / coarse for fine, coarse in zip(now.shape, before.shape, strict=True))
     return math.log(now.values[peak] / before.values[peak]) / math.log(refined)
 

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import END_DEPTH, end_cells, trace_outline
 from viscontact.contact.domain import mirrored_axes
-from viscontact.contact.rim import mean_chords, trace_rim
-from viscontact.grid import GRID_QUANTITIES, Grid
+from viscontact.contact.line_load import line_load, peak_line_load
+from viscontact.contact.rim import Rim, mean_chords, trace_rim
+from viscontact.grid import MESH_QUANTITIES, Grid
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 from viscontact.meshing.body_fit import fitted_extents
-from viscontact.meshing.elastic_estimate import elastic_contact
+from viscontact.meshing.elastic_estimate import ContactEstimate, elastic_contact
 
 #: Error of the rim's position on a row of cells, in cells, the largest on Hertz's ellipses. The
 #: error of the area changes sign with the position of the rim among the cells, so that two meshes
@@ -31,6 +32,18 @@ UNRESOLVED_END = 0.1
 #: Error of the area in the cells at the body's end, in cells: the contact becomes wider in them, or
 #: ends before the body does; measured on rollers with sharp and logarithmic ends.
 END_SCATTER = 0.3
+
+#: Error of the extents in cells: at a smooth rim; where the contact becomes wider at a straight end
+#: of the body along the other axis; and where its largest pressure lies there, at a sharp end.
+RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS = 0.1, 1.5, 3.5
+
+#: An eccentricity smaller than this part of the contact's extent, and a tilt smaller than this part
+#: of the displacement over that extent, count as so large: they may be zero.
+LEAST_LEVER = 0.01
+
+#: The quantity that may be singular; area and mean pressure; and the extents along x and y.
+PEAK, AREAS = "peak_pressure", ("contact_area", "mean_pressure")
+EXTENTS = ("contact_length", "contact_width")
 
 TINY = float(np.finfo(np.float64).tiny)
 
@@ -57,9 +70,10 @@ class MeshTrial:
     """Values on a mesh, and their changes when cells are twice as long."""
 
     grid: Grid
-    values: NDArray[np.float64]  # `GRID_QUANTITIES` [Pa, m², m]
-    #: Relative changes for cells twice as long along x, and along y [-]; shape (2, 3). That of a
-    #: peak pressure at the body's end is no smaller than `end_excess` and UNRESOLVED_END.
+    values: NDArray[np.float64]  # `MESH_QUANTITIES` in SI units
+    least_scales: NDArray[np.float64]  # to which a smaller value's change is relative; may be 0
+    #: Relative changes for cells twice as long along x, and along y [-]; shape (2, quantities).
+    #: That of a peak pressure at the body's end is no smaller than `end_excess` and UNRESOLVED_END.
     changes: NDArray[np.float64]
     #: Relative excess of the peak over the largest pressure farther from the body's ends along x,
     #: and along y, than END_DEPTH cells [-].
@@ -76,6 +90,15 @@ class MeshTrial:
         return self.grid.shape
 
     @property
+    def unlimited(self) -> tuple[str, ...]:
+        """Quantities that have no limit if the peak pressure has none.
+
+        Towards a sharp end of the body the contact becomes wider as the cells get smaller.
+        """
+        widens = self.at_end & (self.end_excess > 0)
+        return (PEAK, *(name for axis, name in enumerate(EXTENTS) if widens[1 - axis]))
+
+    @property
     def cells(self) -> int:
         """Number of cells."""
         return self.shape[0] * self.shape[1]
@@ -83,7 +106,7 @@ class MeshTrial:
     @cached_property
     def errors(self) -> dict[str, float]:
         """Estimated relative errors: upper bounds for convergence of first order or better [-]."""
-        return dict(zip(GRID_QUANTITIES, self.changes.sum(axis=0).tolist(), strict=True))
+        return dict(zip(MESH_QUANTITIES, self.changes.sum(axis=0).tolist(), strict=True))
 
 
 def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float) -> MeshTrial:
@@ -108,19 +131,16 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
     fine = _found(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
-    area = GRID_QUANTITIES.index("contact_area")
     at_end: NDArray[np.bool_] = np.any(
         end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2)
     )
-    scatter = np.where(at_end & np.isfinite(pressing.ends), END_SCATTER, RIM_SCATTER)
-    changes[:, area] = np.maximum(changes[:, area], scatter / fine.consecutive_cells)
-    peak = GRID_QUANTITIES.index("peak_pressure")
     excess = _end_excess(fine)
-    unresolved = np.where(excess > 0, np.maximum(excess, UNRESOLVED_END), 0.0)
-    changes[:, peak] = np.maximum(changes[:, peak], unresolved)
+    straight = at_end & np.isfinite(pressing.ends)
+    changes = np.maximum(changes, _least_changes(fine, straight, excess))
     return MeshTrial(
         grid,
         fine.values,
+        fine.least_scales,
         changes,
         excess,
         at_end,
@@ -132,14 +152,34 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """Solution on one mesh: values of `GRID_QUANTITIES`, and the scales of their errors."""
+    """Solution on one mesh: values of `MESH_QUANTITIES`, and the scales of their errors."""
 
     open_gap: NDArray[np.float64]
     pressure: NDArray[np.float64]
     values: NDArray[np.float64]
     scales: NDArray[np.float64]
+    least_scales: NDArray[np.float64]
+    extents: NDArray[np.float64]  # of the contact along x and y, in cells
     consecutive_cells: NDArray[np.float64]
     cells_across: int
+
+
+def _least_changes(
+    found: _Found, at_straight_end: NDArray[np.bool_], end_excess: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Smallest changes that count, however well two meshes agree by chance; (2, quantities)."""
+    least = np.zeros((2, len(MESH_QUANTITIES)))
+    scatter = np.where(at_straight_end, END_SCATTER, RIM_SCATTER)
+    for name in AREAS:
+        least[:, MESH_QUANTITIES.index(name)] = scatter / found.consecutive_cells
+    for axis, name in enumerate(EXTENTS):
+        cells = RIM_CELLS
+        if at_straight_end[1 - axis]:
+            cells = SHARP_RIM_CELLS if end_excess[1 - axis] > 0 else END_RIM_CELLS
+        least[axis, MESH_QUANTITIES.index(name)] = cells / found.extents[axis]
+    unresolved = np.where(end_excess > 0, np.maximum(end_excess, UNRESOLVED_END), 0.0)
+    least[:, MESH_QUANTITIES.index(PEAK)] = unresolved
+    return least
 
 
 def _end_excess(found: _Found) -> NDArray[np.float64]:
@@ -177,8 +217,44 @@ def _found(
     )
     contact = found.pressure > 0
     rim = trace_rim(grid, contact, found.gap, trace_outline(indenter, grid))
-    values = np.array([found.peak_pressure, rim.area, found.approach])
+    extents, tiny = np.array([rim.length, rim.width]), np.full(len(MESH_QUANTITIES), TINY)
+    values = _values(found, rim)
     # A body that mostly tilts has a small approach: its error is relative to the displacement.
-    scales = np.maximum(values, [TINY, TINY, found.largest_displacement])
-    chords = mean_chords(contact)
-    return _Found(open_gap, found.pressure, values, scales, chords, rim.cells_across)
+    least, displacement = np.zeros_like(values), found.largest_displacement
+    for names, scales in (
+        (("eccentricity_x", "eccentricity_y"), extents),
+        (("tilt_x", "tilt_y"), displacement / np.maximum(extents, TINY)),
+    ):
+        least[[MESH_QUANTITIES.index(name) for name in names]] = LEAST_LEVER * scales
+    tiny[MESH_QUANTITIES.index("approach")] = displacement
+    return _Found(
+        open_gap,
+        found.pressure,
+        values,
+        np.maximum(np.abs(values), np.maximum(least, tiny)),
+        least,
+        np.maximum(extents / grid.cell_size, 1.0),
+        mean_chords(contact),
+        rim.cells_across,
+    )
+
+
+def _values(found: ContactEstimate, rim: Rim) -> NDArray[np.float64]:
+    """`MESH_QUANTITIES` of a contact."""
+    grid, force = found.grid, found.force
+    weight = found.pressure * grid.cell_area / max(force, TINY)
+    values = {
+        "peak_pressure": found.peak_pressure,
+        "contact_area": rim.area,
+        "approach": found.approach,
+        "mean_pressure": force / max(rim.area, TINY),
+        "contact_length": rim.length,
+        "contact_width": rim.width,
+        "peak_line_load": peak_line_load(line_load(found.pressure, grid), grid, rim.length),
+        "force": force,
+        "eccentricity_x": float(weight.sum(axis=1) @ grid.x),
+        "eccentricity_y": float(weight.sum(axis=0) @ grid.y),
+        "tilt_x": float(found.motion[1]),
+        "tilt_y": float(found.motion[2]),
+    }
+    return np.array([values[name] for name in MESH_QUANTITIES])

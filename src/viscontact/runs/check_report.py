@@ -22,6 +22,9 @@ from viscontact.units.formatting import format_number, format_quantity
 #: Loads from this fraction of the largest one on count as the largest.
 LARGEST_LOAD_FRACTION = 0.999
 
+#: Errors of the grid below this are not told apart.
+LEAST_ERROR = 1e-4
+
 #: Ends of the body up to this multiple of the grid are drawn as well.
 FARTHEST_END = 1.3
 
@@ -116,6 +119,8 @@ def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
 
 def _percent(error: float) -> str:
     """A relative error; an estimate as large as the value itself is none."""
+    if error < LEAST_ERROR:
+        return f"<{100 * LEAST_ERROR:g} %"
     return f"{format_number(100 * error, 1)} %" if error < 1 else "unknown"
 
 
