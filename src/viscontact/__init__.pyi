@@ -7,6 +7,9 @@ from . import reference as reference
 from . import report as report
 from . import surfaces as surfaces
 from . import verify as verify
+from .calibration.fit_case import fit_case as fit_case
+from .calibration.record import ContactRecord as ContactRecord
+from .calibration.result import CaseFit as CaseFit
 from .case import shipped_material as shipped_material
 from .design.design import design as design
 from .design.result import DesignResult as DesignResult

@@ -30,7 +30,7 @@ FLOORS = (
     ("simulation", "plot", "notebook"),
     ("accuracy", "figures", "steady"),
     ("report", "runs", "verify"),
-    ("web", "design", "sensitivity"),
+    ("web", "design", "sensitivity", "calibration"),
     ("cli",),
     ("__main__",),
 )

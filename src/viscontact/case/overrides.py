@@ -43,6 +43,19 @@ def override(document: Document, settings: Iterable[str]) -> Document:
     )
 
 
+def key_path(name: str) -> KeyPath:
+    """Steps of a dotted key, with entries of lists numbered from 0; empty if it is none.
+
+    >>> key_path("material.amplitudes[1]"), key_path("a..b")
+    (('material', 'amplitudes', 0), ())
+    """
+    steps = _STEP.findall(name.strip())
+    rebuilt = "".join(f"[{index}]" if index else f".{key}" for key, index in steps)
+    if rebuilt.removeprefix(".") != name.strip():
+        return ()
+    return tuple(int(index) - 1 if index else key for key, index in steps)
+
+
 def _canonical(
     before: Document, found: Resolution, values: Iterable[KeyPath]
 ) -> dict[KeyPath, Any]:
@@ -59,11 +72,9 @@ def _canonical(
 
 def _setting(text: str) -> tuple[KeyPath, Any]:
     name, equals, value = text.partition("=")
-    steps = _STEP.findall(name.strip())
-    rebuilt = "".join(f"[{index}]" if index else f".{key}" for key, index in steps)
-    if not equals or not steps or rebuilt.removeprefix(".") != name.strip():
+    path = key_path(name)
+    if not (equals and path):
         raise CaseError(f"--set {text}: write KEY=VALUE, e.g. --set load.force=20kN")
-    path = tuple(int(index) - 1 if index else key for key, index in steps)
     try:
         return path, yaml_source.parse_value(value)
     except SourceError as problem:

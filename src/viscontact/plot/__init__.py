@@ -29,6 +29,7 @@ from viscontact.plot.histories.von_mises import compare_von_mises, von_mises_his
 from viscontact.plot.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.plot.materials.creep import compare_creep, creep, creep_curve
 from viscontact.plot.materials.fitted import fitted_indentation, fitted_series
+from viscontact.plot.materials.fitted_records import fitted_records
 from viscontact.plot.materials.master_curve import master_curve
 from viscontact.plot.materials.material_curves import material_curves
 from viscontact.plot.motion.friction import friction
@@ -116,6 +117,7 @@ __all__ = [
     "draw_power_spectrum",
     "exact",
     "fitted_indentation",
+    "fitted_records",
     "fitted_series",
     "friction",
     "history",

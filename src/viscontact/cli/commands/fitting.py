@@ -8,13 +8,15 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.commands.drawing import Width
+from viscontact.cli.commands.running import Settings
 
-Table = Annotated[
-    Path,
+Tables = Annotated[
+    list[Path],
     typer.Argument(
-        metavar="FILE.csv",
+        metavar="FILE.csv...",
         help="Measured values, CSV or spreadsheet (as tests.xlsx#Sheet2); the headings name the "
-        "quantities and units. Or a force curve of an instrument (.jpk-force, .h5).",
+        "quantities and units. Or a force curve of an instrument (.jpk-force, .h5). Several files "
+        "with --case.",
     ),
 ]
 Test = Annotated[
@@ -118,10 +120,86 @@ Section = Annotated[
         "--yaml", metavar="OUT.yaml", help="Also write the material section to this file."
     ),
 ]
+_BY_RUNS = "Any body, by runs of a case"
+CasePath = Annotated[
+    Path | None,
+    typer.Option(
+        "--case",
+        metavar="CASE.yaml",
+        help="Case of the experiment; columns time, and force or approach or both.",
+        rich_help_panel=_BY_RUNS,
+    ),
+]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--change",
+        metavar="KEY=LOW:HIGH[:log]",
+        help="Range of an unknown, e.g. material.shear_modulus='1 MPa:1 GPa:log'; repeated for "
+        "each.",
+        rich_help_panel=_BY_RUNS,
+    ),
+]
+Drive = Annotated[
+    str | None,
+    typer.Option(
+        "--drive",
+        metavar="force|approach|case",
+        help="What the runs prescribe: a column, or the load of the case. The other quantity is "
+        "fitted.",
+        rich_help_panel=_BY_RUNS,
+    ),
+]
+ContactPoint = Annotated[
+    str | None,
+    typer.Option(
+        "--contact-point",
+        metavar="LOW:HIGH",
+        help="Range of the reading of the approach at first touch, e.g. '-5 um:5 um'.",
+        rich_help_panel=_BY_RUNS,
+    ),
+]
+MachineStiffness = Annotated[
+    str | None,
+    typer.Option(
+        "--machine-stiffness",
+        metavar="LOW:HIGH[:log]",
+        help="Range of the stiffness of the machine, e.g. '1 kN/mm:100 kN/mm:log'.",
+        rich_help_panel=_BY_RUNS,
+    ),
+]
+Rows = Annotated[
+    int,
+    typer.Option(
+        "--rows",
+        min=5,
+        metavar="N",
+        help="Most rows of a record, and steps of its run; longer ones are averaged.",
+        rich_help_panel=_BY_RUNS,
+    ),
+]
+Runs = Annotated[
+    int | None,
+    typer.Option("--runs", min=1, metavar="N", help="Most runs.", rich_help_panel=_BY_RUNS),
+]
+Jobs = Annotated[
+    int,
+    typer.Option(
+        "-j", "--jobs", min=1, metavar="N", help="Runs at a time.", rich_help_panel=_BY_RUNS
+    ),
+]
+Resume = Annotated[
+    bool,
+    typer.Option("--resume", help="Continue an interrupted fit.", rich_help_panel=_BY_RUNS),
+]
+Quiet = Annotated[
+    bool,
+    typer.Option("--quiet", "-q", help="Print the result only.", rich_help_panel=_BY_RUNS),
+]
 
 
 def fit(
-    file: Table,
+    files: Tables,
     data: Test = None,
     poisson_ratio: PoissonRatio = None,
     bulk_modulus: BulkModulus = None,
@@ -138,13 +216,26 @@ def fit(
     output: Figure = None,
     width: Width = None,
     section: Section = None,
+    case: CasePath = None,
+    change: Changes = None,
+    drive: Drive = None,
+    contact_point: ContactPoint = None,
+    machine_stiffness: MachineStiffness = None,
+    settings: Settings = None,
+    rows: Rows = 60,
+    runs: Runs = None,
+    jobs: Jobs = 1,
+    resume: Resume = False,
+    quiet: Quiet = False,
 ) -> None:
     """Fit a law to measured creep, relaxation, oscillation or indentation.
 
     Measurements at several temperatures are joined to a master curve, and the shift factors are
     printed. In a force curve, the contact point is found and the bending of the cantilever
-    subtracted first.
+    subtracted first. With --case, values of a case are fitted to records by runs of the case.
     """
+    from viscontact.cli.material.case_fit import report_case_fit
+    from viscontact.cli.material.case_fit_options import CaseFitRequest
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
     from viscontact.cli.results.figures import chosen_width
@@ -165,4 +256,13 @@ def fit(
         stress=stress,
     )
     page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
-    report_fit(file, arguments, output, section, width=page)
+    request = CaseFitRequest(
+        *(files, case, change or (), drive, contact_point, machine_stiffness),
+        *(settings or (), rows, runs, jobs),
+    )
+    if case is not None:
+        request.require_alone(arguments)
+        report_case_fit(request, output, section, width=page, resume=resume, quiet=quiet)
+        return
+    request.require_none()
+    report_fit(files[0], arguments, output, section, width=page)

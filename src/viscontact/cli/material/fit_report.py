@@ -54,12 +54,12 @@ def report_fit(
         text, draw = _from_table(file, arguments)
     print(f"\n{text}")
     if output is not None:
-        _draw(draw, output, width)
+        draw_fit(draw, output, width)
     if section is not None:
-        _write(section, text + "\n")
+        write_section(section, text + "\n")
 
 
-def _from_table(file: Path, arguments: FitArguments) -> tuple[str, _Drawing]:
+def _from_table(file: Path, arguments: FitArguments) -> tuple[str, Drawing]:
     table = _read(file, arguments.stress)
     say_chosen(file, table)
     try:
@@ -68,7 +68,7 @@ def _from_table(file: Path, arguments: FitArguments) -> tuple[str, _Drawing]:
         refuse(table.located(error))
 
 
-def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, _Drawing]:
+def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, Drawing]:
     try:
         indenter = arguments.indenter_of(file.name)
         return _from_force_curve(arguments.instrument_curve(file), indenter, arguments)
@@ -76,19 +76,20 @@ def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, _Drawing
         refuse(str(error))
 
 
-class _Drawing:
+class Drawing:
     """Figure that is drawn only when it is saved, as matplotlib may be missing."""
 
     def __init__(self, name: str, *shown: object, **options: object) -> None:
         self._name, self._shown, self._options = name, shown, options
 
     def save(self, path: Path, width: str | float | None) -> None:
+        """Draw the figure on a page of a width [m] and save it."""
         plot = plot_package()
         draw = getattr(plot, self._name)
         plot.save_figure(draw(*self._shown, width=width, **self._options), path)
 
 
-def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
+def _fitted(table: Table, arguments: FitArguments) -> tuple[str, Drawing]:
     """Return the material section and the figure for a table."""
     if "force" in table and "approach" in table:
         return _from_indentation(table, arguments)
@@ -119,12 +120,12 @@ def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
         fit = fit_measured(points, measured, weights=arguments.weights, **options)
     print(table.located(repr(fit)))
     fit = _with_volume(_with_lines(fit, table), arguments)
-    return material_section(fit), _Drawing("fitted_series", fit)
+    return material_section(fit), Drawing("fitted_series", fit)
 
 
 def _from_sets(
     table: Table, sets: tuple[Table, ...], arguments: FitArguments
-) -> tuple[str, _Drawing]:
+) -> tuple[str, Drawing]:
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
     options = arguments.options(table)
     isotherms = [_isotherm(one) for one in sets]
@@ -141,7 +142,7 @@ def _from_sets(
         fit = fit_master_curve(curve, weights=arguments.weights, **options)
     fit = _with_volume(fit, arguments)
     print(f"\nAt {_celsius(reference)}:\n{fit!r}")
-    drawing = _Drawing("master_curve", curve, fit=fit, rules=rules)
+    drawing = Drawing("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
         return material_section(fit), drawing
     wanted = read_kelvin("--temperature", arguments.temperature)
@@ -151,7 +152,7 @@ def _from_sets(
     return material_section(slowed), drawing
 
 
-def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
+def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, Drawing]:
     indenter = arguments.indenter_of(table.source.name)
     if arguments.spring_constant is not None or arguments.sensitivity is not None:
         raise ValueError(
@@ -164,14 +165,14 @@ def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Draw
 
 def _from_force_curve(
     curve: ForceCurve, indenter: Indenter, arguments: FitArguments
-) -> tuple[str, _Drawing]:
+) -> tuple[str, Drawing]:
     """Find the contact point, print it, and fit a law to the indentation."""
     contact = find_contact(curve, indenter)
     print(repr(contact))
     return _from_record(contact.record(), arguments)
 
 
-def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[str, _Drawing]:
+def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[str, Drawing]:
     poisson_ratio, bulk_modulus = arguments.volume()
     with _warnings_said():
         fit = fit_indentation(
@@ -182,7 +183,7 @@ def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[st
             bulk_modulus=bulk_modulus,
         )
     print(repr(fit))
-    return material_section(fit), _Drawing("fitted_indentation", fit)
+    return material_section(fit), Drawing("fitted_indentation", fit)
 
 
 @contextmanager
@@ -265,7 +266,8 @@ def _celsius(kelvin: float) -> str:
     return f"{in_celsius(kelvin):.4g} °C"
 
 
-def _write(path: Path, text: str) -> None:
+def write_section(path: Path, text: str) -> None:
+    """Write a section of a case, and print the name of its file."""
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
@@ -273,7 +275,8 @@ def _write(path: Path, text: str) -> None:
     print(path)
 
 
-def _draw(drawing: _Drawing, output: Path, width: str | float | None) -> None:
+def draw_fit(drawing: Drawing, output: Path, width: str | float | None) -> None:
+    """Save a figure, and print the name of its file."""
     try:
         drawing.save(output, width)
     except (ValueError, OSError) as error:

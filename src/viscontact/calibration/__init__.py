@@ -1,0 +1,1 @@
+"""Calibration of a case: values of its keys for which its runs reproduce measured records."""

@@ -1,0 +1,157 @@
+"""Contact record: force and approach of a body over time, as measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.identification.record import finite_column
+from viscontact.loads.history import Control
+from viscontact.tables import read_table
+from viscontact.units.formatting import format_quantity
+
+Array = NDArray[np.float64]
+
+_LEAST_ROWS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class ContactRecord:
+    """Force, approach or both over time, measured on any pair of bodies.
+
+    Parameters
+    ----------
+    times : array_like, shape (n,)
+        Instants, never falling; one that comes twice is a jump [s].
+    force : array_like, shape (n,), optional
+        Force, positive in compression; scatter may make it negative near 0 [N].
+    approach : array_like, shape (n,), optional
+        Reading of the approach, positive when the bodies come closer [m].
+    name : str, optional
+        Name of the record in messages.
+
+    Raises
+    ------
+    ValueError
+        If there is neither force nor approach, columns differ in length, a value is not finite, a
+        time falls, or there are fewer than five rows.
+
+    Examples
+    --------
+    >>> times = np.linspace(0.0, 1.0, 6)
+    >>> record = ContactRecord(times, force=2.0 * times, approach=1e-6 * times)
+    >>> record.columns, float(record.force[-1])
+    (('force', 'approach'), 2.0)
+    """
+
+    times: Array
+    force: Array | None = None
+    approach: Array | None = None
+    name: str = "record"
+
+    def __post_init__(self) -> None:
+        for name, unit in (("times", "s"), ("force", "N"), ("approach", "m")):
+            values: Any = getattr(self, name)
+            if values is not None or name == "times":
+                object.__setattr__(self, name, finite_column(self.name, name, values, unit))
+        if not self.columns:
+            raise ValueError(f"{self.name}: needs a column force or approach beside the time")
+        sizes = {self.times.size, *(self.column(name).size for name in self.columns)}
+        if len(sizes) > 1 or min(sizes) < _LEAST_ROWS:
+            raise ValueError(
+                f"{self.name}: needs {_LEAST_ROWS} rows or more with a value in each column, got "
+                f"{min(sizes)}"
+            )
+        self._check_order()
+
+    def _check_order(self) -> None:
+        steps = np.diff(self.times)
+        back = np.flatnonzero(steps < 0)
+        thrice = np.flatnonzero((steps[:-1] == 0) & (steps[1:] == 0))
+        if back.size:
+            row = int(back[0]) + 1
+            raise ValueError(
+                f"{self.name}: times, row {row}: must not be before the row above, got "
+                f"{format_quantity(self.times[row], 's', 6)}"
+            )
+        if thrice.size:
+            raise ValueError(
+                f"{self.name}: times, row {int(thrice[0]) + 2}: comes three times; a jump has two "
+                "rows, before and after it"
+            )
+
+    @property
+    def columns(self) -> tuple[Control, ...]:
+        """Quantities that were measured."""
+        names: tuple[Control, ...] = ("force", "approach")
+        return tuple(name for name in names if getattr(self, name) is not None)
+
+    def column(self, name: str) -> Array:
+        """Return force [N] or approach [m]."""
+        values = getattr(self, name)
+        assert values is not None  # named by `columns`
+        return np.asarray(values)
+
+    def thinned(self, rows: int) -> ContactRecord:
+        """Return the record as means over equal numbers of rows; first rows and jumps are kept."""
+        count = self.times.size
+        if count <= rows:
+            return self
+        jumps = np.flatnonzero(np.diff(self.times) == 0)
+        cuts = np.linspace(1, count, rows).astype(int)
+        cuts = np.unique(np.concatenate([[0, 1], cuts, jumps, jumps + 1, jumps + 2]))
+        starts = cuts[cuts < count]
+        sizes = np.diff(np.append(starts, count))
+        means = {n: np.add.reduceat(self.column(n), starts) / sizes for n in self.columns}
+        times = np.add.reduceat(self.times, starts) / sizes
+        return ContactRecord(times, means.get("force"), means.get("approach"), self.name)
+
+
+def read_record(path: str | PathLike[str]) -> ContactRecord:
+    """Read a record from a table with columns time, and force or approach.
+
+    ValueError if the table cannot be read or a column is missing, with the line of the file.
+    """
+    table = read_table(path)
+    columns = {name: table[name] for name in ("force", "approach") if name in table}
+    if not columns:
+        raise ValueError(
+            f"{table.source.name}: needs a column force or approach beside the time; "
+            f"{table.contents}"
+        )
+    try:
+        return ContactRecord(table["time"], **columns, name=Path(table.source).name)
+    except ValueError as error:
+        raise ValueError(table.located(error)) from None
+
+
+#: What drives a run: a column of the record, or the load of the case.
+Drive = Literal["force", "approach", "case"]
+
+
+def chosen_drive(record: ContactRecord, control: Control, wanted: str | None) -> Drive:
+    """Drive of the run of a record, whose case controls force or approach.
+
+    ValueError if there is no column to prescribe, or none left to compare with.
+    """
+    drive = wanted or (control if control in record.columns else "case")
+    compared = compared_column(drive, control)
+    for name, use in ((drive, "prescribed"), (compared, "compared")):
+        if name != "case" and name not in record.columns:
+            raise ValueError(
+                f"{record.name}: has no column {name}, which is to be {use}; there is "
+                f"{' and '.join(('time', *record.columns))}"
+            )
+    found: dict[str, Drive] = {"force": "force", "approach": "approach", "case": "case"}
+    return found[drive]
+
+
+def compared_column(drive: str, control: Control) -> Control:
+    """Column that a run is compared with: not the prescribed one."""
+    prescribed = control if drive == "case" else drive
+    return "approach" if prescribed == "force" else "force"
