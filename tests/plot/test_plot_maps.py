@@ -200,3 +200,29 @@ def test_stress_section_runs_through_the_middle_of_equal_crests() -> None:
     cross = axes.lines[0]
     assert abs(float(np.asarray(cross.get_xdata())[0])) < 2 * HALF / CELLS
     assert axes.get_ylim()[0] == pytest.approx(HALF)  # half a period deep
+
+
+def test_stress_section_is_as_deep_as_the_stress_below_small_spots() -> None:
+    """Johnson (1985), eqs. 3.45 on the axis: for nu = 0.5 it is largest 0.55 a deep."""
+    results = _result(*CONTACTS["waves, 54 %"])
+    results["pressure"][0] = 0.0
+    radius, middle = 0.8, 3.5 * HALF / 5  # far apart, one at each corner
+    for x, y in [(-middle, -middle), (-middle, middle), (middle, -middle), (middle, middle)]:
+        inside = np.maximum(1 - ((X - x) ** 2 + (Y - y) ** 2) / radius**2, 0.0)
+        results["pressure"][0] += 1e6 * np.sqrt(inside)
+    axes = FIGURES["stress-section"](results).axes[0]
+    assert 1.5 * radius < axes.get_ylim()[0] < 4 * radius
+    left, right = axes.get_xlim()
+    (place,), (depth,) = (np.asarray(each) for each in axes.lines[0].get_data())
+    assert left < abs(place) - radius or right > abs(place) + radius
+    assert abs(place) == pytest.approx(middle, abs=2 * HALF / CELLS)
+    assert depth == pytest.approx(0.55 * radius, abs=0.1 * radius)
+
+
+def test_stress_sections_of_a_contact_that_has_grown_have_axes_of_their_own() -> None:
+    results = maxwell_sphere([0.0, 1.0], cells=CELLS)
+    pressure = results["pressure"].values[0]
+    results["pressure"][0] = np.where(pressure > 0.97 * pressure.max(), pressure, 0.0)
+    first, last = FIGURES["stress-section"](results).axes[:2]
+    assert first.get_ylim()[0] < last.get_ylim()[0] / 2
+    assert first.get_xlabel() == last.get_xlabel() != ""

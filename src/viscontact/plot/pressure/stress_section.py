@@ -24,6 +24,12 @@ _NAME = "stress-section"
 
 #: Depth of the section, and its extent to each side, in half widths of the contact.
 _DEEP, _ASIDE = 2.0, 2.0
+#: Below small spots, a section ends where this fraction of the largest stress is left, if that is
+#: in its upper half, and reaches this many depths to each side of the largest pressure. (Two half
+#: widths below a smooth contact, a third is left.)
+_FADED, _UPPER, _DEPTHS_ASIDE = 0.25, 0.5, 2.0
+#: Ratio of half widths from which on instants have axes of their own.
+_GROWN = 3.0
 #: Height of a section that is as deep as wide, because the grid ends near the contact [inch].
 _HIGHEST = 2.2
 # Relative difference of equal pressures, from the tolerance of runs.
@@ -49,6 +55,12 @@ class Section:
         # Cell centres that are zero up to rounding are zero.
         place = self.place if abs(self.place) > 1e-9 * self.half_width else 0.0
         return f"{'x' if self.axis == 'y' else 'y'} = {format_quantity(place, 'm', 3)}"
+
+    @property
+    def reach(self) -> float:
+        """Depth to which at least a quarter of the largest stress is found [m]."""
+        rows = self.stress.max(axis=1)
+        return float(self.depths[np.flatnonzero(rows >= _FADED * rows.max())[-1]])
 
     @property
     def largest(self) -> tuple[float, float, float]:
@@ -83,6 +95,9 @@ def stress_section(
     matplotlib.figure.Figure
         Planes across the contact, along its shorter extent, through the largest pressure, with
         their position; a cross where the stress is largest, and lines at the interfaces of layers.
+        They are two half widths of the contact deep, below small spots only as deep as the stress
+        is. Instants between which the contact grows by more than three times have axes of their
+        own.
 
     Raises
     ------
@@ -100,17 +115,27 @@ def stress_section(
     ['Depth [mm]', 'Von Mises stress [kPa]']
     """
     snapshots = take_snapshots(results, times, _NAME, count=2)
-    sections = stress_sections(stress_source(results), snapshots)
-    length = readable_unit("m", *(section.half_width * _ASIDE for section in sections))
+    source = stress_source(results)
+    touching = [snapshot for snapshot in snapshots if snapshot.touching]
+    widths = [_half_width(snapshot) for snapshot in touching]
+    alike = max(widths) <= _GROWN * min(widths)
+    each = [touching] if alike else [[snapshot] for snapshot in touching]
+    sections = [section for part in each for section in stress_sections(source, part)]
+    length = readable_unit("m", *(section.depths[-1] for section in sections))
     stress = readable_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
     wide = page_width(width, style.ONE_COLUMN)
     # Next to a colour bar, below a heading of two lines: one line would be too long.
-    shape = sections[0].depths[-1] / float(np.ptp(sections[0].across))
-    height = 0.45 + (min(shape * (wide - 1.3), _HIGHEST) + 0.42) * len(sections)
+    heights = [
+        min(section.depths[-1] / float(np.ptp(section.across)) * (wide - 1.3), _HIGHEST)
+        for section in sections
+    ]
+    height = 0.45 + sum(heights) + (0.42 if alike else 0.75) * len(sections)
     figure = style.new_figure(wide, height, fixed_aspect=True)
-    panels = figure.subplots(len(sections), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    headings = headings_of(snapshot for snapshot in snapshots if snapshot.touching)
+    panels = figure.subplots(
+        *(len(sections), 1), sharex=alike, sharey=alike, squeeze=False, height_ratios=heights
+    )[:, 0]
+    headings = headings_of(touching)
     contours = []
     for axes, section, heading in zip(panels, sections, headings, strict=True):
         drawn, lines = _draw(axes, section, levels, length, stress)
@@ -120,7 +145,8 @@ def stress_section(
         # Below an infinite pressure the largest stress is infinite too.
         note = peak_note([results], [section.time]) or note
         style.add_heading(axes, f"{heading}, {section.place_in_words}\n{note}")
-    panels[-1].set_xlabel(length.label(sections[-1].axis))
+    for axes, section in list(zip(panels, sections, strict=True))[-1 if alike else 0 :]:
+        axes.set_xlabel(length.label(section.axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
     bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
@@ -131,10 +157,28 @@ def stress_section(
 
 
 def stress_sections(source: StressSource, snapshots: list[Snapshot]) -> list[Section]:
-    """Sections at the given instants with contact."""
+    """Sections at the given instants with contact, all to one depth."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
-    depths = source.depths(_DEEP * half_width)
+    sections = _sections_down_to(source, touching, source.depths(_DEEP * half_width))
+    while True:
+        deepest = float(sections[0].depths[-1])  # a rigid base may limit it
+        reach = max(section.reach for section in sections)
+        if reach > _UPPER * deepest or deepest < 2 * min(source.grid.cell_size):
+            return sections
+        # Compute anew: the depths are too far apart for the spots.
+        depths = source.depths(max(reach, deepest / 9))
+        sections = _sections_down_to(source, touching, depths, _DEPTHS_ASIDE * float(depths[-1]))
+
+
+def _sections_down_to(
+    source: StressSource,
+    touching: list[Snapshot],
+    depths: NDArray[np.float64],
+    aside: float = np.inf,
+) -> list[Section]:
+    """Sections to some depths [m] and to each side of the largest pressure [m]."""
+    half_width = max(_half_width(snapshot) for snapshot in touching)
     # The instants of one plane together: their influence coefficients are the same.
     planes: dict[tuple[float | None, float | None], list[int]] = {}
     for index, snapshot in enumerate(touching):
@@ -145,7 +189,7 @@ def stress_sections(source: StressSource, snapshots: list[Snapshot]) -> list[Sec
         places = [int(np.flatnonzero(source.stored == each.time)[0]) for each in own]
         stresses = source.on_section(places, depths, x, y).von_mises
         for index, snapshot, stress in zip(members, own, stresses, strict=True):
-            found[index] = _section(source, snapshot, half_width, depths, stress)
+            found[index] = _section(source, snapshot, half_width, depths, stress, aside)
     return [found[index] for index in range(len(touching))]
 
 
@@ -180,6 +224,7 @@ def _section(
     half_width: float,
     depths: NDArray[np.float64],
     stress: NDArray[np.float64],
+    aside: float,
 ) -> Section:
     """The part near the contact of the stresses on the plane of an instant."""
     left, right, front, back = snapshot.extent()
@@ -187,7 +232,8 @@ def _section(
     is_long = length >= width
     across = snapshot.y if is_long else snapshot.x
     middle = (front + back) / 2 if is_long else (left + right) / 2
-    near = np.abs(across - middle) <= _ASIDE * half_width
+    peak = across[_place_of_peak(snapshot)[is_long]]
+    near = (np.abs(across - middle) <= _ASIDE * half_width) & (np.abs(across - peak) <= aside)
     return Section(
         snapshot.time,
         across[near],
