@@ -235,6 +235,28 @@ def test_time_axis_is_logarithmic_where_the_steps_are() -> None:
     assert FIGURES["history"](uniform).axes[0].get_xscale() == "linear"
 
 
+def test_logarithmic_axis_over_days_is_marked_in_seconds_minutes_hours_and_days() -> None:
+    week = maxwell_sphere([0.0, *np.geomspace(0.5, 604800.0, 12)], cells=8)
+    for name, start in (("history", ["0"]), ("creep", [])):
+        axes = FIGURES[name](week).axes[0]
+        labels = [text.get_text() for text in axes.get_xticklabels()]
+        assert labels == [*start, "1 s", "1 min", "1 h", "1 d"], name
+        wanted = np.array([1.0, 60.0, 3600.0, 86400.0]) / 86400  # the axis is in days
+        np.testing.assert_allclose(axes.get_xticks()[len(start) :], wanted)
+        assert axes.get_xlabel() in ("Time", "")  # only the lowest panels have a label
+    assert FIGURES["history"](week).axes[-1].get_xlabel() == "Time"
+
+
+def test_instants_are_drawn_while_the_contact_changes() -> None:
+    """Final after 100 s of 1e5 s: one of five instants is the last, the others come before."""
+    times = [0.0, *np.geomspace(0.1, 1e5, 25)]
+    run = maxwell_sphere([0.0, *np.linspace(1, 25, 25)], cells=16).assign_coords(time=times)
+    run["contact_area"] = ("time", 1e-6 * np.log10(1 + np.minimum(times, 100.0)) + 1e-6)
+    labels = [snapshot.axis.quantity(snapshot.time) for snapshot in take_snapshots(run, None, "")]
+    assert len(labels) == 5
+    assert labels == ["0 s", "3.162 s", "10 s", "31.62 s", "27.78 h"]
+
+
 def test_von_mises_over_time_is_logarithmic_where_the_history_is(
     long_contact: xr.Dataset,
 ) -> None:

@@ -14,6 +14,7 @@ import xarray as xr
 
 import viscontact as vc
 from synthetic_sweeps import hertz_sweep
+from viscontact import plot
 from viscontact.cli import main
 from viscontact.notebook.html import element
 from viscontact.report import pdf
@@ -75,6 +76,14 @@ def test_command_writes_the_chapters_and_figures_of_the_page(
     assert "Force over approach" in drawn  # the load is cyclic
     assert not [each for each in kinds(given, "text") if "Not drawn" in each["text"]]
     assert [row[0] for row in kinds(given, "table")[0]["rows"]] == ["Peak pressure"]
+
+
+def test_the_history_has_a_constant_force(ds: xr.Dataset) -> None:
+    held = ds.assign(force=0 * ds["force"] + 0.6)
+    labels = [axes.get_ylabel() for axes in pdf.history_with_load(held).axes]
+    assert labels[0] == "Force [mN]"
+    assert labels[1:] == [axes.get_ylabel() for axes in plot.history(held).axes]
+    assert len(pdf.history_with_load(ds).axes) == len(plot.history(ds).axes) == len(labels)
 
 
 @pytest.mark.slow

@@ -240,6 +240,16 @@ def test_a_logarithmic_axis_has_the_start_half_a_decade_before_the_first_step(pa
     assert (title_of(linear, "x"), title_of(log, "x")) == ("Time [s]", "Time [s], logarithmic")
 
 
+def test_a_logarithmic_axis_over_days_is_marked_in_seconds_minutes_hours_and_days() -> None:
+    ds = _run(fields=False)
+    panel = history(ds.assign_coords(time=ds["time"] * 2000.0), "approach")
+    axis = shown_at(panel.to_plotly_json(), "log")["layout"]["xaxis"]
+    ticks = dict(zip(axis["ticktext"], array_of(axis["tickvals"]), strict=True))
+    for text, hours in (("1 h", 1.0), ("1 d", 24.0)):
+        assert ticks[text] == pytest.approx(np.log10(hours / 24))  # the axis is in days
+    assert axis["title"]["text"] == "Time, logarithmic"
+
+
 def test_a_peak_that_depends_on_the_mesh_is_marked() -> None:
     ds = _run(fields=False)
     ds["peak_pressure_error"][:] = np.inf

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from viscontact.figures.look import Look, Part
 from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
-from viscontact.units.formatting import ReadableUnit, format_compact
+from viscontact.units.formatting import ReadableUnit, clock_ticks, format_compact
 
 Floats = NDArray[np.float64]
 
@@ -53,7 +53,12 @@ class RunScale:
         first, last = math.log10(self._first), math.log10(self.unit(self._positive[-1]))
         decades = range(math.ceil(first), math.floor(last + 1e-9) + 1)
         ticks = [(first - _BEFORE, "0")] if self.values[0] <= 0 else []
-        ticks += [(float(decade), format_compact(10.0**decade)) for decade in decades]
+        clock = clock_ticks(self.unit, self._first, float(self.unit(self._positive[-1])))
+        if clock:
+            label = self.axis.name.capitalize()
+            ticks += [(math.log10(place), text) for place, text in clock.items() if text]
+        else:
+            ticks += [(float(decade), format_compact(10.0**decade)) for decade in decades]
         return {
             "title": {"text": f"{label}, logarithmic"},
             "tickmode": "array",

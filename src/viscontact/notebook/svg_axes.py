@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units.formatting import format_quantity, readable_unit
+from viscontact.units.formatting import clock_ticks, format_quantity, readable_unit
 
 #: Steps between ticks, of a decade.
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -59,6 +59,9 @@ def logarithmic(
     >>> axis = logarithmic("time", "s", 0.01, 10.0, each_with_unit=True)
     >>> [text for _, text in axis.ticks]
     ['10 ms', '100 ms', '1 s', '10 s']
+    >>> axis = logarithmic("time", "s", 1.0, 604800.0, each_with_unit=True)
+    >>> [text for _, text in axis.ticks]
+    ['1 s', '1 min', '1 h', '1 d']
     """
     shown = readable_unit(unit, math.sqrt(low * high))
     ends = math.log10(low), math.log10(high)
@@ -73,8 +76,21 @@ def logarithmic(
         )
         for decade in decades[::every]
     )
+    clock = each_with_unit and unit == "s" and _clock(low, high)
+    if clock:
+        ticks = tuple(
+            ((math.log10(place) - ends[0]) / (ends[1] - ends[0]), text)
+            for place, text in clock.items()
+        )
     label = quantity if each_with_unit else _labelled(quantity, shown.symbol)
     return Scale(label, *ends, ticks, logarithmic=True)
+
+
+def _clock(low: float, high: float) -> dict[float, str]:
+    """Instants [s] of an axis over hours or days that have a label, and the labels."""
+    unit = readable_unit("s", high)
+    ticks = clock_ticks(unit, low / unit.factor, high / unit.factor, close=10.0**_MOST_DECADES)
+    return {place * unit.factor: text for place, text in ticks.items() if text}
 
 
 def _step(least: float) -> float:

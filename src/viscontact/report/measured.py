@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.notebook.html import element
+from viscontact.plot.histories.time_axis import label_log_time
 from viscontact.plot.layout import style
 from viscontact.report.drawings import BODIES, drawn
 from viscontact.results.filed_case import measured_tables
@@ -67,9 +68,11 @@ def measured_figure(record: Mapping[str, Any]) -> Figure:
         axes = figure.add_subplot(1, len(measured), place)
         own = readable_unit(each["units"], each["values"])
         axes.plot(unit(over["values"]), own(each["values"]), "o", markersize=4)
+        axes.set_xlabel(unit.label(over["quantity"].replace("_", " ").capitalize()))
         if spread:
             axes.set_xscale("log")
-        axes.set_xlabel(unit.label(over["quantity"].replace("_", " ").capitalize()))
+        if spread and over["units"] == "s":
+            axes.set_xlabel(label_log_time(axes, unit, *unit(over["values"])[[0, -1]].tolist()))
         name = each["quantity"].replace("_", " ").capitalize()
         axes.set_ylabel(own.label(f"{name} {_SYMBOLS[each['quantity']][record['data']]}"))
         style.dress(axes)

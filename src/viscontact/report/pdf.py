@@ -20,13 +20,13 @@ from viscontact import __version__
 from viscontact.notebook.html import element
 from viscontact.plot import (
     contact_outline,
-    history,
     hysteresis,
     line_load,
     motion_profile,
     pressure_map,
     pressure_profile,
 )
+from viscontact.plot.histories.history import history_with_load
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.drawings import drawn
 from viscontact.report.page import CHAPTERS
@@ -135,7 +135,7 @@ def _pressure(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def _history(ds: xr.Dataset) -> Iterator[Element]:
-    yield _figure(history, ds, "History")
+    yield _figure(history_with_load, ds, "History")
     if "loss_per_cycle" in ds and np.isfinite(ds["loss_per_cycle"].values).any():
         yield _figure(hysteresis, ds, "Force over approach")
 

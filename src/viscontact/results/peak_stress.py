@@ -12,6 +12,7 @@ from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.stresses import REACH, section_stresses
+from viscontact.results.worst_values import first_largest
 
 #: Number of depths of the search, and of those around the deepest of them.
 _DEPTHS, _CLOSE = 14, 7
@@ -54,7 +55,7 @@ def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
     0.62
     """
     peaks = np.nan_to_num(ds["peak_pressure"].values)
-    row = int(peaks.argmax())
+    row = first_largest(peaks)
     place = float(run_axis(ds).values(ds)[row])
     if peaks[row] == 0:
         return PeakStress(0.0, 0.0, place, 0.0)

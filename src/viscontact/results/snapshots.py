@@ -16,6 +16,10 @@ from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.units.formatting import time_labels
 
+#: Relative change of the contact area below which it is final, and share of the time at which it is
+#: final so early that most instants are chosen before.
+_FINAL, _EARLY = 0.01, 0.3
+
 #: Cells that a single one along a period is shown as.
 SHOWN_CELLS = 4
 
@@ -41,7 +45,8 @@ def take_snapshots(
     """Fields at the stored instants nearest to those requested [s].
 
     By default the first instant in contact, the last one, and some in between that are spread
-    evenly on a logarithmic scale. In steady motion speeds [m/s], from the slowest to the fastest.
+    evenly on a logarithmic scale until the contact area is final. In steady motion speeds [m/s],
+    from the slowest to the fastest.
     """
     stored, axis = field_times(results, figure), run_axis(results)
     if times is not None:
@@ -49,7 +54,9 @@ def take_snapshots(
     elif axis is SPEED:
         chosen = _ranked(stored, count)
     else:
-        chosen = _spread(stored, _in_contact(results, stored), count)
+        # From the scalars: all fields of a long run need not fit in memory.
+        scalars = results[["peak_pressure", "contact_area"]].sel(time=stored, method="nearest")
+        chosen = _spread(stored, scalars, count)
     snapshot_of = snapshot_reader(results)
     snapshots = [snapshot_of(index) for index in chosen]
     if not any(snapshot.touching for snapshot in snapshots):
@@ -123,12 +130,6 @@ def _time_dimension(results: xr.Dataset) -> str:
     return str(results["pressure"].dims[0])
 
 
-def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[np.bool_]:
-    # From the scalars: all fields of a long run need not fit in memory.
-    peak = results["peak_pressure"].sel(time=instants, method="nearest")
-    return np.asarray(peak.values > 0, dtype=np.bool_)
-
-
 def _body_end(results: xr.Dataset, grid: Grid) -> Outline | None:
     # Only a body that ends has an infinite gap next to it.
     # The last is known on all of the grid, should that have been enlarged meanwhile.
@@ -160,15 +161,18 @@ def _ranked(stored: NDArray[np.float64], count: int) -> Sequence[int]:
     return [int(order[rank]) for rank in ranks[::-1]]
 
 
-def _spread(
-    stored: NDArray[np.float64], in_contact: NDArray[np.bool_], count: int
-) -> Sequence[int]:
-    candidates = np.flatnonzero(in_contact)
+def _spread(stored: NDArray[np.float64], scalars: xr.Dataset, count: int) -> Sequence[int]:
+    candidates = np.flatnonzero(scalars["peak_pressure"].values > 0)
     if candidates.size <= count:
         return [int(index) for index in candidates]
     instants = stored[candidates]
-    # Two decades back from the end is where creep is seen to happen; earlier, a picture at
+    # Two decades back from the end of creep is where it is seen to happen; earlier, a picture at
     # each decade would repeat the first one.
-    earliest = max(instants[instants > 0][0], instants[-1] / 100)
-    targets = np.concatenate([instants[:1], np.geomspace(earliest, instants[-1], count)[1:]])
+    areas = scalars["contact_area"].values[candidates]
+    changing = np.abs(areas - areas[-1]) > _FINAL * np.ptp(areas)
+    settled = instants[min(int(np.flatnonzero(changing).max(initial=-1)) + 1, instants.size - 1)]
+    settled = settled if 0 < settled < _EARLY * instants[-1] else instants[-1]
+    earliest = max(instants[instants > 0][0], settled / 100)
+    between = np.geomspace(earliest, settled, count)[1:]
+    targets = [instants[0], *between[: count - 2], instants[-1]]
     return sorted({int(candidates[np.argmin(np.abs(instants - t))]) for t in targets})

@@ -16,6 +16,7 @@ from viscontact.results.peak_stress import peak_stress
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import ALLOWABLE, SCALARS, STRESSES
+from viscontact.results.worst_values import first_largest
 from viscontact.units.formatting import format_quantity
 
 Outcome = Literal["passed", "failed", "undecided"]
@@ -132,7 +133,7 @@ def _on_stress(ds: xr.Dataset, name: str, limit: float) -> Verdict:
 
 def _compared(name: str, limit: float, values: Any, errors: Any, places: Any) -> Verdict:
     def at(outcome: Outcome, weights: Any, reason: str = "") -> Verdict:
-        row = int(np.nan_to_num(weights, nan=-1.0, posinf=-1.0, neginf=-1.0).argmax())
+        row = first_largest(np.nan_to_num(weights, nan=-1.0, posinf=-1.0, neginf=-1.0))
         value, error, place = (float(each[row]) for each in (values, errors, places))
         return Verdict(name, limit, outcome, value, error, place, reason)
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from viscontact.results.formatting import format_scalar
 from viscontact.results.recorded_case import recorded_object
@@ -18,6 +19,19 @@ from viscontact.units.formatting import format_quantity
 _NOTABLE = 1e-3
 
 
+#: Relative difference of values that are equal, from the tolerance of runs [-].
+_EQUAL = 1e-5
+
+
+def first_largest(sizes: NDArray[np.float64]) -> int:
+    """Index of the first of the largest values, which may differ by rounding.
+
+    >>> first_largest(np.array([1.0, 3.0, 3.000001, 2.0]))
+    1
+    """
+    return int(np.flatnonzero(sizes >= sizes.max() - _EQUAL * abs(sizes.max()))[0])
+
+
 def notable_largest(ds: xr.Dataset, name: str, shown: int) -> int | None:
     """Index of the largest magnitude of a scalar; None if it hardly exceeds the one at `shown`.
 
@@ -26,7 +40,7 @@ def notable_largest(ds: xr.Dataset, name: str, shown: int) -> int | None:
     (0, None)
     """
     sizes = np.nan_to_num(np.abs(ds[name].values))
-    largest = int(sizes.argmax())
+    largest = first_largest(sizes)
     return largest if sizes[largest] > (1 + _NOTABLE) * sizes[shown] else None
 
 

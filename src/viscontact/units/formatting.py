@@ -227,8 +227,7 @@ def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
     """
     instants = [float(instant) for instant in times]
     unit = readable_unit(si, instants)
-    is_long = unit.symbol in [name for _, _, name in _LONG_TIMES]
-    units = [_clock_unit(each) if is_long else unit for each in instants]
+    units = [_clock_unit(each) if _is_long(unit) else unit for each in instants]
     labels: tuple[str, ...] = ()
     for digits in range(3, 18):
         labels = tuple(
@@ -238,6 +237,56 @@ def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
         if len(set(labels)) == len(set(instants)):
             break
     return labels
+
+
+def clock_ticks(
+    unit: ReadableUnit, first: float, last: float, *, close: float = 1e5
+) -> dict[float, str]:
+    """Return ticks of a logarithmic time axis in hours or days, which read 1 s, 1 min, 1 h, 1 d.
+
+    Parameters
+    ----------
+    unit : ReadableUnit
+        Unit of the axis.
+    first, last : float
+        Its ends, in that unit; above 0.
+    close : float, optional
+        Ratio of the ends from which on not all ticks are labelled [-].
+
+    Returns
+    -------
+    dict of float to str
+        Places of the ticks in that unit with their labels, which are empty where labels would be
+        too close. There are no ticks for an axis in seconds.
+
+    Examples
+    --------
+    >>> clock_ticks(ReadableUnit("h", 3600.0), 0.1, 30.0)
+    {0.16666666666666666: '10 min', 1.0: '1 h', 10.0: '10 h', 24.0: '1 d'}
+    >>> clock_ticks(readable_unit("s", [1000.0]), 1.0, 1000.0)
+    {}
+    """
+    if not _is_long(unit):
+        return {}
+    below = range(-9, 0)
+    instants = {10.0**n: format_quantity(10.0**n, "s") for n in below}
+    instants |= {1.0: "1 s", 10.0: "10 s", 60.0: "1 min", 600.0: "10 min", 3600.0: "1 h"}
+    instants |= {36000.0: "10 h"} if last < 1e4 * first else {}
+    instants |= {86400.0 * 10.0**n: f"{10**n} d" for n in range(6)}
+    everywhere = last < close * first
+    apart = (*(10.0**n for n in below if n % 3 == 0), 1.0, 60.0, 3600.0, 86400.0, 86400.0 * 100)
+    margin = 1 + 1e-9
+    places = {instant: instant / unit.factor for instant in instants}
+    return {
+        place: instants[instant] if everywhere or instant in apart else ""
+        for instant, place in places.items()
+        if first <= place * margin and place <= last * margin
+    }
+
+
+def _is_long(unit: ReadableUnit) -> bool:
+    """True for the units of times over hours or days."""
+    return unit.symbol in [name for _, _, name in _LONG_TIMES]
 
 
 def _clock_unit(instant: float) -> ReadableUnit:

@@ -126,10 +126,20 @@ def compare_histories(
         name: within_span(run, needed_variables(run), times, _NAME, name)
         for name, run in runs.items()
     }
-    names = drawn_scalars(shown)
+    return _figure(shown, drawn_scalars(shown), width)
+
+
+def history_with_load(results: xr.Dataset) -> Figure:
+    """Draw the history of a run, the force also where it is constant."""
+    shown = {"": within_span(results, needed_variables(results), None, _NAME, "")}
+    others = [name for name in drawn_scalars(shown) if name != "force"]
+    return _figure(shown, ["force", *others], None)
+
+
+def _figure(runs: Mapping[str, xr.Dataset], names: Sequence[str], width: Width | None) -> Figure:
     figure, panels = _panels(len(names), page_width(width, style.TWO_COLUMNS))
-    _, bands = draw_scalars(panels, names, shown)
-    _add_key(figure, panels, list(shown), bands)
+    _, bands = draw_scalars(panels, names, runs)
+    _add_key(figure, panels, list(runs), bands)
     return figure
 
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.results.run_axis import require_time
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
-from viscontact.units.formatting import ReadableUnit, format_quantity
+from viscontact.units.formatting import ReadableUnit, clock_ticks, format_quantity
 
 #: Relative change of a constant load, and share of the time from which on it is held: the rest is
 #: creep, which is even in log time.
@@ -72,8 +72,24 @@ def scale_time(
             _set_log_time(axes, first, end)
         if end > start:
             axes.set_xlim(start, end)
+        label = time_unit.label("Time")
+        if on_log:
+            label = label_log_time(axes, time_unit, first, end)
         if axes.xaxis.get_tick_params()["labelbottom"]:
-            axes.set_xlabel(time_unit.label("Time"))
+            axes.set_xlabel(label)
+
+
+def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> str:
+    """Mark s, min, h and d on a logarithmic axis over hours or days; return the axis label."""
+    ticks = clock_ticks(unit, first, end)
+    if not ticks:
+        return unit.label("Time")
+    start = {0.0: "0"} if axes.get_xscale() == "symlog" else {}
+    labelled = start | {place: text for place, text in ticks.items() if text}
+    axes.set_xticks(list(labelled), list(labelled.values()))
+    axes.set_xticks([place for place, text in ticks.items() if not text], minor=True)
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    return "Time"
 
 
 def _set_log_time(axes: Axes, first: float, end: float) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws import Law
 from viscontact.materials.layers import creeping_laws
+from viscontact.plot.histories.time_axis import label_log_time
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.page import NARROW, Width, page_width
@@ -206,8 +207,10 @@ def _draw(
         axes.semilogx(time_unit(times), unit(values), **look)
     if len(curves) == 1:
         _mark_beginning(axes, *(unit(each) for each in curves[0]))
-    axes.set(xlabel=time_unit.label("Time"), ylabel=unit.label(quantity))
-    axes.set_xlim(*time_unit([times[0], times[-1]]))
+    axes.set_ylabel(unit.label(quantity))
+    first, end = time_unit([times[0], times[-1]]).tolist()
+    axes.set_xlim(first, end)
+    axes.set_xlabel(label_log_time(axes, time_unit, first, end))
     style.dress(axes)
 
 
