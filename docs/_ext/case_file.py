@@ -41,6 +41,10 @@ def case_file_reference(schema: Schema) -> str:
     """
     keys = schema["properties"]
     lines = ["## The whole file", "", *_table(keys, schema["required"])]
+    named = [name for name, value in keys.items() if any(_references(value))]
+    sections = [f"[`{name}`](#{_label(name)})" for name in named]
+    if sections:
+        lines += ["", f"Sections of this page: {', '.join(sections)}."]
     described: dict[tuple[str, ...], str] = {}
     for name, value in keys.items():
         kinds = tuple(_references(value))
@@ -101,6 +105,7 @@ def _section(
         yield from (f"A name, one of {names}; or one of the kinds below.", "")
     apart = [kind for kind in kinds.values() if _is_apart(kind, kinds)]
     alike = _alike({name: kind for name, kind in kinds.items() if kind not in apart})
+    yield from _jumps(path, kinds)
     if alike:
         but = "".join(f" but `{_chosen(kind)}`" for kind in apart)
         yield from (f"Keys of every kind{but}:", "", *_table(alike, []))
@@ -110,14 +115,29 @@ def _section(
     yield from _below(defs, path, nested, depth, within)
 
 
+def _jumps(path: str, kinds: Mapping[str, Schema]) -> Iterator[str]:
+    """Table of links to several kinds, with the first sentence on each."""
+    if len(kinds) < ALIKE:
+        return
+    yield from ("| kind | description |", "|---|---|")
+    for kind in kinds.values():
+        first = _sentence(kind["description"]).split(". ")[0].rstrip(".")
+        yield f"| [`{_chosen(kind)}`](#{_label(_anchor(path, kind))}) | {_cell(first)} |"
+    yield ""
+
+
+def _anchor(path: str, kind: Schema) -> str:
+    consts = (value["const"] for value in kind["properties"].values() if "const" in value)
+    return "-".join([path, *consts])
+
+
 def _kind(path: str, kind: Schema, alike: Schema, depth: int) -> Iterator[str]:
     properties = kind["properties"]
     chosen = {key: value["const"] for key, value in properties.items() if "const" in value}
     own = {
         key: value for key, value in properties.items() if key not in alike and key not in chosen
     }
-    anchor = "-".join([path, *chosen.values()])
-    yield from ("", _target(anchor), f"{'#' * depth} `{_chosen(kind)}`", "")
+    yield from ("", _target(_anchor(path, kind)), f"{'#' * depth} `{_chosen(kind)}`", "")
     yield _sentence(kind["description"])
     if own:
         yield from ("", *_table(own, _required(kind)))

@@ -16,6 +16,7 @@ from command_line import command_line_reference
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.util.typing import ExtensionMetadata
+from verification_summary import verification_summary
 
 import viscontact
 from viscontact.case.sections import case_schema
@@ -108,6 +109,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "contributing": _contributing,
     "citation": _citation,
     "bibliography": bibliography,
+    "verification summary": lambda: verification_summary(ROOT / "docs/verification.md"),
     "a roller in a notebook": _roller,
     "a result in a notebook": _result,
 }

@@ -1,6 +1,6 @@
 """
-Which profile should a roller have?
-===================================
+Comparison of roller profiles
+=============================
 
 The pressure of a cylindrical roller is highest at its ends, that of a crowned roller in the middle.
 A logarithmic profile makes the pressure uniform, for one load and one modulus (Lundberg 1939). On a

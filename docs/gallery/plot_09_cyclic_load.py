@@ -1,6 +1,6 @@
 """
-Hysteresis under a cyclic force
-===============================
+Cyclic loading and hysteresis loss
+==================================
 
 A flat punch is pressed on rubber by a force that oscillates about a mean value. The approach lags
 behind the force, so force against approach is a loop. Its area is the energy that is lost as heat

@@ -1,6 +1,6 @@
 """
-How sure is this number?
-========================
+Error bars against exact errors
+===============================
 
 Every number of a result has an error bar, and a run without a given grid chooses one for a given
 tolerance. Here a ball on PMMA is computed with tolerances of 5 %, 1 % and 0.2 %, and the error bars

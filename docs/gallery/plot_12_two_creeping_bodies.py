@@ -1,6 +1,6 @@
 """
-Two creeping bodies
-===================
+Two viscoelastic bodies
+=======================
 
 A plastic ball on a plastic plate: both bodies creep, each with its own law. Their contact
 compliances add, so two creeping bodies cost no more than one.

@@ -1,6 +1,6 @@
 """
-A cylinder starts from rest
-===========================
+Cylinder accelerated from rest
+==============================
 
 A rigid cylinder is pressed on a viscoelastic half-space and starts suddenly at a constant speed.
 The contact is left behind until it has formed anew under the moving cylinder, and the friction

@@ -1,6 +1,6 @@
 """
-A pad moves back and forth
-==========================
+Reciprocating motion of a pad
+=============================
 
 A round pad slides back and forth on rubber without friction. The resistance over the position is a
 loop, whose area is lost as heat in each cycle.

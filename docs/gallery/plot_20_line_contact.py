@@ -1,6 +1,6 @@
 """
-A cylinder creeps into a half-space
-===================================
+Line contact of a cylinder
+==========================
 
 A cylinder is much longer than its contact is wide, so that one row of cells across the strip
 suffices. Just after loading, the pressure is that of Hertz's line contact; then the strip widens as

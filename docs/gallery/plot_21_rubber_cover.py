@@ -1,6 +1,6 @@
 """
-Rubber cover
-============
+Ball on a rubber cover
+======================
 
 A ball on a rubber cover that is bonded to a steel core. The thinner the cover, the less the ball
 sinks in, and the higher the pressure: a nearly incompressible rubber can hardly move aside.
