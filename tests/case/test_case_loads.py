@@ -355,7 +355,7 @@ def test_schema_knows_every_kind_of_load_and_spacing() -> None:
     schema = case_schema()
     load = schema["properties"]["load"]
     assert set(load["discriminator"]["mapping"]) == {
-        *("step", "ramp", "triangle", "harmonic", "history"),
+        *("step", "ramp", "triangle", "harmonic", "history", "program"),
     }
     defs = schema["$defs"]
     assert {"points", "file", "sentences"} <= set(defs["History"]["properties"])

@@ -42,6 +42,8 @@ from viscontact.units.parsing import parse_quantity
         ("1 mrad", "angle", 1e-3),
         ("1800 MPa", "pressure", 1.8e9),
         ("2 N/mm^2", "pressure", 2e6),
+        ("2 mm2", "area", 2e-6),
+        ("2 N/mm2", "pressure", 2e6),
         ("5.545e-4 / MPa", "compliance", 5.545e-10),
         ("5.545e-4 1/MPa", "compliance", 5.545e-10),
         ("5.545e-4 MPa^-1", "compliance", 5.545e-10),

@@ -371,9 +371,9 @@ def test_an_automatic_grid_is_found_once_for_a_check_and_a_drawing(
 ) -> None:
     found: list[str] = []
 
-    def counted(case: Case) -> PreparedRun:
+    def counted(case: Case, *, roughly: bool) -> PreparedRun:
         found.append(case.title)
-        return prepared(case)
+        return prepared(case, roughly=roughly)
 
     monkeypatch.setattr(case_reader, "prepared", counted)
     first, second = (CASE.replace("Zener sphere", name) for name in ("first", "second"))

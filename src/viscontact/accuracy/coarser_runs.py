@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from viscontact.accuracy.coarser_steps import (
     parts_of_first_steps,
     parts_of_shared_steps,
 )
+from viscontact.accuracy.event_runs import OwnEvents, own_events
 from viscontact.accuracy.moving_levels import (
     aligned_along,
     fewer_moving_times,
@@ -25,9 +26,11 @@ from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
 from viscontact.contact.cell_fields import is_even
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.loads import MixedHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
+from viscontact.simulation.program_course import EventError
 from viscontact.simulation.setup import RunSetup, plan_history
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import plan_steps, step_ends
@@ -74,6 +77,7 @@ class CoarserRun:
     spacing: float  # cell size, in cells of the original run
     divides_steps: bool  # divides steps that the coarsest run takes as the original run does
     run: RunSetup
+    program_times: FloatArray | None = None  # of a load program: times of the run that it steps to
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +95,9 @@ class CoarserResult:
     peak_drops: FloatArray  # relative drop of pressure from the largest one to the cells next to it
     rises_to_ends: NDArray[np.bool_]  # pressure rises to both ends along x, y; shape (instants, 2)
     is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
+    #: Ends of the segments of a load program, NaN where they ended in another way than those of the
+    #: run; none of other loads [s].
+    segment_ends: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def at_end(self) -> NDArray[np.bool_]:
@@ -183,17 +190,24 @@ def march_coarser_run(
 
     `on_step` is called after each step, and may stop the run by an exception.
     """
-    run, states, ends, bends, spots, drops = coarser_run.run, [], [], [], [], []
+    states, ends, bends, spots, drops = [], [], [], [], []
     rises: list[tuple[bool, bool]] = []
     peak = 0.0
     sharp = False
-    at_end = cells_at_end(run.open_gap)
+    events: OwnEvents | None = None
     try:
+        coarser_run, events = _with_own_events(coarser_run)
+        run = coarser_run.run
+        at_end = cells_at_end(run.open_gap)
         for state in March(run, warns=False):
             if on_step is not None:
                 on_step()
             if state is None:
                 continue
+            if events is not None:
+                state = replace(state, time=events.instant_of(state.time))
+                if math.isnan(state.time):
+                    continue
             states.append(state.without_fields())
             ends.append(at_end.pressures(state.pressure))
             bends.append(_bend_growth(run, state))
@@ -203,7 +217,7 @@ def march_coarser_run(
             if state.peak_pressure > 1.1 * peak:
                 peak = state.peak_pressure
                 sharp = sharp or _peaks_at_point(coarser_run, state)
-    except (ConvergenceError, DomainError):
+    except (ConvergenceError, DomainError, EventError):
         return None
     return CoarserResult(
         coarser_run.spacing,
@@ -215,7 +229,20 @@ def march_coarser_run(
         np.array(drops, dtype=float),
         np.array(rises, dtype=bool).reshape(-1, 2),
         sharp,
+        np.zeros(0) if events is None else events.ends,
     )
+
+
+def _with_own_events(coarser_run: CoarserRun) -> tuple[CoarserRun, OwnEvents | None]:
+    """A coarser run of a load program under the history that it has on its own cells and steps."""
+    times, run = coarser_run.program_times, coarser_run.run
+    if times is None:
+        return coarser_run, None
+    events = own_events(run, times)
+    problem = replace(run.problem, load=events.load, times=events.times)
+    plan, *others = plan_history(problem, run.open_gap, run.grid)
+    run = replace(run, problem=problem, hereditary=plan, other_terms=tuple(others))
+    return replace(coarser_run, run=run), events
 
 
 def history_of(states: Sequence[ContactState]) -> History:
@@ -266,7 +293,10 @@ def _coarser_run(
     )
     plan, *others = plan_history(problem, coarse.open_gap, coarse.grid)
     setup = replace(coarse, problem=problem, hereditary=plan, other_terms=tuple(others))
-    return CoarserRun(math.sqrt(ratios[0] * ratios[1]), divides_steps=False, run=setup)
+    spacing = math.sqrt(ratios[0] * ratios[1])
+    load = problem.load
+    has_program = isinstance(load, MixedHistory) and load.program is not None
+    return CoarserRun(spacing, False, setup, times if has_program else None)
 
 
 def _drop_beside_peak(pressure: FloatArray) -> float:

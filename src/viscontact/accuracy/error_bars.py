@@ -8,8 +8,8 @@ the grids. The largest relative difference at an instant and the ones next to it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from viscontact.accuracy.coarser_runs import (
     plan_coarser_runs,
 )
 from viscontact.accuracy.error_models import COARSE_SPOT_CELLS, ERROR_MODELS, MOVING_MODELS
+from viscontact.accuracy.event_bars import event_errors, set_bars_at_events
 from viscontact.accuracy.least_bars import ContactKinds, least_bar, least_peak_bar
 from viscontact.accuracy.levels import (
     RefinementLevels,
@@ -35,6 +36,7 @@ from viscontact.accuracy.levels import (
     spots_across,
 )
 from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings, unbounded_peak
+from viscontact.loads import MixedHistory
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
 
@@ -66,6 +68,8 @@ class ErrorBars:
     #: has no limit, NaN where the error is unknown.
     values: dict[str, Array]
     warnings: tuple[str, ...]  # warnings that follow from the coarser runs
+    #: Attributes of the result that they replace: the errors of the instants of events.
+    attributes: Mapping[str, str | list[float]] = field(default_factory=dict)
 
 
 def error_bars(
@@ -144,7 +148,8 @@ def error_bars_from(
             for name in names:
                 values[name][where] = 0.0
     warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
-    return ErrorBars(values, warnings)
+    set_bars_at_events(values, run, history)
+    return ErrorBars(values, warnings, event_errors(run, found))
 
 
 def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]) -> ContactKinds:
@@ -254,7 +259,13 @@ def _certainly_separated(
 ) -> NDArray[np.bool_]:
     """Times without contact in the run, and under a given approach without any next to them."""
     apart = np.asarray(history["peak_pressure"] == 0)
-    if run.problem.load.control == "force":
+    load, times = run.problem.load, history["time"]
+    if load.control == "force":
         return apart
     near = moving_maximum(touching, 1) > 0
+    if isinstance(load, MixedHistory):
+        # Under no force, and where the end of contact is what ended a segment, there is none.
+        lost = [event.time for event in load.events if event.scalar == "contact"]
+        unloaded = [time for time in times.tolist() if load.at(time).force is not None]
+        near &= ~np.isin(times, [*lost, *unloaded])
     return np.asarray(apart & ~near & ~_before_first_cell(history, touching))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.checks.load_support import LoadSupport
 from viscontact.grid import Grid
-from viscontact.loads import LoadHistory, LoadPoint
+from viscontact.loads import LoadHistory, LoadPoint, MixedHistory
 from viscontact.loads.arguments import TAIL
 from viscontact.problem.problem import Problem
 from viscontact.time_integration.run_times import field_instants
@@ -39,17 +39,21 @@ def check_magnitudes(problem: Problem) -> None:
 
 def check_mixed(problem: Problem) -> None:
     """Refuse a load of mixed control where a grid is chosen, repeats, or the body moves."""
-    if problem.load.control != "mixed":
+    if not isinstance(problem.load, MixedHistory):
         return
-    if not isinstance(problem.grid, Grid):
+    if problem.motion is not None:
         raise ValueError(
-            "grid: a load of mixed control needs a given grid, as none can be fitted to it yet; "
-            "write grid=vc.Grid(shape, size)"
+            "load: a program, or mixed control, is for a body that does not move; leave motion out"
         )
-    if problem.motion is not None or any(problem.grid.periodic):
+    if isinstance(problem.grid, Grid) and any(problem.grid.periodic):
         raise ValueError(
-            "load: mixed control is for standing contacts on grids that are not periodic; "
-            "prescribe force or approach throughout"
+            "load: a program, or mixed control, is for grids that are not periodic; leave periodic "
+            "out, or prescribe force or approach throughout"
+        )
+    if not isinstance(problem.grid, Grid) and problem.load.program is None:
+        raise ValueError(
+            "grid: no grid can be fitted to a load of mixed control without its program; write "
+            "grid=vc.Grid(shape, size)"
         )
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers, words
 from viscontact.figures.run_scale import RunScale, run_scale
 from viscontact.results.recorded_case import prescribes_approach
+from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.shown_scalars import shown_scalars
@@ -78,7 +79,11 @@ def history(
             "traces": list(range(len(styles))),
             "data": _positions(ds, name, scale, compared, log=log),
             # A part that was enlarged on one scale is elsewhere on the other.
-            "layout": {"xaxis": scale.part(log=log), "uirevision": LOGARITHMIC if log else LINEAR},
+            "layout": {
+                "xaxis": scale.part(log=log),
+                "uirevision": LOGARITHMIC if log else LINEAR,
+                "shapes": _event_lines(ds, scale, look, log=log),
+            },
         }
         for log in ((False, True) if scale.has_log else (False,))
     ]
@@ -182,6 +187,21 @@ def _positions(
         [[*places[0][part], *places[0][part][::-1], np.nan] for part in _parts(ds, name)] or [[]]
     )
     return [{"x": numbers(each)} for each in (*places[1:], band, places[0])]
+
+
+def _event_lines(ds: xr.Dataset, scale: RunScale, look: Look, *, log: bool) -> list[Part]:
+    """Dotted lines at the events of a load program, with their numbers from 1."""
+    line = {"color": look.faint, "width": 1, "dash": "dot"}
+    label = {"textangle": 0, "textposition": "end", "xanchor": "right", "yanchor": "top"}
+    label["font"] = {"size": 10, "color": look.faint}
+    return [
+        {
+            **{"type": "line", "yref": "paper", "y0": 0, "y1": 1, "layer": "below", "line": line},
+            **{"x0": place, "x1": place, "label": label | {"text": str(number)}},
+        }
+        for number, event in enumerate(recorded_events(ds), start=1)
+        for place in scale.at(np.array([event.time]), log=log).tolist()
+    ]
 
 
 def _band(ds: xr.Dataset, name: str, unit: ReadableUnit) -> NDArray[np.float32]:

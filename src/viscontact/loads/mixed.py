@@ -5,14 +5,32 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads.arguments import numbers
 from viscontact.loads.history import Control, LoadHistory, LoadPoint
+from viscontact.loads.program import LoadProgram
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite, store
+
+#: Beginning of the text about a segment that a stop condition has ended.
+STOP = "stop when "
+
+
+class LoadEvent(NamedTuple):
+    """Instant at which a condition of a load program was met."""
+
+    time: float  # [s]
+    segment: int  # number of the segment that ended there, from 1
+    condition: str  # such as "force reaches 10 nN", or "stop when contact is lost"
+
+    @property
+    def scalar(self) -> str:
+        """Scalar that the condition is on, or "contact" where this is lost."""
+        return self.condition.removeprefix(STOP).partition(" ")[0]
 
 
 @dataclass(frozen=True)
@@ -31,10 +49,15 @@ class MixedHistory(LoadHistory):
         What each segment prescribes, shape (n,).
     begins, ends : sequence of float
         Force [N] or approach [m] at begin and end of each segment, shape (n,).
+    eccentricity_x, eccentricity_y : float
+        Position of the force, where no segment prescribes the approach [m].
     tilt_x, tilt_y : float or None
         Slopes along x and y throughout; None lets that tilt go free [rad].
-    events : sequence of str
-        What ended the segments of the `LoadProgram` that this was, and when.
+    program : LoadProgram or None
+        The program that this is, or will be, the course of.
+    ended_by : sequence of str
+        What ended each segment of the program that has been carried out, such as "force reaches
+        10 nN" or "stop when contact is lost", shape (n,); empty where its duration ended it.
 
     Raises
     ------
@@ -57,9 +80,12 @@ class MixedHistory(LoadHistory):
     controls: Sequence[Control]
     begins: Sequence[float] = field(metadata={"unit": {"force": "N", "approach": "m"}})
     ends: Sequence[float] = field(metadata={"unit": {"force": "N", "approach": "m"}})
+    eccentricity_x: float = field(default=0.0, metadata={"unit": "m"})
+    eccentricity_y: float = field(default=0.0, metadata={"unit": "m"})
     tilt_x: float | None = field(default=0.0, metadata={"unit": "rad"})
     tilt_y: float | None = field(default=0.0, metadata={"unit": "rad"})
-    events: Sequence[str] = field(default=(), metadata={"recorded": "if given"})
+    program: LoadProgram | None = field(default=None, metadata={"recorded": "if given"})
+    ended_by: Sequence[str] = field(default=(), metadata={"recorded": "if given"})
 
     def __post_init__(self) -> None:
         times = tuple(finite("times", time, "s") for time in self.times)
@@ -71,9 +97,14 @@ class MixedHistory(LoadHistory):
             controls=tuple(self.controls),
             begins=begins,
             ends=ends,
-            events=tuple(self.events),
+            ended_by=tuple(self.ended_by),
         )
         count = len(times) - 1
+        if self.ended_by and len(self.ended_by) != count:
+            raise ValueError(
+                f"mixed history: wanted a text for each of the {count} segments in ended_by, got "
+                f"{len(self.ended_by)}"
+            )
         if count < 1 or {len(self.controls), len(begins), len(ends)} != {count}:
             raise ValueError(
                 "mixed history: wanted n + 1 times and n controls, begins and ends, got "
@@ -84,6 +115,11 @@ class MixedHistory(LoadHistory):
         for control in self.controls:
             if control not in ("force", "approach"):
                 raise ValueError(f'controls must be "force" or "approach", got {control!r}')
+        if "approach" in self.controls and (self.eccentricity_x or self.eccentricity_y):
+            raise ValueError(
+                "eccentricity_x and eccentricity_y go with a force; where a segment prescribes the "
+                "approach, leave them out"
+            )
         self._refuse_jumps()
 
     def _refuse_jumps(self) -> None:
@@ -105,6 +141,28 @@ class MixedHistory(LoadHistory):
             before = (control, end)
 
     @property
+    def awaits_events(self) -> bool:
+        """True for a program that has not been carried out: nothing else is known of its course."""
+        return self.program is not None and not self.ended_by
+
+    @property
+    def events(self) -> tuple[LoadEvent, ...]:
+        """Events of the program that this is the course of, in their order.
+
+        Examples
+        --------
+        >>> load = MixedHistory([0.0, 1.0], ["force"], [0.0], [2.0], ended_by=["force reaches 2 N"])
+        >>> load.events
+        (LoadEvent(time=1.0, segment=1, condition='force reaches 2 N'),)
+        """
+        ends = zip(self.times[1:], self.ended_by, strict=False)
+        return tuple(
+            LoadEvent(time, number, condition)
+            for number, (time, condition) in enumerate(ends, start=1)
+            if condition
+        )
+
+    @property
     def unit(self) -> str:
         """Unit of the level, a share of the largest force or approach."""
         return "1"
@@ -120,8 +178,8 @@ class MixedHistory(LoadHistory):
         control, level = self._level(finite("time", time, "s"))
         return LoadPoint(
             force=level if control == "force" else None,
-            eccentricity_x=0.0,
-            eccentricity_y=0.0,
+            eccentricity_x=self.eccentricity_x,
+            eccentricity_y=self.eccentricity_y,
             tilt_x=self.tilt_x,
             tilt_y=self.tilt_y,
             approach=level if control == "approach" else None,
@@ -168,3 +226,17 @@ class MixedHistory(LoadHistory):
         of = zip(self.controls, self.begins, self.ends, strict=True)
         largest: float = max((max(b, e) for each, b, e in of if each == control), default=0.0)
         return largest if largest > 0 else 1.0
+
+
+def as_history(load: LoadHistory | LoadProgram) -> LoadHistory:
+    """Return a load as a history: a program as one that has not been carried out."""
+    if not isinstance(load, LoadProgram):
+        return load
+    return MixedHistory(
+        *([0.0, 1.0], [load.parts[0].control], [0.0], [0.0]),
+        eccentricity_x=load.eccentricity_x,
+        eccentricity_y=load.eccentricity_y,
+        tilt_x=load.tilt_x,
+        tilt_y=load.tilt_y,
+        program=load,
+    )

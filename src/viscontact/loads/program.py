@@ -11,6 +11,9 @@ from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite, positive, store
 
+#: Units of what a segment prescribes.
+CONTROL_UNITS: dict[Control, str] = {"force": "N", "approach": "m"}
+
 
 @dataclass(frozen=True)
 class Condition:
@@ -53,7 +56,7 @@ class Condition:
 
     @property
     def unit(self) -> str:
-        """SI unit of the scalar."""
+        """SI unit of the scalar; "1" for contact."""
         return "1" if self.scalar == "contact" else DIMENSIONS[SCALARS[self.scalar]].unit
 
 
@@ -101,6 +104,20 @@ class Segment:
         elif not isinstance(self.until, Condition):
             raise ValueError(f"segment: until must be a Condition or a text, got {self.until!r}")
 
+    def __str__(self) -> str:
+        """Sentence that describes the segment.
+
+        >>> str(Segment(rate=-2e-6, until="contact is lost")), str(Segment(duration=5.0))
+        ('retract at 2 µm/s until contact is lost', 'hold height for 5 s')
+        """
+        length = "" if self.duration is None else f" for {format_quantity(self.duration, 's', 6)}"
+        end = length or f" until {self.until}"
+        if self.rate == 0:
+            return f"hold {'height' if self.control == 'approach' else 'force'}{end}"
+        verbs = {"approach": ("move", "retract"), "force": ("load", "unload")}
+        verb, unit = verbs[self.control][self.rate < 0], CONTROL_UNITS[self.control]
+        return f"{verb} at {format_quantity(abs(self.rate), unit, 6)}/s{end}"
+
 
 @dataclass(frozen=True)
 class LoadProgram:
@@ -110,9 +127,7 @@ class LoadProgram:
     force or approach that the one before has left. The run finds the instants at which conditions
     are met, adds them to its times, and ends with the last segment, or where a stop condition is
     met. The attribute ``events`` of the result lists them. A condition is met where its scalar
-    crosses the value between two of the run's times; what comes and goes between them is not seen.
-    Error bars are those of the run under the history that was found: the error of the instants of
-    the events is not in them.
+    crosses the value between two of the run's steps; what comes and goes between them is not seen.
 
     Parameters
     ----------
@@ -122,13 +137,17 @@ class LoadProgram:
         contact is lost", "stop when contact_area exceeds 2 mm2", or `Segment` objects.
     stop : sequence of Condition or str
         Conditions that end the run in any segment.
+    eccentricity_x, eccentricity_y : float
+        Position of the force, in programs that prescribe the force throughout, whose tilt
+        along that axis is free [m].
     tilt_x, tilt_y : float or None
         Slopes along x and y throughout; None lets that tilt go free [rad].
 
     Raises
     ------
     ValueError
-        If a sentence cannot be read, or there is no segment.
+        If a sentence or a number cannot be used, there is no segment, or an eccentricity does not
+        fit.
 
     Examples
     --------
@@ -139,6 +158,8 @@ class LoadProgram:
 
     segments: str | Sequence[Segment | str]
     stop: Sequence[Condition | str] = ()
+    eccentricity_x: float = field(default=0.0, metadata={"unit": "m"})
+    eccentricity_y: float = field(default=0.0, metadata={"unit": "m"})
     tilt_x: float | None = field(default=0.0, metadata={"unit": "rad"})
     tilt_y: float | None = field(default=0.0, metadata={"unit": "rad"})
 
@@ -169,4 +190,27 @@ class LoadProgram:
             name: None if tilt is None else finite(name, tilt, "rad")
             for name, tilt in (("tilt_x", self.tilt_x), ("tilt_y", self.tilt_y))
         }
-        store(self, segments=tuple(segments), stop=tuple(conditions), **tilts)
+        places = {
+            name: finite(name, getattr(self, name), "m")
+            for name in ("eccentricity_x", "eccentricity_y")
+        }
+        store(self, segments=tuple(segments), stop=tuple(conditions), **tilts, **places)
+        self._refuse_eccentric_approach()
+
+    @property
+    def parts(self) -> tuple[Segment, ...]:
+        """The segments, as they were read."""
+        return tuple(each for each in self.segments if isinstance(each, Segment))
+
+    def _refuse_eccentric_approach(self) -> None:
+        for axis in "xy":
+            name = f"eccentricity_{axis}"
+            if getattr(self, name) == 0:
+                continue
+            if getattr(self, f"tilt_{axis}") is not None:
+                raise ValueError(f"{name} goes with a free tilt; leave it out, or tilt_{axis}=None")
+            if any(each.control == "approach" for each in self.parts):
+                raise ValueError(
+                    f"{name} goes with segments that prescribe the force, and this program also "
+                    "prescribes the approach; leave it out, or prescribe the force throughout"
+                )

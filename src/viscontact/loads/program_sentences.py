@@ -23,15 +23,20 @@ FORMS = (
 )
 
 _CONDITION = re.compile(
-    r"(?:the\s+)?(?P<scalar>[a-z_ ]+?)\s+(?:reaches|exceeds|falls\s+(?:to|below))\s+(?P<value>.+)"
+    r"(?:the\s+)?(?P<scalar>[a-z_ ]+?)\s+(?:reaches|exceeds|falls\s+(?:to|below))\s+(?P<value>.+)",
+    re.IGNORECASE,
 )
-_LOST = re.compile(r"(?:the\s+)?contact\s+is\s+lost")
-_STOP = re.compile(r"stop\s+(?:when|if|once)\s+(?P<what>.+)")
-_HOLD = re.compile(r"hold\s+(?:the\s+)?(?P<what>height|approach|force)\s+(?P<end>.+)")
+_LOST = re.compile(r"(?:the\s+)?contact\s+is\s+lost", re.IGNORECASE)
+_STOP = re.compile(r"stop\s+(?:when|if|once)\s+(?P<what>.+)", re.IGNORECASE)
+_HOLD = re.compile(
+    r"hold\s+(?:the\s+)?(?P<what>height|approach|force)\s+(?P<end>.+)", re.IGNORECASE
+)
 _CHANGE = re.compile(
     r"(?P<verb>move|press|retract|withdraw|load|unload)\s+at\s+(?P<rate>.+?)\s+"
-    r"(?P<end>(?:for|until)\s.+)"
+    r"(?P<end>(?:for|until)\s.+)",
+    re.IGNORECASE,
 )
+_ENDS = re.compile(r"[;\n]|,?\s*\b(?:and\s+)?then\b", re.IGNORECASE)
 
 #: Scalars that a condition may be on, and their dimensions.
 SCALARS = {
@@ -58,7 +63,7 @@ class ProgramSentence(NamedTuple):
 
 
 def parsed_sentences(text: str) -> list[ProgramSentence]:
-    """Read the sentences of a text, which end with semicolons or lines.
+    """Read the sentences of a text, which end with semicolons, lines or "then".
 
     ValueError if one cannot be read.
 
@@ -67,7 +72,7 @@ def parsed_sentences(text: str) -> list[ProgramSentence]:
     """
     if not isinstance(text, str):
         raise ValueError(f"load program: wanted a sentence or a Segment, got {text!r}")
-    parts = [part.strip(" .\t\r") for part in re.split(r"[;\n]", text)]
+    parts = [part.strip(" ,.\t\r") for part in _ENDS.split(text)]
     return [_sentence(part) for part in parts if part]
 
 
@@ -86,7 +91,7 @@ def parsed_condition(text: str) -> ReadCondition:
             f"cannot read {quoted(str(text))} as a condition; write e.g. 'force reaches 10 nN', "
             "'contact_area exceeds 2 mm2' or 'contact is lost'"
         )
-    scalar = re.sub(r"\s+", "_", match["scalar"])
+    scalar = re.sub(r"\s+", "_", match["scalar"].lower())
     if scalar not in SCALARS:
         raise ValueError(
             f"no scalar is called {scalar!r}; known are {', '.join(SCALARS)}, and 'contact is lost'"
@@ -99,11 +104,11 @@ def _sentence(text: str) -> ProgramSentence:
         if match := _STOP.fullmatch(text):
             return ProgramSentence(stops=parsed_condition(match["what"]))
         if match := _HOLD.fullmatch(text):
-            control: Control = "force" if match["what"] == "force" else "approach"
+            control: Control = "force" if match["what"].lower() == "force" else "approach"
             return ProgramSentence(0.0, control, *_end(match["end"]))
         if match := _CHANGE.fullmatch(text):
             rate, control = _rate(match["rate"])
-            back = match["verb"] in ("retract", "withdraw", "unload")
+            back = match["verb"].lower() in ("retract", "withdraw", "unload")
             return ProgramSentence(-rate if back else rate, control, *_end(match["end"]))
     except ValueError as error:
         raise ValueError(f"load program: sentence {quoted(text)}: {error}") from None
@@ -114,9 +119,9 @@ def _sentence(text: str) -> ProgramSentence:
 def _end(text: str) -> tuple[float | None, ReadCondition | None]:
     """Duration [s] or condition that ends a segment."""
     word, _, rest = text.partition(" ")
-    if word == "for":
+    if word.lower() == "for":
         return parse_quantity(rest, "time"), None
-    if word == "until":
+    if word.lower() == "until":
         return None, parsed_condition(rest)
     raise ValueError("it ends with 'for 5 s' or 'until force reaches 10 nN'")
 

@@ -38,7 +38,8 @@ def constant_load(load: LoadHistory) -> LoadPoint:
         for side in ("left", "right")
         if time > 0 or side == "right"  # before time 0 there is no load
     ]
-    if np.isfinite(load.longest_step) or any(point != held for point in later):
+    changes = load.control == "mixed" or np.isfinite(load.longest_step)
+    if changes or any(point != held for point in later):
         raise ValueError(
             "load: a steady motion has a constant load, and this one changes in time; use a step "
             "of force or approach"

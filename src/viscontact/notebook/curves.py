@@ -78,8 +78,9 @@ def load_drawings(load: LoadHistory) -> list[Element]:
     x = linear("time", "s", -_BEFORE * end, end)
     if load.kinks[-1] == 0:  # the drawing's end means nothing
         x = Scale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
-    y = linear(load.control, load.unit, low - 0.04 * (high - low), high + 0.06 * (high - low), 3)
-    return [panel(f"{load.control} over time", x, y, [Mark(times, levels)], aside=_aside(load))]
+    name = "share of the largest load" if load.control == "mixed" else load.control
+    y = linear(name, load.unit, low - 0.04 * (high - low), high + 0.06 * (high - low), 3)
+    return [panel(f"{name} over time", x, y, [Mark(times, levels)], aside=_aside(load))]
 
 
 def _aside(load: LoadHistory) -> str:

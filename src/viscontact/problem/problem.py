@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.laws import Law
-from viscontact.loads import LoadHistory, LoadPoint, LoadProgram
+from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
+from viscontact.loads.mixed import as_history
 from viscontact.loads.motion import Motion, MovingLoad
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.layers import Layered
@@ -48,8 +49,6 @@ def _hint(name: str, given: object) -> str:
         return "; write vc.Material(law, poisson_ratio=...)"
     if name.endswith("material") and isinstance(given, str):
         return "; write vc.shipped_material(name) for a material of the library"
-    if isinstance(given, LoadProgram):
-        return "; a LoadProgram is for simulate and march"
     if name == "load" and as_real(given) is not None:
         return "; write vc.step(force) for a constant force"
     return ""
@@ -67,7 +66,8 @@ class Problem:
     material : Material or Layered
         Material of the half-space, or a body of layers.
     load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
+        Force or approach, eccentricity and prescribed tilts over time; a `LoadProgram` becomes a
+        `MixedHistory` that awaits its events.
     grid : Grid, AutomaticGrid or None
         Cells that carry the pressure, or requirements on a grid that the run chooses.
     times : array_like, AdaptiveTimes or None
@@ -98,6 +98,7 @@ class Problem:
     def __post_init__(self) -> None:
         if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
             object.__setattr__(self, "indenter", indenter_of(self.indenter))
+        object.__setattr__(self, "load", as_history(self.load))
         for name, kinds, optional in (
             ("indenter", (Indenter,), False),
             ("material", (Material, Layered), False),

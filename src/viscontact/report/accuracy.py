@@ -9,7 +9,14 @@ import numpy as np
 import xarray as xr
 
 from viscontact.results.formatting import format_bound
-from viscontact.results.recorded_case import case_of, is_layered, prescribes_approach, recorded_grid
+from viscontact.results.recorded_case import (
+    case_of,
+    has_mixed_control,
+    is_layered,
+    prescribes_approach,
+    recorded_grid,
+)
+from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import TIME, run_axis
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.results.summary import SummaryRow, summary_rows, summary_scalars
@@ -46,6 +53,8 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
     if is_layered(ds) or is_layered(ds, "indenter_material"):
         yield "Layers", _splitting(ds)
+    for number, event in enumerate(recorded_events(ds), start=1):
+        yield f"Event {number}", event.text
     yield "Error estimation", _coarser_runs(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
@@ -70,6 +79,11 @@ def _worst(row: SummaryRow, rows: str) -> str:
 def _balance(ds: xr.Dataset) -> str:
     if prescribes_approach(ds):
         return "the approach is prescribed; the force is the pressure's integral"
+    if has_mixed_control(ds):
+        return (
+            "segments prescribe force or approach; under a force, the pressure's integral and "
+            "moments are those of the load, to the requested tolerance"
+        )
     known = largest_error(ds, "force")
     if known is None or not math.isfinite(known.part):
         return "force and moments of the pressure are those of the load, to the requested tolerance"

@@ -24,6 +24,7 @@ from viscontact.report.limits import notices
 from viscontact.report.section_csv import line_load_csv, section_csv
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
+from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.shown_scalars import is_long, shown_labels
@@ -118,6 +119,8 @@ def history_chapter(
     legend = "Shaded: the error of each value. "
     if any(each.layout.meta["note"] == MESH_DEPENDENT for each in response):
         legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
+    for number, event in enumerate(recorded_events(ds), start=1):
+        legend += f"Dotted line {number}: {event.text}. "
     yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
     if loops:
         yield element("h3", "Loops")

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from viscontact.laws import Law
-from viscontact.loads import LoadHistory
+from viscontact.loads import LoadHistory, LoadProgram
 from viscontact.loads.motion import Motion
-from viscontact.results.descriptions import STORED_CLASSES
+from viscontact.results.descriptions import STORED_CLASSES, rebuild
 from viscontact.units.formatting import format_quantity
 
 _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
@@ -52,6 +52,9 @@ def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[t
         # A class of the user's own may be a shape, a law or a load.
         known = "law" if kind in _LAWS else "shape"
         yield owner or (known if kind in STORED_CLASSES else "kind"), in_plain_words(kind)
+    if description.get("program"):
+        yield from _program_rows(rebuild(description["program"]))
+        return
     for key, value in description.items():
         name = f"{owner} {_words(kind, key)}".strip()
         if isinstance(value, Mapping) and "sha256" in value:
@@ -65,6 +68,20 @@ def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[t
                 yield from argument_rows(each, f"{owner} {one} {index}".strip())
         elif key != "type" and not _is_default(kind, key, value):
             yield name, _value(_unit(kind, key, description.get("control", "")), key, value)
+
+
+def _program_rows(program: LoadProgram) -> Iterator[tuple[str, str]]:
+    """Rows of a load program: its segments, stops, and what is not the default."""
+    for number, segment in enumerate(program.parts, start=1):
+        yield f"segment {number}", str(segment)
+    for condition in program.stop:
+        yield "stop when", str(condition)
+    for name in ("eccentricity_x", "eccentricity_y"):
+        if value := getattr(program, name):
+            yield name.replace("_", " "), format_quantity(value, "m", _DIGITS)
+    for name in ("tilt_x", "tilt_y"):
+        if (value := getattr(program, name)) is not None:
+            yield name.replace("_", " "), format_quantity(value, "rad", _DIGITS)
 
 
 @functools.cache

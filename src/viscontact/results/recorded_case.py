@@ -80,6 +80,13 @@ def prescribes_approach(ds: xr.Dataset) -> bool:
     return bool(load.get("control", getattr(kind, "control", "force")) == "approach")
 
 
+def has_mixed_control(ds: xr.Dataset) -> bool:
+    """True if the load of a run prescribes the force on some segments, the approach on others."""
+    load = case_of(ds).get("load") or {}
+    kind = STORED_CLASSES.get(load.get("type", ""))
+    return getattr(kind, "control", "") == "mixed"
+
+
 def is_prescribed(ds: xr.Dataset, name: str) -> bool:
     """True if the load of a run prescribes a scalar, so that it has no error.
 
@@ -90,6 +97,8 @@ def is_prescribed(ds: xr.Dataset, name: str) -> bool:
     """
     load = case_of(ds).get("load")
     if not load:
+        return False
+    if name in ("force", "approach") and has_mixed_control(ds):
         return False
     if name in ("force", "approach"):
         return prescribes_approach(ds) == (name == "approach")

@@ -10,6 +10,7 @@ import numpy as np
 from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.grid import Grid
+from viscontact.loads import MixedHistory
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.problem.problem import Problem
 from viscontact.results.variables import MESH_DEPENDENT
@@ -72,6 +73,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
         *_of_course(run),
+        *_events(run),
         ("fields kept", _kept(prepared.case.fields, run)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
@@ -88,6 +90,17 @@ def _of_course(run: RunSetup | SteadySetup) -> list[tuple[str, str]]:
     return [
         ("speeds", f"{len(speeds)}, from {low} to {high}") if len(speeds) > 1 else ("speed", low)
     ]
+
+
+def _events(run: RunSetup | SteadySetup) -> Iterator[tuple[str, str]]:
+    """What ends the segments of a load program, and when, by a march on few cells."""
+    load = contact_of(run).load
+    if isinstance(load, MixedHistory) and load.events:
+        about = [
+            f"{event.condition} at about {format_quantity(event.time, 's', 3)}"
+            for event in load.events
+        ]
+        yield "events", ",\n".join(about)
 
 
 def _period(grid: Grid) -> str:
@@ -159,7 +172,11 @@ def _kept(fields: str | Sequence[float], run: RunSetup | SteadySetup) -> str:
 
 def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
     """Return title and rows of the expected contact; no rows without a load."""
-    found, control = expected.estimate, contact_of(prepared.run).load.control
+    found, load = expected.estimate, contact_of(prepared.run).load
+    control: str = load.control
+    if control == "mixed":
+        point = contact_of(prepared.run).largest_load[1]
+        control = "approach" if point.force is None else "force"
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []

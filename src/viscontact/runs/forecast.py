@@ -11,7 +11,7 @@ from scipy import fft
 
 from viscontact.accuracy.coarser_runs import usual_coarsening
 from viscontact.grid import Grid
-from viscontact.loads import LoadPoint
+from viscontact.loads import LoadPoint, MixedHistory
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.problem.problem import Problem
@@ -111,7 +111,10 @@ def run_seconds(run: RunSetup, *, errors: bool) -> float:
             (steps / step_ratio, each / spacing**2)
             for spacing, step_ratio in usual_coarsening(round(steps))
         ]
-    return sum(
+    load = run.problem.load
+    # A load program is marched twice, the first time to find its events.
+    marched = 2 if isinstance(load, MixedHistory) and load.program is not None else 1
+    return marched * sum(
         one * (FIRST_STEP + LATER_STEP * count) + STEP_OVERHEAD * count for count, one in marches
     )
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from viscontact.case import Case
+from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.runs.forecast import Forecast, forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import curve_memory, fields_kept, least_memory, needed_memory
 from viscontact.runs.steady_forecast import steady_forecast
+from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.steady.preparation import SteadySetup, prepare
 from viscontact.steady.problem import steady_problem
@@ -24,14 +26,18 @@ class PreparedRun:
     run: RunSetup | SteadySetup
 
 
-def prepared(case: Case, threads: int = 1, memory: float | None = None) -> PreparedRun:
+def prepared(
+    case: Case, threads: int = 1, memory: float | None = None, *, roughly: bool = False
+) -> PreparedRun:
     """Set up the run of a case, on some threads of one Fourier transform.
 
+    The events of a load program are found; `roughly` on few cells and steps, for a forecast.
     CaseError if it cannot be run, or needs more than some memory [bytes]; by default what is free.
     """
     available = available_memory() if memory is None else memory
     if isinstance(case.grid, Grid):  # before arrays of its size are allocated
         _refuse_beyond(available, case, case.grid, least_memory(case.grid, case.compliance))
+    case = _carried_out(case, threads, roughly=roughly)
     run = _prepared_run(case, threads)
     if isinstance(run, SteadySetup):
         needed = curve_memory(run)
@@ -49,6 +55,18 @@ def predicted(prepared: PreparedRun) -> Forecast:
         return forecast(prepared.run, errors=prepared.case.errors)
     except ValueError as error:
         raise prepared.case.error(str(error)) from error
+
+
+def _carried_out(case: Case, threads: int, *, roughly: bool) -> Case:
+    """The case under the history that its load program comes to; any other as it is."""
+    if case.steady is not None:
+        return case
+    try:
+        found = carried_out(case, threads, roughly=roughly)
+    except (ValueError, ConvergenceError, DomainError) as error:
+        raise case.error(str(error)) from error
+    assert isinstance(found, Case)  # made from it
+    return found
 
 
 def _prepared_run(case: Case, threads: int) -> RunSetup | SteadySetup:

@@ -16,6 +16,7 @@ from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadProgram
+from viscontact.loads.mixed import as_history
 from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
@@ -23,7 +24,7 @@ from viscontact.problem.problem import Problem
 from viscontact.results.dataset import to_dataset
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.variables import field_axis
-from viscontact.simulation.load_events import problem_under
+from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time, run_attributes
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -58,7 +59,7 @@ def simulate(
         Material of the half-space, or a body of layers.
     load : LoadHistory or LoadProgram
         Force or approach, eccentricity and prescribed tilts over time. A program, whose segments
-        may end on conditions, is carried out once to find their instants; it needs grid and times.
+        may end on conditions, is carried out once to find their instants; it needs times.
     grid : Grid or AutomaticGrid, optional
         Cells that carry the pressure, or requirements on cells that the run chooses; chosen by
         the run as well when left out.
@@ -126,12 +127,12 @@ def simulate(
     1.58
     """
     report = reported(progress, ProgressBar("step", "errors" if errors else ""))
-    asked = indenter_material, tolerance, fields
-    problem = problem_under(
-        load,
-        lambda under, at: Problem(indenter, material, under, grid, at, *asked, motion=motion),
-        *(times, threads),
+    problem = Problem(
+        *(indenter, material, as_history(load), grid, times),
+        *(indenter_material, tolerance, fields),
+        motion=motion,
     )
+    problem = carried_out(problem, threads)
     run = prepare_run(problem, threads)
     started = clock.perf_counter()
     states: list[ContactState] = []
@@ -176,5 +177,6 @@ def labelled(
         "wall_time": wall_time,
         "warnings": "\n".join(warned),
         "grid_enlarged": "\n".join(enlargements(run.grid, states)),
+        **({} if bars is None else bars.attributes),
     }
     return to_dataset(states, fields, attributes, None if bars is None else bars.values)

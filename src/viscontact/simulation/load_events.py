@@ -8,26 +8,28 @@ in the steps. The history that results, of mixed control, is then run as any oth
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from dataclasses import asdict, replace
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from viscontact.contact.domain import ContactDomain
 from viscontact.errors import ConvergenceError
-from viscontact.loads import Condition, LoadHistory, LoadProgram, MixedHistory, Segment
-from viscontact.loads.history import Control
+from viscontact.loads import Condition, MixedHistory
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.observer import Observer
+from viscontact.simulation.program_course import EventError, ProgramCourse, never_happens
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.stepper import Stepper, TrialStep
 from viscontact.state import ContactState, Outcome
-from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
+from viscontact.time_integration.adaptive_steps import AdaptiveSteps
+from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, Step
 from viscontact.time_integration.requested_times import AdaptiveTimes
-from viscontact.units.formatting import format_quantity
 
 #: Error of the instant of an event that its search leaves, as a part of the step.
 SEARCH_TOLERANCE = 1e-9
@@ -39,183 +41,104 @@ LOST_MARGIN = 3.0
 #: Requested error of steps by which the hereditary integral of the search is planned [-].
 PLANNED_ERROR = 1e-3
 
-Times = ArrayLike | AdaptiveTimes | None
+#: Ends of the steps of a segment [s], from its number, its begin and its latest end.
+StepEnds = Callable[[int, float, float], NDArray[np.float64]]
 
 
-def problem_under(
-    load: LoadHistory | LoadProgram,
-    problem_of: Callable[[LoadHistory, Times], Problem],
-    times: Times,
-    threads: int = 1,
-) -> Problem:
-    """Return the problem under a load, or under the history that a load program comes to."""
-    if not isinstance(load, LoadProgram):
-        return problem_of(load, times)
-    return problem_of(*carry_out(load, problem_of, times, threads))
+class EventSearch:
+    """March over a load program, one segment after the other, up to the events that end them.
 
-
-def carry_out(
-    program: LoadProgram,
-    problem_of: Callable[[LoadHistory, Times], Problem],
-    times: Times,
-    threads: int = 1,
-) -> tuple[MixedHistory, NDArray[np.float64]]:
-    """March a load program and find the instants of its events.
-
-    Parameters
+    Attributes
     ----------
-    program : LoadProgram
-        The program.
-    problem_of : callable
-        Returns the problem under a load at given times; its grid must be given.
-    times : array_like
-        Requested instants; the last is the latest end [s].
-    threads : int
-        Threads of one Fourier transform.
-
-    Returns
-    -------
-    MixedHistory
-        The history that it was, with its events.
-    ndarray
-        Times of the run up to its end, with those of the events [s].
-
-    Raises
-    ------
-    ValueError
-        If a condition is not met by the last of the times, or the input is invalid.
-    ConvergenceError, DomainError
-        As in `march`.
+    states : list of ContactState
+        States at the ends of the steps, without fields.
+    reach : tuple of float
+        Largest distances of the contact from the middle of the grid along x and y so far [m].
     """
-    instants = _checked(times, problem_of)
-    way = _Way(program, float(instants[-1]))
-    run = prepare_run(problem_of(way.history(), AdaptiveTimes(way.latest, PLANNED_ERROR)), threads)
-    search = _Search(run, instants)
-    for number in range(1, len(program.segments) + 1):
-        found = search.march_segment(way)
-        if found is None and way.segment.until is not None:
-            raise ValueError(_never(way.segment, number, way.latest, search.state))
-        way.finish(search.state, found)
-        if way.is_over:
-            break
-    kept = instants[instants < search.state.time * (1 - KINK_TOLERANCE)]
-    ends = np.array(way.times[1:])
-    apart = np.abs(kept[:, None] - ends).min(axis=1) > KINK_TOLERANCE * ends[-1]
-    return way.history(), np.union1d(kept[apart], ends)
 
+    def __init__(
+        self, problem: Problem, course: ProgramCourse, step_ends: StepEnds | None, threads: int = 1
+    ) -> None:
+        """Take the steps of a function, or without one as the problem's adaptive times ask."""
+        self._course, self._step_ends = course, step_ends
+        self._stops = problem.instants
+        self._tolerance = problem.adaptive.tolerance if problem.adaptive else PLANNED_ERROR
+        times = AdaptiveTimes(course.latest, self._tolerance)
+        planned = replace(problem, load=course.history(), times=times, fields="none")
+        self._run: RunSetup = prepare_run(planned, threads)
+        self._domain: ContactDomain = domain_of(self._run)
+        self._stepper = Stepper(self._run, self._domain)
+        self._observer = Observer(self._run, warns=False)
+        self._last = Step(0.0, 0.0, 0.0, smooth=False)
+        trial, self._state = self._solved(self._last)
+        self._stepper.accept(self._last, trial)
+        self.states, self.reach = [self._state.without_fields()], (0.0, 0.0)
 
-class _Way:
-    """The part of a program that has been carried out, and the segment that follows."""
+    def carry_out(self) -> MixedHistory:
+        """March to the end of the program; EventError if a condition is never met."""
+        course = self._course
+        while not course.is_over:
+            first = len(self.states) - 1
+            met = self._march_segment()
+            if met is None and course.segment.until is not None:
+                raise EventError(never_happens(course, self.states[first:]))
+            course.finish(self._state, met)
+        return course.history()
 
-    def __init__(self, program: LoadProgram, latest: float) -> None:
-        self.program, self.latest = program, latest
-        self.times: list[float] = [0.0]
-        self.controls: list[Control] = []
-        self.begins: list[float] = []
-        self.ends: list[float] = []
-        self.events: list[str] = []
-        self.stopped = False
-        self._begin = 0.0
-
-    @property
-    def is_over(self) -> bool:
-        """True after the last segment, a stop, or the latest end."""
-        done = len(self.controls) == len(self.program.segments)
-        return done or self.stopped or self.times[-1] >= self.latest
-
-    @property
-    def segment(self) -> Segment:
-        """The segment that follows."""
-        segment = self.program.segments[len(self.controls)]
-        assert isinstance(segment, Segment)
-        return segment
-
-    @property
-    def planned_end(self) -> float:
-        """End of the segment that follows, if no condition is met before [s]."""
-        duration = self.segment.duration
-        return self.latest if duration is None else min(self.times[-1] + duration, self.latest)
-
-    @property
-    def conditions(self) -> list[Condition]:
-        """Conditions that end the segment that follows; the first is its own, if it has one."""
-        own = self.segment.until
-        return [each for each in (own, *self.program.stop) if isinstance(each, Condition)]
-
-    def history(self) -> MixedHistory:
-        """History so far, with the segment that follows up to its planned end."""
-        times, controls = list(self.times), list(self.controls)
-        begins, ends = list(self.begins), list(self.ends)
-        if not self.is_over:
-            end = self.planned_end
-            times.append(end)
-            controls.append(self.segment.control)
-            begins.append(self._begin)
-            ends.append(self._level(end))
-        tilts = self.program.tilt_x, self.program.tilt_y
-        return MixedHistory(times, controls, begins, ends, *tilts, self.events)
-
-    def _level(self, time: float) -> float:
-        level = self._begin + self.segment.rate * (time - self.times[-1])
-        return max(level, 0.0) if self.segment.control == "force" else level
-
-    def finish(self, state: ContactState, met: Condition | None) -> None:
-        """End the segment at a state, where a condition was met, or none."""
-        segment, values = self.segment, {"force": state.force, "approach": state.approach}
-        values[segment.control] = self._level(state.time)
-        if met is not None:
-            self.stopped = met is not segment.until
-            at = format_quantity(state.time, "s", 6)
-            self.events.append(f"{at}: {met}" + (", the run ends" if self.stopped else ""))
-            if met.scalar in values:
-                values[met.scalar] = met.value
-        self.times.append(state.time)
-        self.controls.append(segment.control)
-        self.begins.append(self._begin)
-        self.ends.append(values[segment.control])
-        if not self.is_over:
-            self._begin = values[self.segment.control]
-
-
-class _Search:
-    """March over a program, one segment after the other."""
-
-    def __init__(self, run: RunSetup, instants: NDArray[np.float64]) -> None:
-        self._run, self._instants = run, instants
-        self._domain: ContactDomain = domain_of(run)
-        self._stepper = Stepper(run, self._domain)
-        self._observer = Observer(run, warns=False)
-        step = Step(0.0, 0.0, None, smooth=False)
-        trial, self.state = self._solved(step)
-        self._stepper.accept(step, trial)
-
-    def march_segment(self, way: _Way) -> Condition | None:
+    def _march_segment(self) -> Condition | None:
         """March up to the end of the segment that follows, or to the first condition met."""
-        self._stepper.continue_under(way.history())
-        begin, now = self.state.time, self.state.time
-        for end in self._ends(begin, way.planned_end):
-            smooth = now > begin and now > 0
-            step = Step(end, end - now, None, smooth)
+        history, begin, end = self._course.history(), self._course.begin, self._course.planned_end
+        self._stepper.continue_under(history)
+        steps = self._given(begin, end) if self._step_ends else self._adaptive(history, end)
+        while (step := steps.next_step()) is not None:
             trial, state = self._solved(step)
+            if not steps.accept_step(trial.error.relative):
+                continue
             found = [
                 (*self._located(condition, step, state), condition)
-                for condition in way.conditions
-                if _crosses(condition, self.state, state)
+                for condition in self._course.conditions
+                if _crosses(condition, self._state, state)
             ]
-            if found:
-                step, trial, state, met = min(found, key=lambda each: each[0].time)
-            self._stepper.accept(step, trial)
-            refuse_rim(self._run, step, self._stepper.whole_solution(trial))
-            self.state, now = state, step.time
-            if found:
-                return met
+            if not found:
+                self._accept(step, trial, state)
+                continue
+            step, trial, state, met = min(found, key=lambda each: each[0].time)
+            self._accept(step, trial, state)
+            return met
         return None
 
-    def _ends(self, begin: float, end: float) -> Iterator[float]:
+    def _given(self, begin: float, end: float) -> FixedSteps:
+        """Steps through given instants within a segment, up to its end."""
+        assert self._step_ends is not None
+        wanted = self._step_ends(len(self._course.controls), begin, end)
         margin = KINK_TOLERANCE * end
-        inside = (self._instants > begin + margin) & (self._instants < end - margin)
-        yield from self._instants[inside].tolist()
-        yield end
+        inside = wanted[(wanted > begin + margin) & (wanted < end - margin)]
+        ends = [begin, *inside.tolist(), end]
+        return FixedSteps(
+            tuple(
+                Step(after, after - before, after, smooth=before > begin)
+                for before, after in itertools.pairwise(ends)
+            )
+        )
+
+    def _adaptive(self, history: MixedHistory, end: float) -> AdaptiveSteps:
+        """Steps that their error determines, after the last one."""
+        request = AdaptiveTimes(end, self._tolerance)
+        stops = self._stops[self._stops < end]
+        steps = AdaptiveSteps(request, stops, history, self._run.problem.surface.creep)
+        last = self._last
+        begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}
+        steps.restore({**begun, "step": asdict(last)})
+        steps.accept_step(0.0)  # goes on behind it, with a first step as behind any kink
+        return steps
+
+    def _accept(self, step: Step, trial: TrialStep, state: ContactState) -> None:
+        self._stepper.accept(step, trial)
+        refuse_rim(self._run, step, self._stepper.whole_solution(trial))
+        self._last, self._state = step, state
+        self.states.append(state.without_fields())
+        reach = _reach(self._run, state)
+        self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
 
     def _solved(self, step: Step) -> tuple[TrialStep, ContactState]:
         trial = self._stepper.trial(step)
@@ -232,13 +155,13 @@ class _Search:
 
         def excess(time: float) -> float:
             if time == begin:
-                return _excess(condition, self.state)
+                return _excess(condition, self._state)
             if time == step.time:
                 return _excess(condition, crossed)
             return _excess(condition, self._solved(_until(time))[1])
 
         def _until(time: float) -> Step:
-            return Step(time, time - begin, None, step.smooth)
+            return Step(time, time - begin, time, step.smooth)
 
         tolerance = SEARCH_TOLERANCE * step.duration
         met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))
@@ -246,6 +169,14 @@ class _Search:
         least = 2 * KINK_TOLERANCE * step.time
         located = _until(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
         return located, *self._solved(located)
+
+
+def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:
+    """Largest distances of the contact from the middle of the grid along x and y [m]."""
+    contact = state.pressure > 0
+    places = ((run.grid.x, contact.any(axis=1)), (run.grid.y, contact.any(axis=0)))
+    x, y = (float(np.abs(each[where]).max(initial=0.0)) for each, where in places)
+    return x, y
 
 
 def _excess(condition: Condition, state: ContactState) -> float:
@@ -266,31 +197,3 @@ def _crosses(condition: Condition, before: ContactState, after: ContactState) ->
     if condition.scalar == "contact":
         return first > 0 >= last
     return first != 0 and (last == 0 or (first > 0) != (last > 0))
-
-
-def _checked(times: Times, problem_of: Callable[..., Problem]) -> NDArray[np.float64]:
-    """Requested instants; refuses those that the run would choose, and grids that it would."""
-    if times is None or isinstance(times, AdaptiveTimes):
-        raise ValueError(
-            "times: a LoadProgram needs given instants, the last one its latest end; write e.g. "
-            "times=vc.uniform_times(10.0, 100)"
-        )
-    open_ended = MixedHistory([0.0, 1.0], ["approach"], [0.0], [0.0])
-    problem = problem_of(open_ended, times)
-    instants = problem.instants
-    if instants[-1] <= 0:
-        raise ValueError("times: the last one is the latest end of a LoadProgram, later than 0 s")
-    return instants
-
-
-def _never(segment: Segment, number: int, latest: float, state: ContactState) -> str:
-    assert isinstance(segment.until, Condition)
-    scalar = segment.until.scalar
-    now = ""
-    if scalar != "contact":
-        value = format_quantity(float(getattr(state, scalar)), segment.until.unit)
-        now = f", where it is {value}"
-    return (
-        f"load: segment {number} lasts until {segment.until}, which does not happen by the latest "
-        f"end at {format_quantity(latest, 's', 6)}{now}; give later times, or change the program"
-    )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Sequence
 from datetime import datetime, timedelta
 from typing import Any
 
@@ -12,6 +14,7 @@ from viscontact.loads import MixedHistory
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.simulation.setup import RunSetup
+from viscontact.units.formatting import format_quantity
 
 
 def date_and_time(ago: float = 0.0) -> str:
@@ -27,7 +30,7 @@ def date_and_time(ago: float = 0.0) -> str:
 def run_attributes(run: RunSetup) -> dict[str, Any]:
     """Return the attributes that every result of a run carries."""
     load = run.problem.load
-    events = {"events": "\n".join(load.events)} if isinstance(load, MixedHistory) else {}
+    events = event_attributes(load) if isinstance(load, MixedHistory) else {}
     return {
         "Conventions": "CF-1.11",
         "source": f"viscontact {__version__}",
@@ -40,6 +43,24 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "splitting_error": run.problem.surface.splitting_error,
         "inversion_error": run.problem.compliance.inversion_error,
         **events,
+    }
+
+
+def event_attributes(
+    load: MixedHistory, errors: Sequence[float] | None = None
+) -> dict[str, str | list[float]]:
+    """Return what ended the segments of a load program, and when: text, instants, errors [s]."""
+    events = load.events
+    stated = [math.nan] * len(events) if errors is None else list(errors)
+    lines = [
+        f"{format_quantity(event.time, 's', 6)}: {event.condition}"
+        + (f" (± {format_quantity(error, 's', 2)})" if math.isfinite(error) else "")
+        for event, error in zip(events, stated, strict=True)
+    ]
+    return {
+        "events": "\n".join(lines),
+        "event_times": [event.time for event in events],
+        "event_time_errors": stated,
     }
 
 

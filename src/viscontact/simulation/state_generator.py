@@ -12,11 +12,12 @@ from viscontact.errors import AccuracyWarning
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadProgram
+from viscontact.loads.mixed import as_history
 from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
-from viscontact.simulation.load_events import problem_under
+from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.march import March
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -52,7 +53,7 @@ def march(
         Material of the half-space, or a body of layers.
     load : LoadHistory or LoadProgram
         Force or approach, eccentricity and prescribed tilts over time. A program, whose segments
-        may end on conditions, is carried out once to find their instants; it needs grid and times.
+        may end on conditions, is carried out once to find their instants; it needs times.
     grid : Grid or AutomaticGrid, optional
         Cells that carry the pressure, or requirements on cells that the run chooses; chosen by
         the run as well when left out.
@@ -112,13 +113,12 @@ def march(
     0.0133
     """
     report = reported(progress, ProgressBar("step"))
-    asked = indenter_material, tolerance, fields
-    problem = problem_under(
-        load,
-        lambda under, at: Problem(indenter, material, under, grid, at, *asked, motion=motion),
-        *(times, threads),
+    problem = Problem(
+        *(indenter, material, as_history(load), grid, times),
+        *(indenter_material, tolerance, fields),
+        motion=motion,
     )
-    run = prepare_run(problem, threads)
+    run = prepare_run(carried_out(problem, threads), threads)
     return march_run(run, report)
 
 

@@ -44,6 +44,8 @@ _UNIT = re.compile(
         word=r"[A-Za-zµμΩ°%_]+(?:\s*(?:\^|\*\*)\s*-?\d|[⁻]?[¹²³⁴])?"
     )
 )
+#: Place of the power sign that is left out in "mm2".
+_PLAIN_POWER = re.compile(r"(?<=[A-Za-zµμ])(?=[234](?!\d))")
 _NOT_FINITE = re.compile(r"\s*[+-]?\.?(?:nan|inf|infinity)\b.*", re.IGNORECASE | re.DOTALL)
 
 
@@ -198,6 +200,7 @@ def _factor(unit: str, text: str, wanted: Dimension) -> float:
 @functools.lru_cache(maxsize=256)
 def _conversion(unit: str) -> tuple[float, str]:
     """Factor of a unit to SI base units, and these."""
+    unit = _PLAIN_POWER.sub("^", unit)
     if unit in COMMON_UNITS:
         return COMMON_UNITS[unit]
     plain = re.sub(r"[·×]", "*", unit)

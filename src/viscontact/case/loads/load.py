@@ -10,6 +10,7 @@ from viscontact import loads
 from viscontact.case.loads.base import Controlled, Load, force_or_approach
 from viscontact.case.loads.history import History
 from viscontact.case.loads.levels import APPROACH_EXAMPLE, ForceOrApproach
+from viscontact.case.loads.program import Program
 from viscontact.case.quantities import (
     Angle,
     CycleCount,
@@ -93,6 +94,6 @@ class Harmonic(Load):
 
 
 AnyLoad = Annotated[
-    Step | Ramp | Triangle | Harmonic | History,
+    Step | Ramp | Triangle | Harmonic | History | Program,
     Field(discriminator="kind"),
 ]

@@ -30,6 +30,7 @@ from viscontact.results.contact_spots import last_spots
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_case import prescribes_approach
+from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import SPEED, TIME, run_axis
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
 from viscontact.results.variables import AXES, SCALARS, Place, shown_in
@@ -67,6 +68,8 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
         console.print(line, highlight=False)
     if spots := last_spots(ds):
         console.print(spots.text, highlight=False, soft_wrap=True)
+    for event in recorded_events(ds):
+        console.print(f"event at {event.text}", highlight=False, soft_wrap=True)
     for line in verdict_lines(ds):
         console.print(line, highlight=False)
     if ended := early_end(ds):

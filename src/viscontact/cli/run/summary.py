@@ -18,6 +18,7 @@ from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_l
 from viscontact.cli.results.verdict_lines import verdict_lines
 from viscontact.results.contact_spots import last_spots
 from viscontact.results.netcdf import open_results
+from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.summary import SummaryRow, legend, summary_rows
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
@@ -54,6 +55,8 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
         console.print(line, highlight=False)
     if spots := last_spots(ds):
         console.print(spots.text, highlight=False, soft_wrap=True)
+    for event in recorded_events(ds):
+        console.print(f"event at {event.text}", highlight=False, soft_wrap=True)
     for line in verdict_lines(ds):
         console.print(line, highlight=False)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():

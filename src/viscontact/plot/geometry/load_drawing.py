@@ -48,11 +48,18 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
     axes = figure.subplots()
     axes.plot(time_unit(times), unit(levels), color=style.LINE, linewidth=style.LINE_WIDTH)
     axes.axhline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
-    axes.set(xlabel=time_unit.label("Time"), ylabel=unit.label(load.control.capitalize()))
+    axes.set(xlabel=time_unit.label("Time"), ylabel=unit.label(_quantity(load)))
     margin = 0.02 * end
     axes.set_xlim(*time_unit([-margin, end + margin]))
     style.dress(axes)
     return figure
+
+
+def _quantity(load: LoadHistory) -> str:
+    """What the curve shows."""
+    if load.control == "mixed":
+        return "Share of the largest load"
+    return load.control.capitalize()
 
 
 def _curve(load: LoadHistory, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
@@ -24,6 +25,7 @@ from viscontact.plot.layout.error_band import (
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import across_period, is_prescribed
+from viscontact.results.recorded_events import recorded_events
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import (
     NOT_DRAWN,
@@ -39,6 +41,10 @@ _NAME = "history"
 
 #: Relative change, error included, below which a quantity is constant.
 _ROUNDING = 1e-6
+
+#: Look of the line at an event, and letters of its note on an inch.
+_EVENT_LINE: dict[str, Any] = {"color": style.FAINT, "linestyle": ":", "linewidth": style.THIN_LINE}
+_LETTERS_AN_INCH = 17
 
 
 def history(
@@ -138,7 +144,9 @@ def history_with_load(results: xr.Dataset) -> Figure:
 
 def _figure(runs: Mapping[str, xr.Dataset], names: Sequence[str], width: Width | None) -> Figure:
     figure, panels = _panels(len(names), page_width(width, style.TWO_COLUMNS))
-    _, bands = draw_scalars(panels, names, runs)
+    time_unit, bands = draw_scalars(panels, names, runs)
+    if len(runs) == 1:
+        _mark_events(figure, panels, next(iter(runs.values())), time_unit)
     _add_key(figure, panels, list(runs), bands)
     return figure
 
@@ -221,6 +229,23 @@ def _draw(
         left_out = f"{missing} of {len(runs)} runs not drawn:\n" if 0 < missing < len(runs) else ""
         style.add_heading(axes, left_out + peak_note(runs.values()), aside=True)
     return drawn
+
+
+def _mark_events(
+    figure: Figure, panels: list[Axes], run: xr.Dataset, time_unit: ReadableUnit
+) -> None:
+    """Dotted lines at the events of a load program in the span, and their names below."""
+    first, last = run["time"].values[[0, -1]]
+    events = [event for event in recorded_events(run) if first <= event.time <= last]
+    for event in events:
+        for axes in panels:
+            axes.axvline(float(time_unit(event.time)), **_EVENT_LINE)
+    if events:
+        text = "Dotted: " + "; ".join(event.text for event in events)
+        letters = int(_LETTERS_AN_INCH * figure.get_figwidth())
+        note = "\n".join(textwrap.wrap(text, letters))
+        style.add_height_of_legend(figure, note.count("\n") + 1)
+        figure.supxlabel(note, fontsize=style.TICK_SIZE, color=style.FAINT)
 
 
 def _say_not_drawn(axes: Axes) -> None:

@@ -196,7 +196,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
         The attributes replace those of the contents.
         """
-        described = {**self._contents.attributes, **(attributes or {})}
+        found = {} if bars is None else bars.attributes
+        described = {**self._contents.attributes, **found, **(attributes or {})}
         self._contents = replace(self._contents, attributes=described)
         if bars is not None:
             with self._guard.writing():

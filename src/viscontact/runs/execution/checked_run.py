@@ -67,14 +67,19 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
 
 
 def prepare(
-    path: Path, settings: Sequence[str], threads: int = 1, memory: float | None = None
+    path: Path,
+    settings: Sequence[str],
+    threads: int = 1,
+    memory: float | None = None,
+    *,
+    roughly: bool = False,
 ) -> PreparedRun:
     """Read a case and check everything that can be checked before the first step.
 
-    It may need some memory [bytes]; by default what is free.
+    It may need some memory [bytes]; by default what is free. `roughly` as in `prepared`.
     """
     try:
-        return prepared(read_case(path, settings), threads, memory)
+        return prepared(read_case(path, settings), threads, memory, roughly=roughly)
     except CaseError as error:
         refuse(*error.problems)
 

@@ -12,6 +12,7 @@ from typing import Any, Self
 
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
+from viscontact.loads import MixedHistory
 from viscontact.problem.problem import Problem
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.differences import NOTHING, differences
@@ -26,6 +27,7 @@ from viscontact.runs.execution.run_directory import refuse_no_directory, reserve
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.executors.task import ONE_AT_A_TIME, Outcome
 from viscontact.runs.processes.request import DONE, INTERRUPTED, STOPPED
+from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.setup import prepare_run
 
 _INTERRUPTED = Outcome("interrupted", INTERRUPTED)
@@ -72,6 +74,7 @@ class SimulationTask:
 def recorded_simulation(arguments: Mapping[str, Any], directory: Path) -> RecordedRun:
     """Return the checked run of arguments of `simulate`; ValueError or TypeError if refused."""
     problem, threads, errors = _problem(arguments)
+    problem = carried_out(problem, threads)
     run = prepare_run(problem, threads)
     return RecordedRun(directory, run, problem.fields, errors=errors)
 
@@ -92,6 +95,11 @@ def _case_at_once(arguments: Mapping[str, Any]) -> dict[str, Any]:
     case = plain_case(problem, given, problem.fields, errors=errors)
     if problem.awaits_cells:
         del case["times"]
+    if isinstance(problem.load, MixedHistory) and problem.load.awaits_events:
+        # What follows from its events is not known: its course, the times, and the rest of these.
+        for name in ("times", "fields", "adaptive", "automatic"):
+            del case[name]
+        case["load"] = {"program": case["load"]["program"]}
     return case
 
 
@@ -113,7 +121,10 @@ def change_of_results(arguments: Mapping[str, Any], directory: Path) -> str:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the run will warn
         case = _case_at_once(arguments)
-    changes = differences({key: stored.case.get(key, NOTHING) for key in case}, case)
+    before = {key: stored.case.get(key, NOTHING) for key in case}
+    if set(case["load"]) == {"program"} and isinstance(before["load"], dict):
+        before["load"] = {"program": before["load"].get("program", NOTHING)}
+    changes = differences(before, case)
     return f"results of other arguments: {changes[0]}" if changes else ""
 
 

@@ -88,7 +88,7 @@ def common_cells(
     """
     available = available_memory() if memory is None else memory
     chosen = [(*settings, *design.settings(row)) for row in extreme_rows(design)]
-    runs = [prepare(case, each, threads, memory).run for each in chosen]
+    runs = [prepare(case, each, threads, memory, roughly=True).run for each in chosen]
     dx, dy = np.min([run.grid.cell_size for run in runs], axis=0).tolist()
     return CommonCells((dx, dy), all(_is_affordable(run, (dx, dy), available) for run in runs))
 

@@ -41,7 +41,7 @@ class CaseReader:
             whole, expected = self._last[text]
             return whole, replace(expected, available=available_memory())
         try:
-            whole = prepared(read_case_text(text, self.folder.case))
+            whole = prepared(read_case_text(text, self.folder.case), roughly=True)
             found = whole, predicted(whole)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
@@ -79,12 +79,16 @@ class CaseReader:
         settings = coarse_settings(whole, expected)
         try:
             try:
-                return prepared(read_case_text(text, self.folder.case, settings)), settings
+                return self._coarse(text, settings), settings
             except CaseError:  # such as waves that need their cells
                 settings = without_cells(settings)
-                return prepared(read_case_text(text, self.folder.case, settings)), settings
+                return self._coarse(text, settings), settings
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
+
+    def _coarse(self, text: str, settings: tuple[str, ...]) -> PreparedRun:
+        """Read and check a case with coarser settings."""
+        return prepared(read_case_text(text, self.folder.case, settings), roughly=True)
 
     def check(self, text: str, quality: str) -> dict[str, Any]:
         """Check a case, and return its size, its computing time and the results to expect."""

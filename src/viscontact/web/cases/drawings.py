@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 
 from viscontact.case import Case, CaseError, Parts
+from viscontact.loads import MixedHistory
 from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
@@ -53,6 +54,8 @@ def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> li
         if what == "indenter":
             return [Drawing(_indenter(*cases.forecast(text), width)), *_spectra(case, width)]
         if what == "load":
+            if isinstance(case.load, MixedHistory):  # carried out for the forecast
+                case = cases.forecast(text)[0].case
             return [Drawing(draw_load(case.load, case.end))]
         return list(_material(case, what, width))
     except CaseError as error:
@@ -76,6 +79,8 @@ def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
     try:
         if what == "indenter" and parts.indenter is not None:
             return draw_indenter(parts.indenter, natural_size(parts.indenter), width=width)
+        if what == "load" and isinstance(parts.load, MixedHistory):
+            return None  # nothing is known of its course
         if what == "load" and parts.load is not None:
             end = parts.end or float(parts.load.kinks[-1])
             return draw_load(parts.load, end)

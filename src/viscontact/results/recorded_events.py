@@ -1,0 +1,27 @@
+"""Events of a load program that a result records."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+
+class RecordedEvent(NamedTuple):
+    """Event of a result."""
+
+    time: float  # [s]
+    text: str  # instant, condition and error, in words
+
+
+def recorded_events(ds: xr.Dataset) -> list[RecordedEvent]:
+    """Return the events of a result in their order; none for other loads than programs.
+
+    >>> about = {"events": "218 ms: force reaches 50 mN", "event_times": 0.218}
+    >>> recorded_events(xr.Dataset(attrs=about))
+    [RecordedEvent(time=0.218, text='218 ms: force reaches 50 mN')]
+    """
+    lines = str(ds.attrs.get("events", "")).splitlines()
+    times = np.atleast_1d(ds.attrs.get("event_times", [])).tolist()  # netCDF has no list of one
+    return [RecordedEvent(float(time), line) for time, line in zip(times, lines, strict=False)]
