@@ -129,3 +129,25 @@ def test_friction_of_a_rolling_roller_is_its_lever_over_its_radius(tmp_path: Pat
         # The cells of the example, 218 um, and the form by the dissipation differ by their bars.
         lever = ds.eccentricity_y / 20e-3
         assert ds.friction_coefficient.values == pytest.approx(lever.values, rel=0.03)
+
+
+def test_instrument_meets_its_conditions_as_lee_radok_and_ting_say(tmp_path: Path) -> None:
+    ds = run_as_a_user("afm-record", tmp_path)
+    reached, lost = ds.attrs["event_times"]
+    # Lee & Radok (1960): F = (4/3) sqrt(R) int M(t - t') d(v t')^(3/2), M = 4 G.
+    law = vc.RelaxationSeries(500.0, [300.0, 200.0], [0.1, 1.0])
+    u = np.linspace(0.0, math.sqrt(reached), 20001)
+    grown = np.trapezoid(4 * law.relaxation(reached - u * u) * 3 * u * u, u)
+    assert 4 / 3 * math.sqrt(5e-6) * 4e-7**1.5 * grown == pytest.approx(1.5e-9, rel=1e-3)
+    # Ting (1966), for the approach of the whole record.
+    gel = vc.Material(law, 0.5)
+    exact = reference.press_axisymmetric(
+        reference.SphereProfile(5e-6),
+        ds.time.values,
+        approach=ds.approach.values,
+        creep_compliance=gel.contact_compliance(),
+        substeps=4,
+    )
+    assert np.abs(ds.force.values - exact.force).max() < 3e-3 * 1.5e-9
+    assert ds.force[-1] == 0
+    assert lost == float(ds.time[-1])
