@@ -92,6 +92,7 @@ from .materials.material import Material as Material
 from .report import write_report as write_report
 from .results.contact_spots import contact_spots as contact_spots
 from .results.interface_stresses import interface_stresses as interface_stresses
+from .results.margins import margins as margins
 from .results.netcdf import open_results as open_results
 from .results.netcdf import save as save
 from .results.stresses import section_stresses as section_stresses

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import re
@@ -16,6 +17,7 @@ import viscontact as vc
 from viscontact.case import CaseError, read_case
 from viscontact.case.allowable import MOVING, NOT_STEADY, Allowable
 from viscontact.cli import main
+from viscontact.plot import margin_history
 from viscontact.report import report_page, sweep_page
 from viscontact.results import variables
 from viscontact.results.variables import STRESSES
@@ -181,11 +183,84 @@ def test_show_prints_each_verdict(directory: Path, capsys: pytest.CaptureFixture
     assert "passed: approach" in printed
 
 
+def test_margin_is_the_part_of_the_limit_that_a_value_with_its_error_leaves() -> None:
+    limits = {"allowable": json.dumps({"peak_pressure": {"limit": 10.0}})}
+    ds = run([-4.0, 12.0, 5.0, 5.0], [1.0, 1.0, math.nan, math.inf], **limits)
+    expected = [0.5, -0.3, math.nan, -math.inf]
+    np.testing.assert_allclose(vc.margins(ds).margin_peak_pressure, expected)
+    assert vc.margins(ds).margin_peak_pressure.attrs["units"] == "1"
+    assert verdict_on(ds, "peak_pressure", 10.0).shown_margin == "−30 %"
+    assert not vc.margins(ds.assign_attrs(allowable="{}")).data_vars
+
+
+def test_margin_grows_as_the_pressure_of_a_creeping_body_falls(
+    directory: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with vc.open_results(directory) as ds:
+        found = vc.margins(ds)
+        _, line, _ = margin_history(ds).axes[0].lines  # the limit, and both scalars
+        np.testing.assert_allclose(line.get_ydata(), 100 * found.margin_peak_pressure)
+        assert set(found.data_vars) == {"margin_peak_pressure", "margin_approach"}
+        # Lee and Radok (1960): the contact grows, so that p0 follows the modulus^(2/3) of the time;
+        # the compliance has grown by 1 - exp(-1) at 10 s, the delay of the body.
+        first, *_, last = 1 - found.margin_peak_pressure.values
+        assert last / first == pytest.approx((2 - math.exp(-1)) ** (-2 / 3), rel=0.05)
+        assert (np.diff(found.margin_approach) < 0).all()
+        # Hertz: p0 = (6 F E*^2 / (pi^3 R^2))^(1/3), E* = 2 G / (1 - nu).
+        peak = (6 * 5.0 * (2e9 / 0.6) ** 2 / (math.pi**3 * 10e-3**2)) ** (1 / 3)
+        assert float(found.margin_peak_pressure[0]) == pytest.approx(1 - peak / 1e6, rel=0.05)
+    main(["show", str(directory)])
+    assert re.search(r"allowable 1 mm, margin 9\d.* %", " ".join(capsys.readouterr().out.split()))
+
+
+def test_export_has_the_margins_and_the_pressure_at_points(
+    directory: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = folder / "life.csv"
+    points = ["--point", "0 mm,0 mm", "--point", "100 um,0.05 mm"]
+    assert main(["export", str(directory), "-o", str(out), *points]) == 0
+    with out.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    with vc.open_results(directory) as ds:
+        for row, margin in zip(rows, vc.margins(ds).margin_peak_pressure.values, strict=True):
+            assert float(row["margin_peak_pressure"]) == margin
+        middle, aside = (
+            np.array([float(row[name] or "nan") for row in rows])
+            for name in rows[0]
+            if name.startswith("pressure at ")
+        )
+        # Hertz: p = p0 sqrt(1 - r^2 / a^2), on cells of 37.5 um
+        half = np.sqrt(ds.contact_area.values / math.pi)
+        r = math.hypot(100e-6, 50e-6)
+        expected = ds.peak_pressure.values * np.sqrt(1 - (r / half) ** 2)
+        np.testing.assert_allclose(aside, expected, rtol=0.03)
+        np.testing.assert_allclose(middle, ds.peak_pressure.values, rtol=0.02)
+
+
+@pytest.mark.parametrize(
+    ("point", "why"),
+    [
+        ("1 mm", "--point: write X,Y with units, as '1 mm,0 mm', got '1 mm'"),
+        ("1 N,0 mm", "--point: cannot read '1 N' as a length"),
+        ("1 m,0 mm", "--point: x = 1 m is beyond the cells, which go from "),
+    ],
+)
+def test_point_that_does_not_fit_is_refused_in_one_line(
+    directory: Path, folder: Path, point: str, why: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["export", str(directory), "-o", str(folder / "no.csv"), "--point", point]) == 2
+    said = capsys.readouterr().err
+    assert why in said
+    assert said.count("\n") == 1
+    assert not (folder / "no.csv").exists()
+
+
 def test_report_has_a_chapter_of_verdicts(directory: Path) -> None:
     with vc.open_results(directory) as ds:
         page = report_page(ds)
         assert '<td class="failed" data-head="verdict">failed</td>' in page
         assert '<a href="#allowable">Allowable values</a>' in page
+        assert "Margin of each scalar with its error, over time." in page
         without = report_page(ds.assign_attrs(allowable="{}"))
     assert "Allowable values" in page
     assert "Allowable values" not in without

@@ -25,6 +25,7 @@ from viscontact.plot.histories.contact_area import contact_area
 from viscontact.plot.histories.exact import exact
 from viscontact.plot.histories.history import compare_histories, history
 from viscontact.plot.histories.hysteresis import compare_hysteresis, hysteresis
+from viscontact.plot.histories.margins import margin_history
 from viscontact.plot.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.plot.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.plot.materials.creep import compare_creep, creep, creep_curve
@@ -124,6 +125,7 @@ __all__ = [
     "hysteresis",
     "indenter",
     "line_load",
+    "margin_history",
     "master_curve",
     "material_curves",
     "motion_profile",

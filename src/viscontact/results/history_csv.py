@@ -3,24 +3,60 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from typing import IO
 
 import xarray as xr
 
+from viscontact.results.margins import margins
 from viscontact.results.run_axis import run_axis
+from viscontact.results.snapshots import field_times
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.state import Outcome
+from viscontact.units.formatting import format_quantity
 
 
-def write_history(ds: xr.Dataset, file: IO[str]) -> None:
+def write_history(
+    ds: xr.Dataset, file: IO[str], points: Sequence[tuple[float, float]] = ()
+) -> None:
     """Write all scalars of a result and their errors in SI units with every digit.
 
-    A row is an instant, or a speed in steady motion.
+    A row is an instant, or a speed in steady motion. Behind them are the margins to the allowable
+    values, and the pressure at some points (x, y) [m], empty where no fields are stored.
     """
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(_header(ds))
-    writer.writerows(_rows(ds))
+    further = {**_margins(ds), **_pressures(ds, points)}
+    writer.writerow([*_header(ds), *further])
+    for number, row in enumerate(_rows(ds)):
+        cells = (column[number] for column in further.values())
+        writer.writerow([*row, *("" if math.isnan(cell) else cell for cell in cells)])
+
+
+def _margins(ds: xr.Dataset) -> dict[str, list[float]]:
+    found = margins(ds)
+    return {str(name): found[name].values.tolist() for name in found.data_vars}
+
+
+def _pressures(ds: xr.Dataset, points: Sequence[tuple[float, float]]) -> dict[str, list[float]]:
+    """Pressure at points over the rows [Pa], bilinear between the centres of the cells."""
+    if not points:
+        return {}
+    axis = run_axis(ds)
+    stored, rows = field_times(ds, "export"), axis.values(ds)
+    found = {}
+    for x, y in points:
+        for name, place in (("x", x), ("y", y)):
+            low, high = float(ds[name][0]), float(ds[name][-1])
+            if low < high and not low <= place <= high:
+                raise ValueError(
+                    f"{name} = {format_quantity(place, 'm')} is beyond the cells, which go from "
+                    f"{format_quantity(low, 'm')} to {format_quantity(high, 'm')}"
+                )
+        known = dict(zip(stored.tolist(), _at(ds["pressure"], x=x, y=y).values, strict=True))
+        column = [float(known.get(row, math.nan)) for row in rows.tolist()]
+        found[f"pressure at x={x:.12g} m y={y:.12g} m [Pa]"] = column
+    return found
 
 
 def _header(ds: xr.Dataset) -> Iterator[str]:
@@ -51,3 +87,11 @@ def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
         cells: list[object] = [number.item() for number in row]
         cells[place] = Outcome(int(row[place])).name.lower()
         yield cells
+
+
+def _at(field: xr.DataArray, **place: float) -> xr.DataArray:
+    """Field at a place; along a single cell of a period it is the same everywhere."""
+    for name, coordinate in place.items():
+        single = field.sizes[name] == 1
+        field = field.isel({name: 0}) if single else field.interp({name: coordinate})
+    return field

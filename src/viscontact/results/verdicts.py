@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from viscontact.results.formatting import format_with_error
+from viscontact.results.formatting import format_percent, format_with_error
 from viscontact.results.peak_stress import peak_stress
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
@@ -48,6 +48,25 @@ class Verdict:
     def allowed(self) -> str:
         """The limit with its unit."""
         return format_quantity(self.limit, self.units)
+
+    @property
+    def margin(self) -> float:
+        """Part of the limit that the value with its error leaves, (a - v - e) / a.
+
+        NaN without a value or a known error, -inf if the value depends on the mesh.
+
+        >>> Verdict("force", 10.0, "passed", 7.0, 1.0).margin
+        0.2
+        """
+        return (self.limit - self.value - self.error) / self.limit
+
+    @property
+    def shown_margin(self) -> str:
+        """The margin in percent, empty where it is not known or without a limit."""
+        if not math.isfinite(self.margin):
+            return ""
+        sign = "−" if self.margin < 0 else ""
+        return f"{sign}{format_percent(abs(self.margin))}"
 
     @property
     def found(self) -> str:

@@ -36,6 +36,14 @@ def export(
         Path | None,
         typer.Option("-o", "--output", metavar="FILE.csv", help="CSV file; stdout by default."),
     ] = None,
+    point: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--point",
+            metavar="X,Y",
+            help="Add the pressure at a point, e.g. '1 mm,0 mm', at the stored instants; repeated.",
+        ),
+    ] = None,
 ) -> None:
     """Write the history of a run as CSV, in SI units."""
     from viscontact.cli.results.history_table import write_csv
@@ -44,7 +52,7 @@ def export(
     if output is not None and output.suffix == ".nc":
         refuse(f"{output}: is the name of a result file; name a CSV file, e.g. -o history.csv")
     with opened(directory) as ds:
-        write_csv(ds, output)
+        write_csv(ds, output, point or ())
 
 
 def report(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
@@ -40,6 +41,7 @@ from viscontact.units.formatting import (
     readable_unit,
     without_trailing_zeros,
 )
+from viscontact.units.parsing import parse_quantity
 
 _ROWS = 20
 _FRICTION = "friction_coefficient"
@@ -88,16 +90,30 @@ def _shown(ds: xr.Dataset) -> list[str]:
     return [*friction, *(name for name in shown if name not in left_out)]
 
 
-def write_csv(ds: xr.Dataset, output: Path | None) -> None:
-    """Write all scalars in SI units, one row per instant or speed."""
+def write_csv(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ()) -> None:
+    """Write all scalars in SI units, one row per instant or speed, and the pressure at points."""
+    written = io.StringIO()
+    try:
+        write_history(ds, written, [_point(text) for text in points])
+    except ValueError as error:
+        refuse(f"--point: {error}")
     if output is None:
-        write_history(ds, sys.stdout)
+        sys.stdout.write(written.getvalue())
         return
     try:
         with output.open("w", encoding="utf-8", newline="") as file:
-            write_history(ds, file)
+            file.write(written.getvalue())
     except OSError as error:
         refuse(f"{output}: cannot be written: {error}")
+
+
+def _point(text: str) -> tuple[float, float]:
+    """Read a point, ``X,Y`` with units; ValueError names the fault."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise ValueError(f"write X,Y with units, as '1 mm,0 mm', got {text!r}")
+    x, y = (parse_quantity(part, "length") for part in parts)
+    return x, y
 
 
 def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:

@@ -23,4 +23,5 @@ def _compared(ds: xr.Dataset, each: Verdict) -> str:
     name = each.label[:1].lower() + each.label[1:]
     found = f" {each.found} at {run_axis(ds).place(each.at)}" if each.found else ""
     reason = f"; {each.reason}" if each.reason else ""
-    return f"{name}{found}, allowable {each.allowed}{reason}"
+    margin = f", margin {each.shown_margin}" if each.shown_margin else ""
+    return f"{name}{found}, allowable {each.allowed}{margin}{reason}"
