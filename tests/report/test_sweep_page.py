@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from figures.figure_data import figures_in
 from synthetic_sweeps import hertz_sweep
 from viscontact.report import sweep_page, write_sweep_report
 from viscontact.report.sweep_page import MOST_ROWS
@@ -28,8 +29,11 @@ def test_page_has_a_row_for_each_run(tmp_path: Path) -> None:
     assert [row[:3] for row in rows] == [["0", "done", "1"], ["1", "done", "8"], ["2", "done", "2"]]
     # 1000**(2/3) and 8000**(2/3)
     assert [row[3] for row in rows[:2]] == ["100 ± 10", "400 ± 40"]
-    assert page.count("<img") == 1
-    assert "<script" not in page
+    # A figure for each scalar, as its place and as data.
+    figures = figures_in(page)
+    assert list(figures) == ["response-approach", "response-contact_area", "response-peak_pressure"]
+    assert [f'id="{name}"' in page for name in figures] == 3 * [True]
+    assert "<img" not in page
 
 
 def test_runs_without_a_result_are_listed_with_their_message() -> None:
@@ -41,14 +45,14 @@ def test_runs_without_a_result_are_listed_with_their_message() -> None:
     page = sweep_page(ds, title=MARKUP)
     assert "run 1 (failed): grid: the rim" in page
     assert cells(page)[2] == ["1", "failed", "8", "", "", ""]
-    assert "<script" not in page
+    assert "<script>alert" not in page
 
 
 def test_page_without_any_result_has_no_figure() -> None:
     ds = hertz_sweep(load__force=FORCES)[["state", "message"]]
     ds["state"][:] = "fail"
     page = sweep_page(ds, title="none")
-    assert "<img" not in page
+    assert "<script" not in page
     assert len(cells(page)) == 4
 
 

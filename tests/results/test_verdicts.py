@@ -279,8 +279,12 @@ def test_table_of_a_sweep_has_the_worst_verdict_of_each_run(
     ds = vc.open_many(folder / "sweep")
     assert ds["verdict"].values.tolist() == ["passed", "failed"]
     page = sweep_page(ds, title="sweep")
-    assert re.findall(r'data-head="verdict">(passed|failed)<', page) == ["passed", "failed"]
+    assert ds["decided_by"].values.tolist() == ["", "peak_pressure"]
+    shown = re.findall(r'data-head="verdict">([^<]*)<', page)
+    assert shown == ["passed", "failed: peak pressure"]
     assert main(["collect", str(folder / "sweep"), "-o", str(folder / "sweep.csv")]) == 0
     header, *lines = (folder / "sweep.csv").read_text(encoding="utf-8").splitlines()
     place = header.split(",").index("verdict")
     assert [line.split(",")[place] for line in lines] == ["passed", "failed"]
+    assert header.split(",")[place + 1] == "decided_by"
+    assert [line.split(",")[place + 1] for line in lines] == ["", "peak_pressure"]

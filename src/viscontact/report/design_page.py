@@ -45,6 +45,7 @@ def write_design_report(
         generator=f"viscontact {__version__}",
         title=written(element("title", title)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
+        scripts="",
         body="\n".join(map(written, _chapters(table, runs, title, headline))),
     )
     Path(path).write_text(page, encoding="utf-8")

@@ -11,17 +11,16 @@ from xml.etree.ElementTree import Element
 
 import xarray as xr
 from plotly.graph_objects import Figure
-from plotly.offline import get_plotlyjs
 
 from viscontact import __version__
 from viscontact.figures.histories import histories
-from viscontact.figures.look import plain
 from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import outlines, pressure_map
 from viscontact.figures.sections import sections
 from viscontact.figures.shown_fields import ShownFields, shown_fields
-from viscontact.notebook.html import as_script, element, written
+from viscontact.notebook.html import element, written
 from viscontact.report import input_chapters, result_chapters
+from viscontact.report.scripts import scripts_of
 from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
@@ -117,16 +116,8 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         title=written(element("title", name)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
         body="\n".join(map(written, _body(name, ds, fields, over_run))),
-        figures=as_script([plain(each) for each in drawn]),
-        plotly=get_plotlyjs(),
-        linked=_linked(),
+        scripts=scripts_of(drawn),
     )
-
-
-def _linked() -> str:
-    """Script of the figures, which is a module on the calculator page, as part of another."""
-    script = (files("viscontact.figures") / "linked.js").read_text(encoding="utf-8")
-    return script.replace("export function", "function")
 
 
 def _fields(ds: xr.Dataset) -> ShownFields | None:

@@ -113,9 +113,9 @@ def history_chapter(
         class_="downloads",
     )
     yield element("h3", "Load" if motion_axis(ds) is None else "Load and motion")
-    yield element("div", *map(_panel, load), class_="panels")
+    yield element("div", *map(panel, load), class_="panels")
     yield element("h3", "Contact")
-    yield element("div", *map(_panel, response), class_="panels")
+    yield element("div", *map(panel, response), class_="panels")
     legend = "Shaded: the error of each value. "
     if any(each.layout.meta["note"] == MESH_DEPENDENT for each in response):
         legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
@@ -235,7 +235,8 @@ def _scale_button(ds: xr.Dataset) -> Element | None:
     return element("button", text, type="button", id="time-scale", data_shown=shown, **words)
 
 
-def _panel(figure: Figure) -> Element:
+def panel(figure: Figure) -> Element:
+    """Place of an interactive figure below its title."""
     about = figure.layout.meta
     note = element("span", f" ({about['note']})") if about["note"] else None
     return element(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib.resources import files
 from pathlib import Path
 from string import Template
@@ -12,12 +12,15 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
+from plotly.graph_objects import Figure
 
 from viscontact import __version__
+from viscontact.figures.responses import responses
 from viscontact.notebook.html import element, written
 from viscontact.plot.layout.saving import as_svg
 from viscontact.plot.sweeps.response import response
-from viscontact.report.result_chapters import heading_of
+from viscontact.report.result_chapters import heading_of, panel
+from viscontact.report.scripts import scripts_of
 from viscontact.report.title_block import file_lines, title_lines
 from viscontact.report.verdict_chapter import LEGEND
 from viscontact.results.formatting import format_with_error_in
@@ -32,7 +35,7 @@ from viscontact.results.largest_values import (
 )
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT
 from viscontact.results.variables import SCALARS
-from viscontact.results.verdicts import stated_limits
+from viscontact.results.verdicts import limits_of, stated_limits
 from viscontact.units.formatting import format_compact, readable_unit
 
 #: Most rows of the table, and most runs with a message.
@@ -53,23 +56,30 @@ def sweep_page(ds: xr.Dataset, *, title: str) -> str:
     It has the title block, the number of runs in each state, a figure of the chief scalars over the
     varied keys, a row for each run, and the input files.
     """
-    folder = files("viscontact.report")
+    folder, figures = files("viscontact.report"), _interactive(ds)
     template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
     return template.substitute(
         generator=f"viscontact {__version__}",
         title=written(element("title", sweep_heading(ds, title))),
         style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, sweep_chapters(ds, title))),
+        body="\n".join(map(written, sweep_chapters(ds, title, figures))),
+        scripts=scripts_of(figures),
     )
 
 
-def sweep_chapters(ds: xr.Dataset, title: str) -> Iterator[Element]:
-    """Yield title block, states, figure of the response, table of the runs, and input files."""
+def sweep_chapters(
+    ds: xr.Dataset, title: str, figures: Sequence[Figure] | None = None
+) -> Iterator[Element]:
+    """Yield title block, states, figures of the response, table of the runs, and input files.
+
+    The response is a drawing, unless places for interactive figures are wanted.
+    """
     heading = element("h1", sweep_heading(ds, title))
     yield from title_lines(ds, "First run started")
     yield element("header", heading, _states(ds), _reasons(ds), _changes(ds))
     if (ds["state"] == "done").any():
-        yield element("section", element("h2", "Response"), *_figure(ds))
+        response = _figure(ds) if figures is None else _panels(ds, figures)
+        yield element("section", element("h2", "Response"), *response)
     yield element("section", element("h2", "Runs"), *_limits(ds), *_table(ds))
     if files := list(file_lines(ds)):
         yield element("section", *files)
@@ -105,19 +115,47 @@ def _states(ds: xr.Dataset) -> Element:
     return element("dl", *tiles, class_="facts")
 
 
+def _interactive(ds: xr.Dataset) -> list[Figure]:
+    try:
+        return responses(ds)
+    except ValueError:  # too few runs, or all alike
+        return []
+
+
+def _panels(ds: xr.Dataset, figures: Sequence[Figure]) -> Iterator[Element]:
+    """Places of the interactive figures."""
+    if not figures:
+        yield _not_drawn(ds)
+        return
+    yield element("noscript", element("p", "The figures of this page need JavaScript."))
+    yield element("div", *map(panel, figures), class_="panels")
+    red = " Red: beyond the allowable value." if limits_of(ds) else ""
+    yield element("p", _caption(ds) + red, class_="faint")
+
+
 def _figure(ds: xr.Dataset) -> Iterator[Element]:
+    """Drawing of the response."""
     try:
         drawing = base64.b64encode(as_svg(response(ds))).decode()
     except ValueError:
-        few = int((ds["state"] == "done").sum()) < 2
-        why = "One run is finished." if few else "The finished runs have the same chief values."
-        yield element("p", f"Not drawn: {why}", class_="faint")
+        yield _not_drawn(ds)
         return
     image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt="Response over the keys")
-    said = f"Largest values over {over_of(ds)}; bars are their errors. "
+    said = element("figcaption", _caption(ds))
+    yield element("figure", element("div", image, class_="scroll"), said)
+
+
+def _not_drawn(ds: xr.Dataset) -> Element:
+    few = int((ds["state"] == "done").sum()) < 2
+    why = "One run is finished." if few else "The finished runs have the same chief values."
+    return element("p", f"Not drawn: {why}", class_="faint")
+
+
+def _caption(ds: xr.Dataset) -> str:
+    said = f"Largest values over {over_of(ds)}; bars are their errors."
     if any(np.isposinf(largest_values(ds, name)[1]).any() for name in compared_scalars(ds)):
-        said += f"Hollow: the value depends on the mesh ({WHY_MESH_DEPENDENT})."
-    yield element("figure", element("div", image, class_="scroll"), element("figcaption", said))
+        said += f" Hollow: the value depends on the mesh ({WHY_MESH_DEPENDENT})."
+    return said
 
 
 def _reasons(ds: xr.Dataset) -> Element | None:
@@ -149,6 +187,7 @@ def _listed(lines: list[str]) -> Element | None:
 def _table(ds: xr.Dataset) -> Iterator[Element]:
     columns = [*_key_columns(ds), *_scalar_columns(ds)]
     judged = ds["verdict"].values.ravel().tolist() if "verdict" in ds else None
+    reasons = _deciding(ds)
     states, runs = ds["state"].values.ravel(), ds["run"].values.ravel()
     rows = [
         element(
@@ -159,7 +198,9 @@ def _table(ds: xr.Dataset) -> Iterator[Element]:
                 element("td", texts[run], class_="number", data_head=heading)
                 for heading, texts in columns
             ),
-            element("td", judged[run], class_=judged[run], data_head="verdict") if judged else None,
+            element("td", judged[run] + reasons[run], class_=judged[run], data_head="verdict")
+            if judged
+            else None,
         )
         for run in range(min(states.size, MOST_ROWS))
     ]
@@ -172,6 +213,14 @@ def _table(ds: xr.Dataset) -> Iterator[Element]:
     collect = element("code", "viscontact collect")
     legend = f"{more}Largest values over {over_of(ds)}, with their errors. "
     yield element("p", legend, collect, " writes all numbers to one file.", class_="faint")
+
+
+def _deciding(ds: xr.Dataset) -> list[str]:
+    """What the verdict of each run is about, behind a colon; empty if all have passed."""
+    if "decided_by" not in ds:
+        return ds["state"].size * [""]
+    names = ds["decided_by"].values.ravel().tolist()
+    return [f": {each.replace('_', ' ')}" if each else "" for each in names]
 
 
 def _key_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:

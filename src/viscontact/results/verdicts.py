@@ -96,6 +96,15 @@ def verdicts(ds: xr.Dataset) -> list[Verdict]:
     return [_so_far(each) for each in found] if not ds.attrs.get("complete", 1) else list(found)
 
 
+def limits_of(ds: xr.Dataset) -> dict[str, float]:
+    """Return the limits of the quantities in SI units, by name.
+
+    >>> limits_of(xr.Dataset(attrs={"allowable": '{"peak_pressure": {"limit": 65e6}}'}))
+    {'peak_pressure': 65000000.0}
+    """
+    return {name: float(each["limit"]) for name, each in _given(ds).items()}
+
+
 def stated_limits(ds: xr.Dataset) -> list[tuple[str, str]]:
     """Return names of the limited quantities and the limits with their units.
 
@@ -139,6 +148,17 @@ def overall(found: Sequence[Verdict]) -> Outcome | None:
     outcomes = [each.verdict for each in found]
     order: tuple[Outcome, ...] = ("failed", "undecided", "passed")
     return next((each for each in order if each in outcomes), None)
+
+
+def deciding(found: Sequence[Verdict]) -> str:
+    """Return the names of the quantities with the worst verdict; empty if all have passed.
+
+    >>> deciding([Verdict("force", 1.0, "passed"), Verdict("work", 1.0, "undecided")])
+    'work'
+    """
+    worst = overall(found)
+    names = [each.name for each in found if each.verdict == worst]
+    return "" if worst == "passed" else ", ".join(names)
 
 
 def _on_stress(ds: xr.Dataset, name: str, limit: float) -> Verdict:

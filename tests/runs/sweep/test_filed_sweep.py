@@ -76,7 +76,9 @@ def test_report_has_heading_limits_and_files(sweep: Path) -> None:
     assert "<dt>First run started</dt>" in page
     assert "<dt>waiting</dt><dd>1</dd>" in page
     assert "Allowable: Peak pressure 30 MPa; Approach 1 µm. The verdict of a run" in page
-    assert page.count('<td class="failed" data-head="verdict">failed</td>') == 1
+    # 30 MPa and 1 µm are both exceeded.
+    failed = "failed: peak pressure, approach"
+    assert page.count(f'<td class="failed" data-head="verdict">{failed}</td>') == 1
     assert page.count("<code>") == 2  # `viscontact collect` and one digest
 
 

@@ -21,7 +21,7 @@ from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
-from viscontact.results.verdicts import overall, verdicts
+from viscontact.results.verdicts import deciding, overall, verdicts
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.sweep.states import state_at_end
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
@@ -44,7 +44,7 @@ class _Found:
     error: float
     seconds: float
     warnings: tuple[str, ...]
-    verdict: str  # the worst on the allowable values; empty without any
+    verdict: str  # the worst on the allowable values, and on what; empty without any
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,8 @@ def _of(ds: xr.Dataset) -> _Found:
     error = max((part for part in known if not math.isnan(part)), default=math.nan)
     marked = frozenset(name for name in names if mesh_dependent(ds, name).any())
     over = run_axis(ds).name
-    seconds, verdict = float(ds.attrs["wall_time"]), overall(verdicts(ds)) or ""
+    judged, seconds = verdicts(ds), float(ds.attrs["wall_time"])
+    verdict = ": ".join(filter(None, (overall(judged), deciding(judged).replace("_", " "))))
     return _Found(over, largest, marked, error, seconds, warnings, verdict)
 
 

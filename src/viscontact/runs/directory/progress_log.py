@@ -110,13 +110,13 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         self,
         errors: Mapping[str, NDArray[np.float64]] | None = None,
         fields: Mapping[str, Any] | None = None,
-        verdict: str | None = None,
+        judged: Mapping[str, str] | None = None,
     ) -> None:
         """Add the errors of scalars over all lines, by their names, and mark the end of the run.
 
         The last line gets `fields`, the description of the fields that the result stores, and the
-        worst `verdict` on the allowable values, if there are any. The file
-        is replaced at once and durably; one that a program holds on Windows remains without both.
+        entries of `judged`: the worst verdict on the allowable values, and what it is about. The
+        file is replaced at once and durably; one that a program holds on Windows remains without.
         """
         self.flush_to_disk()
         fresh = fresh_name(self._path)
@@ -127,7 +127,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
                     entries = json.loads(line) | _errors(errors or {}, row)
                     if row == self.count - 1:
                         entries |= {"complete": True, "fields": fields and dict(fields)}
-                        entries |= {"verdict": verdict} if verdict else {}
+                        entries |= judged or {}
                     file.write(_encoded(entries))
             flush_to_disk(fresh)
             self._check()

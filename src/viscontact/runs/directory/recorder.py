@@ -160,25 +160,30 @@ class Recorder:
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with errors and verdicts, and remove the restart state."""
-        attributes, worst = self._verdicts(bars)
+        attributes, judged = self._verdicts(bars)
         with self._undisturbed():
             if self._lines is not None:
                 # Before the state is removed: a line lost in a power cut could not be repeated.
                 errors = None if bars is None else bars.values
-                self._lines.finish(errors, self._writer.described_fields(), worst)
+                self._lines.finish(errors, self._writer.described_fields(), judged)
             self._writer.finish(bars, attributes)
             self.shown = self._reached
             self.close()
             self._recorded.check()
             remove_restart_files(self._recorded.directory)
 
-    def _verdicts(self, bars: ErrorBars | None) -> tuple[dict[str, str], str | None]:
+    def _verdicts(self, bars: ErrorBars | None) -> tuple[dict[str, str], dict[str, str]]:
         """Attribute of the result with its verdicts, and the worst one; empty without limits."""
         if ALLOWABLE not in self._recorded.filed or self._lines is None:
-            return {}, None
+            return {}, {}
         # xarray and pandas take a third of the start of a run: imported after it, where needed.
         from viscontact.results.netcdf import open_results
-        from viscontact.results.verdicts import final_verdicts, overall, verdict_attribute
+        from viscontact.results.verdicts import (
+            deciding,
+            final_verdicts,
+            overall,
+            verdict_attribute,
+        )
 
         self.publish()
         over = self._recorded.contents.over
@@ -186,7 +191,8 @@ class Recorder:
         with open_results(self._recorded.result_path) as ds:
             stated = {error_name(name): (over, values) for name, values in errors.items()}
             found = final_verdicts(ds.assign(stated))
-        return {ALLOWABLE: verdict_attribute(found)}, overall(found)
+        judged = {"verdict": overall(found) or "", "decided_by": deciding(found)}
+        return {ALLOWABLE: verdict_attribute(found)}, judged
 
     def close(self) -> None:
         """Close all files; never fails, and further calls do nothing."""

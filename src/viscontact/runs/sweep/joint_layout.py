@@ -120,6 +120,8 @@ class JointLayout:
         if self.has_verdicts:
             worst = [each.verdict for each in self.states]
             about["verdict"] = (worst, "worst verdict on the allowable values")
+            names = [each.decided_by for each in self.states]
+            about["decided_by"] = (names, "quantities with this verdict; empty if all have passed")
         texts = {
             name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
             for name, (values, title) in about.items()
@@ -198,7 +200,8 @@ def _outlined(directory: Path) -> tuple[RunState, RunOutline | None]:
         return state, None
     try:
         outline = run_outline(directory)
-        return replace(state, verdict=outline.verdict), outline
+        judged = replace(state, verdict=outline.verdict, decided_by=outline.decided_by)
+        return judged, outline
     except (OSError, RuntimeError, ValueError, LookupError, TypeError) as error:
         return RunState(State.FAILED, f"its result cannot be read: {error}"), None
 

@@ -34,6 +34,7 @@ class RunOutline:
     columns: frozenset[str]  # those of `COLUMNS` that the result states
     fields: dict[str, Any] | None  # as `described_fields` returns it
     verdict: str = ""  # the worst on the allowable values; empty without any
+    decided_by: str = ""  # quantities with that verdict; empty if all have passed
 
 
 def run_outline(directory: Path) -> RunOutline:
@@ -44,8 +45,9 @@ def run_outline(directory: Path) -> RunOutline:
             with (directory / PROGRESS_NAME).open("rb") as lines:
                 rows = np.array([_row_value(line) for line in lines])
             over = next(name for name in AXES if name in end)
-            columns, verdict = frozenset(set(COLUMNS) & set(end)), str(end.get("verdict", ""))
-            return RunOutline(over, rows, columns, end.get("fields"), verdict)
+            columns = frozenset(set(COLUMNS) & set(end))
+            judged = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
+            return RunOutline(over, rows, columns, end.get("fields"), *judged)
     with opened(directory / RESULT_NAME, "r") as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)

@@ -33,7 +33,7 @@ def write_run_table(layout: JointLayout, file: IO[str], progress: Progress) -> N
             about = (run, layout.runs[run].name, *(each[run].item() for each in along))
             scalars = _scalars(layout, names, values[run - runs.start])
             changed = [layout.runs[run].own_settings] if layout.has_changed else []
-            judged = [state.verdict] if layout.has_verdicts else []
+            judged = [state.verdict, state.decided_by] if layout.has_verdicts else []
             own = (*changed, *judged, state.message)
             writer.writerow([*about, state.state.value, *scalars, *own])
         progress(runs.stop, len(layout.runs))
@@ -61,7 +61,7 @@ def _header(layout: JointLayout, names: list[str]) -> Iterator[str]:
     if layout.has_changed:
         yield "changed"
     if layout.has_verdicts:
-        yield "verdict"
+        yield from ("verdict", "decided_by")
     yield "message"
 
 

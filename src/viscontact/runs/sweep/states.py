@@ -36,6 +36,7 @@ class RunState:
     state: State
     message: str = ""
     verdict: str = ""  # the worst on the allowable values; empty without any
+    decided_by: str = ""  # quantities with that verdict; empty if all have passed
 
 
 def run_state(directory: Path) -> RunState:
