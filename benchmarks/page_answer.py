@@ -1,7 +1,8 @@
 """Time from the click to the answer of the calculator page, on a server that has been idle.
 
 For each case that the page offers: the request that a click on *Coarse answer* or *Refine* sends,
-until the run is over, with its summary and the numbers of its figures. Prints the shortest
+until the run is over, with its summary and the numbers of its figures; of a full run also until
+its values are there, which the page shows before their error bars. Prints the shortest
 wall-clock time of several clicks, and the CPU time of server and run from click to answer: on a
 machine with other work, only the CPU time measures the program. The pause before each click lets
 the process that waits for a run get ready; what it has computed before the click does not count.
@@ -64,17 +65,33 @@ def spent(server: psutil.Process) -> float:
     return processor_time(server) + float(used.children_user + used.children_system)
 
 
-def answered(address: str, server: psutil.Process, text: str, quality: str) -> tuple[float, float]:
-    """Wall-clock and CPU time from the click until all that the page shows has arrived [s]."""
-    waiting = sum(processor_time(child) for child in server.children())
-    began, before = time.perf_counter(), spent(server) + waiting
+def answered(
+    address: str, server: psutil.Process, text: str, quality: str
+) -> tuple[float, float, float, float]:
+    """Wall-clock and CPU time from the click until all that the page shows has arrived [s].
+
+    First until the values are there, then until they have their error bars.
+    """
+    waiting = server.children()
+    idle = sum(map(processor_time, waiting))
+    began, before = time.perf_counter(), spent(server)
     run = asked(f"{address}api/runs", {"yaml": text, "quality": quality})["id"]
+    values: tuple[float, float] | None = None
     with urlopen(f"{address}api/runs/{run}/events") as events:
-        *_, last = (json.loads(line[5:]) for line in events if line.startswith(b"data:"))
+        for line in events:
+            if not line.startswith(b"data:"):
+                continue
+            last = json.loads(line[5:])
+            if last["stage"] == "errors" and values is None:
+                asked(f"{address}api/runs/{run}/data")
+                running = sum(processor_time(each) for each in waiting if each.is_running())
+                # Also the part of the error bars that was computed meanwhile.
+                values = time.perf_counter() - began, spent(server) + running - before - idle
     if last["state"] != "done":
         raise SystemExit(f"{last['title']}: {last['state']}: {last['message']}")
     asked(f"{address}api/runs/{run}/data")
-    return time.perf_counter() - began, spent(server) - before
+    whole = time.perf_counter() - began, spent(server) - before - idle
+    return *(values or whole), *whole
 
 
 def main() -> None:
@@ -85,8 +102,9 @@ def main() -> None:
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, served(folder) as (address, server):
         offered = {each["name"]: each["yaml"] for each in asked(f"{address}api/examples")}
-        heads = [f"{quality} {kind}" for quality in QUALITIES for kind in ("clock s", "CPU s")]
-        print(f"{'example':24}" + "".join(f"{head:>16}" for head in heads))
+        kinds = ("values s", "CPU s", "all s", "CPU s")
+        heads = [f"{quality} {kind}" for quality in QUALITIES for kind in kinds]
+        print(f"{'example':24}" + "".join(f"{head:>17}" for head in heads))
         for name in given.examples or offered:
             times: list[float] = []
             for quality in QUALITIES:
@@ -95,7 +113,7 @@ def main() -> None:
                     time.sleep(given.pause)
                     each.append(answered(address, server, offered[name], quality))
                 times += [min(kind) for kind in zip(*each, strict=True)]
-            print(f"{name:24}" + "".join(f"{found:16.2f}" for found in times), flush=True)
+            print(f"{name:24}" + "".join(f"{found:17.2f}" for found in times), flush=True)
         time.sleep(given.pause)
         idle = server.children()
         before = sum(map(processor_time, idle))

@@ -90,6 +90,24 @@ def test_a_case_is_changed_and_answered_in_seconds(page: Any, server: seen.Serve
 
 
 @pytest.mark.slow
+def test_all_values_are_shown_before_their_error_bars(page: Any, server: seen.Server) -> None:
+    seen.visit(page, server, BALL.replace("[64, 64]", "[256, 256]").replace("12", "40"))
+    page.click("#refine")
+    page.wait_for_selector("html[data-early]", state="attached", timeout=90_000)
+    run = page.evaluate("document.documentElement.dataset.early")
+    texts = "['facts', 'result-notes'].map((id) => document.getElementById(id).innerText)"
+    before = page.evaluate(texts)
+    seen.until_drawn(page, run)
+    after = page.inner_text("#facts")
+    # The same value, with its error bar only at the end.
+    assert "error bars are being estimated" in before[1]
+    assert "±" not in before[0]
+    assert "±" in after
+    assert seen.fact(page, "Approach").split()[0] in before[0]
+    assert "error bars are being estimated" not in page.inner_text("#result-notes")
+
+
+@pytest.mark.slow
 def test_another_shape_can_be_run_at_once(page: Any, server: seen.Server) -> None:
     """The page begins with a roller, on whose grid a ball's contact would not lie."""
     seen.visit(page, server)

@@ -17,6 +17,8 @@ const DOWNLOADS = [
 const COARSE = "Fewer cells and steps than in the case, and no error bars. "
   + "Refine to compute the case as written.";
 
+const WITHOUT_BARS = "All steps are computed; the error bars are being estimated and will be added.";
+
 const qualityOf = (run) => (run.status.quality === "coarse" ? "coarse answer" : "full run");
 
 export async function drawResults() {
@@ -35,13 +37,16 @@ export async function drawResults() {
   place("downloads").replaceChildren(...downloads(shown));
   place("accuracy").replaceChildren(...definitions(data.accuracy));
   await drawFigures(shown, reference);
-  document.documentElement.dataset.drawn = shown.id;
+  document.documentElement.dataset[isEarly(status) ? "early" : "drawn"] = shown.id;
 }
+
+// Shown before its error bars.
+const isEarly = (status) => status.stage === "errors" && !status.over;
 
 function notes(status, data) {
   const note = (text, style = "") => make("p", { class: `note ${style}`, textContent: text });
   // For a run that stopped early, the notes state where it ended.
-  const parts = [status.quality === "coarse" && note(COARSE), status.state === "failed" && note(status.message)];
+  const parts = [status.quality === "coarse" && note(COARSE), isEarly(status) && note(WITHOUT_BARS), status.state === "failed" && note(status.message)];
   parts.push(...data.notices.map((text) => note(text, "warm")));
   if (data.warnings.length) parts.push(warned(data.warnings));
   return parts.filter(Boolean);
