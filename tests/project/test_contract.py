@@ -923,6 +923,10 @@ OPTIONS = {
         *("--vary", "--zip", "--table", "--sample", "--range", "--seed", "-j"),
         *("--scheduler", "--array", "--task"),
     ),
+    "fit": (
+        *("FILE.csv", "--case", "--change", "--contact-point", "--machine-stiffness", "--drive"),
+        *("-j", "-o", "--yaml", "--resume"),
+    ),
     "design": (
         *("--change", "--minimise", "--maximise", "--at", "--over", "--constraint"),
         *("--runs", "-j", "-o", "--resume"),
