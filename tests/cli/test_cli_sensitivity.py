@@ -20,6 +20,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_sensitivity_writes_table_and_report_and_is_continued(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -43,6 +44,23 @@ def test_a_sensitivity_writes_table_and_report_and_is_continued(
         assert table["input_units"].values.tolist() == ["N"]
 
 
+@pytest.mark.slow
+def test_scatter_is_sampled_and_more_samples_are_added(capsys: pytest.CaptureFixture[str]) -> None:
+    scatter = ("--of", "approach", "--scatter", "load.force=0.9N:1.1N:normal", "-q")
+    assert main([*COMMAND, *scatter, "--samples", "3"]) == 0
+    said = capsys.readouterr()
+    assert "samples: 3 are rounded up to 4, a power of two" in said.err
+    assert "  variance by load.force: alone" in said.out
+    assert len(list(Path("found").glob("sample-*"))) == 4 * 3
+    before = Path("found/sample-A-00003/result.nc").stat().st_mtime_ns
+    assert main([*COMMAND, *scatter, "--samples", "8", "--resume"]) == 0
+    assert len(list(Path("found").glob("sample-*"))) == 8 * 3
+    assert Path("found/sample-A-00003/result.nc").stat().st_mtime_ns == before
+    with xr.open_dataset("found/sensitivity.nc") as table:
+        low, middle, high = table.percentile.sel(output="approach").values
+        assert low < middle < high
+
+
 def test_an_interrupted_sensitivity_says_how_to_continue(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -62,6 +80,19 @@ REFUSED = {
     ),
     "instant": (("--of", "approach", "--at", "1 mm"), "--at: write worst, end or a time"),
     "setting": (("--of", "approach", "--set", "load.force=1 mm"), "cannot read '1 mm' as a force"),
+    "range": (
+        ("--of", "approach", "--scatter", "load.force=2N:1N"),
+        "--scatter: load.force: the lower bound comes first",
+    ),
+    "no range": (("--of", "approach", "--scatter", "load.force"), "--scatter load.force: write"),
+    "scatter of text": (
+        ("--of", "approach", "--scatter", "material.law=a:b"),
+        "--scatter: material.law: 'a' is not a number",
+    ),
+    "samples": (
+        ("--of", "approach", "--scatter", "load.force=1N:2N", "--samples", "-4"),
+        "samples",
+    ),
     "no setting": (("--of", "approach", "--set", "load"), "--set load: write KEY=VALUE"),
 }
 

@@ -107,6 +107,12 @@ REFUSED = {
     "twice": ({"change": ["load.force"] * 2}, "change: load.force: is given twice"),
     "step": ({"step": 0.6}, "step: must be 0.5 at most"),
     "instant": ({"at": "start"}, "at: must be 'worst', 'end' or a time"),
+    "range": ({"scatter": {"load.force": ("2 N", "1 N")}}, "the lower bound comes first"),
+    "scattered key": ({"scatter": {"load.farce": ("1 N", "2 N")}}, "farce"),
+    "twice scattered": (
+        {"scatter": {"load.force": ("1 N", "2 N")}, "settings": {"load.force": "1 N"}},
+        "scatter: load.force: is given twice",
+    ),
     "adaptive": (
         {"settings": {"time": "{end: 1 s, spacing: adaptive}"}},
         "time.spacing: adaptive steps differ from run to run",

@@ -46,6 +46,7 @@ from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces,
 from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
 from viscontact.plot.sweeps.response import response
+from viscontact.plot.sweeps.scatter_bands import scatter_bands
 from viscontact.plot.sweeps.tornado import tornado
 from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import trials
@@ -137,6 +138,7 @@ __all__ = [
     "response",
     "save_animation",
     "save_figure",
+    "scatter_bands",
     "stress_section",
     "tornado",
     "trade_off",

@@ -13,11 +13,13 @@ import xarray as xr
 
 from viscontact import __version__
 from viscontact.notebook.html import element, written
+from viscontact.plot.sweeps.scatter_bands import scatter_bands
 from viscontact.plot.sweeps.tornado import tornado
 from viscontact.report.blocks import drawn_figure, listed_notes, text_table
 from viscontact.results.formatting import format_with_error
 from viscontact.results.largest_values import key_label
 from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import format_quantity
 
 
 def write_sensitivity_report(table: xr.Dataset, path: str | Path, *, title: str) -> None:
@@ -40,8 +42,12 @@ def _chapters(table: xr.Dataset, title: str) -> Iterator[Element]:
         _values(table),
         listed_notes(table),
     )
-    yield element("section", element("h2", "What matters"), *_elasticities(table))
-    yield element("section", element("h2", "Derivatives"), *_derivatives(table))
+    if table.sizes["input"]:
+        yield element("section", element("h2", "What matters"), *_elasticities(table))
+    if "percentile" in table:
+        yield element("section", element("h2", "Scatter"), *_scatter(table))
+    if table.sizes["input"]:
+        yield element("section", element("h2", "Derivatives"), *_derivatives(table))
     yield element("p", f"Made by viscontact {__version__}.", class_="faint")
 
 
@@ -68,6 +74,46 @@ def _elasticities(table: xr.Dataset) -> Iterator[Element]:
     yield text_table(("Input", "in the case", *_labels(table)), rows)
     said = "Relative change of the output per relative change of the input."
     yield element("p", said, class_="faint")
+
+
+def _scatter(table: xr.Dataset) -> Iterator[Element]:
+    """Percentiles of the outputs, their bands over time, and the parts of the variance."""
+    percents = [f"{each:g} %" for each in table["percent"].values]
+    rows = [
+        (
+            SCALARS[name].label,
+            *(
+                format_quantity(float(each), SCALARS[name].units)
+                for each in table["percentile"].sel(output=name).values
+            ),
+        )
+        for name in _names(table)
+    ]
+    yield text_table(("Output", *percents), rows)
+    if "band" in table and table.sizes[str(table["band"].dims[-1])] > 1:
+        caption = "Band from 5 to 95 % of the samples, their median, and the values of the case."
+        yield drawn_figure(scatter_bands(table), caption)
+    for name in _names(table):
+        one = table.sel(output=name)
+        parts = [
+            (key_label(key), about, *(_index(one.sel(scattered=key), each) for each in _ORDERS))
+            for key, about in zip(
+                table["scattered"].values.tolist(), table["distribution"].values, strict=True
+            )
+        ]
+        yield element("h3", f"Variance of: {SCALARS[name].label}")
+        yield text_table(("Input", "scatter", "alone", "in total"), parts)
+    count = table.sizes["point"]
+    said = f"Sobol' indices with 95 % intervals; percentiles of {count} samples."
+    yield element("p", said, class_="faint")
+
+
+_ORDERS = ("first_order", "total_order")
+
+
+def _index(of: xr.Dataset, name: str) -> str:
+    value, low, high = (float(of[f"{name}{end}"]) for end in ("", "_low", "_high"))
+    return "not known" if np.isnan(value) else f"{value:.2f} ({low:.2f} to {high:.2f})"
 
 
 def _derivatives(table: xr.Dataset) -> Iterator[Element]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -12,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.results.largest_values import over_of
-from viscontact.results.run_axis import SPEED, TIME
+from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.results.variables import error_name, scalars_with_error
 
 Floats = NDArray[np.float64]
@@ -34,15 +35,25 @@ class Outcomes:
         states, names, why = (self.joint[each].values for each in ("state", "name", "message"))
         return {str(names[n]): str(why[n]) or "no result" for n in np.flatnonzero(states != "done")}
 
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {str(name): n for n, name in enumerate(self.joint["name"].values)}
+
     def place(self, name: str) -> int:
         """Number of a run by its name."""
-        return int(np.flatnonzero(self.joint["name"].values == name)[0])
+        return self._places[name]
 
     def over(self, scalar: str) -> Floats:
         """Values of a scalar, shape (runs, instants or speeds)."""
         if scalar not in self.joint:
             raise ValueError(f"of: {scalar}: the results do not have it")
         return np.asarray(self.joint[scalar].values, dtype=np.float64)
+
+    @property
+    def shared_axis(self) -> RunAxis | None:
+        """Time or speed, if all runs have the same instants or speeds."""
+        axis = SPEED if over_of(self.joint) == "speed" else TIME
+        return axis if self.joint[axis.name].ndim == 1 else None
 
     def values(self, scalar: str) -> Floats:
         """Magnitudes of a scalar in all runs, NaN without a result."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,9 +18,12 @@ from viscontact.runs.sweep.varied_runs import VariedRun
 from viscontact.sensitivity.common_grid import coarser, covering, grid_setting
 from viscontact.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
 from viscontact.sensitivity.inputs import Input
+from viscontact.sensitivity.samples import Samples
 
 #: Halvings of the step of an input that is close to a limit, before its differences are one-sided.
 HALVINGS = 3
+#: Parts of a distribution whose values the common grid covers.
+EXTREMES = (1e-4, 1 - 1e-4)
 #: Name of the run with the values of the case.
 NOMINAL = "nominal"
 
@@ -59,6 +63,7 @@ class Plan:
     settings: Mapping[str, str]  # of all runs
     cells: Mapping[Cells, Mapping[str, str]]  # settings of the common grid, by kind
     derivatives: tuple[Derivative, ...]
+    samples: Samples | None = None
 
     def runs(self) -> list[VariedRun]:
         """Return all runs, first that of the case itself."""
@@ -73,6 +78,8 @@ class Plan:
                 for point in each.stencil.points:
                     own = {**_WITHOUT_ERRORS, **each.settings(point)}
                     yield self._run(each.run_name(point, cells), own, (each.given.key,), cells)
+        for name, settings in self.samples.runs() if self.samples else ():
+            yield self._run(name, {**_WITHOUT_ERRORS, **settings}, tuple(settings), "case")
 
     def _run(
         self, name: str, own: Mapping[str, str], varied: tuple[str, ...], cells: Cells
@@ -90,12 +97,13 @@ def planned(
     inputs: Sequence[Input],
     step: float,
     directory: Path | None,
+    samples: Samples | None = None,
     *,
     chosen: bool,
 ) -> tuple[Plan, list[str]]:
-    """Return the plan of the derivatives by some inputs, and notes on those that are left out.
+    """Return the plan of derivatives by some inputs and of samples, and notes on what is left out.
 
-    CaseError if an input that was `chosen` cannot change; others are left out.
+    CaseError if an input that was `chosen` cannot change, or a bound of the samples is refused.
     """
     found, notes, grids = [], [], []
     nominal = prepared(case)
@@ -109,12 +117,32 @@ def planned(
             continue
         found.append(derivative)
         grids += [each.run.grid for each in runs]
+    if samples is not None:
+        grids += _of_samples(path, settings, samples)
     recorded = _recorded_grid(path, settings, directory)
     grid = recorded or covering(nominal.run.grid, grids)
     cells = _settings_of(case, grid)
-    return Plan(
-        path, settings, cells if case.errors else {"case": cells["case"]}, tuple(found)
-    ), notes
+    if not case.errors:
+        del cells["coarse"]
+    return Plan(path, settings, cells, tuple(found), samples), notes
+
+
+def _of_samples(path: Path, settings: Mapping[str, str], samples: Samples) -> list[Grid]:
+    """Grids of the bounds of each input, and of those together that have large or small grids."""
+
+    def grid(values: Mapping[str, str]) -> Grid:
+        return prepared(read_plainly(path, {**settings, **values})).run.grid
+
+    found, corners = [], ({}, {})  # type: tuple[list[Grid], tuple[dict[str, str], dict[str, str]]]
+    for each in samples.inputs:
+        ends = sorted(
+            ((grid({each.key: value}), value) for value in map(each.value, EXTREMES)),
+            key=lambda end: math.prod(end[0].size),
+        )
+        found += [end for end, _ in ends]
+        for corner, (_, value) in zip(corners, ends, strict=True):
+            corner[each.key] = value
+    return [*found, *(map(grid, corners) if len(samples.inputs) > 1 else ())]
 
 
 def _settings_of(case: Case, grid: Grid) -> dict[Cells, Mapping[str, str]]:

@@ -12,6 +12,7 @@ import xarray as xr
 from viscontact.display import write_sensitivity_report
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,13 @@ class SensitivityResult:
         output: `value` and `value_error` of the case. Coordinates: names of the outputs, keys of
         the inputs, `output_units`, `input_units`, and the values of the case as `input_value` in SI
         units and `input_text` as they were typed.
+
+        With scatter also, over (output, scattered): `first_order` and `total_order`, the Sobol'
+        indices, with the ends of their 95 % intervals (`first_order_low`, `first_order_high`, ...);
+        `percentile` over (output, percent) with 5, 50 and 95 %, and `band`, the same at each
+        instant (or speed), with `nominal`, the values of the case; `sample`, the values of the
+        output in all points (output, point), NaN where a run failed. `distribution` describes each
+        input that scatters.
     notes : tuple of str
         What is to be known of the numbers: failed runs, inputs that were left out, values that
         depend on the mesh, and warnings of the run of the case.
@@ -92,3 +100,22 @@ class SensitivityResult:
                 of = one.sel(input=key)
                 elasticity, error = float(of["elasticity"]), float(of["elasticity_error"])
                 yield f"  {key}: {format_with_error(elasticity, error, '1')}"
+            yield from _scatter_lines(one, name)
+
+
+def _scatter_lines(one: xr.Dataset, name: str) -> Iterator[str]:
+    """Yield the percentiles of an output, and the total indices of the inputs, largest first."""
+    if "percentile" not in one:
+        return
+    unit = SCALARS[name].units
+    low, middle, high = (format_quantity(float(each), unit) for each in one["percentile"].values)
+    yield f"  scatter: 5 % {low}, 50 % {middle}, 95 % {high}"
+    for key in one["scattered"].values[np.argsort(-one["total_order"].values, kind="stable")]:
+        of = one.sel(scattered=key)
+        first, total = (_index(of, each) for each in ("first_order", "total_order"))
+        yield f"  variance by {key}: alone {first}, in total {total}"
+
+
+def _index(of: xr.Dataset, name: str) -> str:
+    value, low, high = (float(of[f"{name}{end}"]) for end in ("", "_low", "_high"))
+    return "not known" if np.isnan(value) else f"{value:.2f} ({low:.2f} to {high:.2f})"

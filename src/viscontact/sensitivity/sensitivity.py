@@ -20,7 +20,8 @@ from viscontact.sensitivity.inputs import Input, input_of, inputs_of
 from viscontact.sensitivity.outcomes import Outcomes, checked_outputs
 from viscontact.sensitivity.plan import NOMINAL, Plan, planned, read_plainly
 from viscontact.sensitivity.result import SensitivityResult
-from viscontact.sensitivity.table import derivative_table
+from viscontact.sensitivity.samples import Samples, samples_of
+from viscontact.sensitivity.table import derivative_table, scatter_table
 from viscontact.units.numbers import positive
 
 #: Called with the numbers of runs, done and planned, after each run.
@@ -29,6 +30,10 @@ Progress = Callable[[int, int], None]
 #: Step in the logarithm of an input. Errors of cells vary with the size of the contact within a
 #: cell; steps over which the contact grows by a few cells average them.
 STEP = 0.1
+#: Default number of samples.
+SAMPLES = 64
+#: Most failed runs that are named.
+MOST_NAMED = 10
 #: Largest step.
 MOST_STEP = 0.5
 
@@ -38,6 +43,9 @@ def sensitivity(
     of: Sequence[str] | str,
     *,
     change: Sequence[str] | None = None,
+    scatter: Mapping[str, Any] | None = None,
+    samples: int = SAMPLES,
+    seed: int = 0,
     at: Literal["worst", "end"] | float = "worst",
     step: float = STEP,
     settings: Mapping[str, Any] | None = None,
@@ -55,7 +63,17 @@ def sensitivity(
         Names of the outputs, scalars of the result, as ``"peak_pressure,approach"``.
     change : sequence of str, optional
         Dotted keys of the inputs, as ``["indenter.radius"]``; entries of lists count from 1. By
-        default all numbers other than zero of bodies, load and motion, except tables of points.
+        default all numbers other than zero of bodies, load and motion, except tables of points; an
+        empty list for no derivatives.
+    scatter : mapping, optional
+        Inputs that scatter, by dotted key: two bounds of a uniform distribution, as
+        ``{"material.poisson_ratio": ("0.36", "0.40")}``; with ``"log"``, the logarithm is uniform;
+        with ``"normal"``, the distribution is normal and 95 % of it are between the bounds.
+    samples : int, optional
+        Number N of samples, rounded up to a power of two; with d inputs that scatter they take
+        N (d + 2) runs. With 0 there are none.
+    seed : int, optional
+        Seed of the samples. More samples with the same seed begin with these.
     at : {"worst", "end"} or float, optional
         Instant of the outputs: that of the largest magnitude in each run, the last one, or a time
         of the run [s] (in steady motion a speed [m/s]).
@@ -76,7 +94,7 @@ def sensitivity(
     -------
     SensitivityResult
         ``table`` (xarray.Dataset) with ``elasticity``, ``derivative`` and their errors over
-        (output, input), ``notes`` and ``runs``.
+        (output, input), and the scatter of the outputs; ``notes`` and ``runs``.
 
     Raises
     ------
@@ -95,6 +113,9 @@ def sensitivity(
     runs have the same cells and instants, so that most of their errors cancel. They are repeated
     on cells of twice the length, unless the case has ``errors: false``: the largest change
     of the differences, or the relative error of the case if that is larger, is added to its error.
+    The scatter is sampled by a scrambled Sobol' sequence. First-order and total indices (Sobol'
+    2001) are estimated as by Saltelli and others (2010), with 95 % intervals by bootstrap over the
+    samples. They need independent inputs, so that they are NaN if the run of a sample fails.
     New processes import the calling script first: in a script, put the call under ``if __name__ ==
     "__main__":``.
 
@@ -127,7 +148,12 @@ def sensitivity(
         )
     place = None if directory is None else Path(directory)
     inputs = _inputs(own, change)
-    plan, notes = planned(path, own, fixed, inputs, length, place, chosen=change is not None)
+    sampled, rounded = samples_of(scatter or {}, samples, seed)
+    _refuse_repeated(fixed, sampled)
+    plan, notes = planned(
+        path, own, fixed, inputs, length, place, sampled, chosen=change is not None
+    )
+    notes = [*rounded, *notes]
     return _computed(plan, outputs, at, notes, place, workers, progress)
 
 
@@ -145,6 +171,12 @@ def _inputs(case: Case, change: Sequence[str] | None) -> list[Input]:
         return [input_of(case, key) for key in keys]
     except ValueError as error:
         raise ValueError(f"change: {error}") from None
+
+
+def _refuse_repeated(settings: Mapping[str, str], sampled: Samples | None) -> None:
+    for each in sampled.inputs if sampled else ():
+        if each.key in settings:
+            raise ValueError(f"scatter: {each.key}: is given twice, also in settings; give it once")
 
 
 def _computed(
@@ -173,6 +205,8 @@ def _computed(
             about = {"title": str(ds.attrs.get("title", "")), "at": str(at)}
             warned = str(ds.attrs.get("warnings", "")).splitlines()
     table = derivative_table(plan, outcomes, outputs)
+    if plan.samples is not None:
+        table = table.merge(scatter_table(plan.samples, outcomes, outputs))
     said = (*notes, *_failures(outcomes, len(runs)), *_unknown(table), *warned)
     about["notes"] = "\n".join(said)
     return SensitivityResult(table.assign_attrs(about), said, len(runs))
@@ -188,17 +222,20 @@ def _directory(place: Path | None) -> Iterator[Path]:
 
 
 def _failures(outcomes: Outcomes, count: int) -> Iterator[str]:
-    """Yield the number of failed runs, and the name and the reason of each."""
-    if outcomes.failures:
-        yield f"{len(outcomes.failures)} of {count} runs failed"
-    for name, why in outcomes.failures.items():
-        yield f"{name}: {why}"
+    """Yield the number of failed runs, and names and reasons of the first ones."""
+    failed = outcomes.failures
+    if failed:
+        yield f"{len(failed)} of {count} runs failed; what needs them is NaN"
+    for name in list(failed)[:MOST_NAMED]:
+        yield f"{name}: {failed[name]}"
+    if len(failed) > MOST_NAMED:
+        yield f"... and {len(failed) - MOST_NAMED} more, which `viscontact status` lists"
 
 
 def _unknown(table: xr.Dataset) -> Iterator[str]:
     """Yield what is to be known of outputs whose error is not known, or not finite."""
     for name, error in zip(table["output"].values, table["value_error"].values, strict=True):
-        if np.isnan(error):
+        if np.isnan(error) and table.sizes["input"]:
             yield f"{name}: its error is not known; the errors are those of the step only"
         elif np.isinf(error):
             yield f"{name}: depends on the mesh, without a limit; so do its derivatives"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -12,6 +13,8 @@ from viscontact.results.variables import SCALARS
 from viscontact.sensitivity.differences import Slopes
 from viscontact.sensitivity.outcomes import Outcomes
 from viscontact.sensitivity.plan import Cells, Derivative, Plan
+from viscontact.sensitivity.samples import Samples
+from viscontact.sensitivity.variance import indices_of, percentiles_of
 
 Floats = NDArray[np.float64]
 
@@ -68,3 +71,66 @@ def _slopes(
     found = [outcomes.values(name) for name in outputs]
     values = {point: np.array([each[run] for each in found]) for point, run in runs.items()}
     return given.stencil.slopes(values, given.step)
+
+
+#: Percentiles of the outputs over the samples [%].
+PERCENTS = np.array([5.0, 50.0, 95.0])
+_ENDS = ("", "_low", "_high")
+
+
+def scatter_table(samples: Samples, outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
+    """Table of the scatter of the outputs: Sobol' indices, percentiles, and values of the samples.
+
+    Percentiles are those of both independent samples, A and B.
+    """
+    labels, count = samples.labels, samples.count
+    runs = np.array(
+        [[outcomes.place(samples.run_name(label, n)) for n in range(count)] for label in labels]
+    )
+    values = np.array([outcomes.values(name)[runs] for name in outputs])
+    found = [indices_of(each, samples.seed) for each in values]
+    over = ("output", "scattered")
+    data: dict[str, Any] = {
+        f"{name}{end}": (over, [getattr(each, name)[row] for each in found], _about(name, end))
+        for name in ("first_order", "total_order")
+        for row, end in enumerate(_ENDS)
+    }
+    both = values[:, :2].reshape(len(outputs), -1)
+    percentiles = [percentiles_of(each, PERCENTS) for each in both]
+    data["percentile"] = (("output", "percent"), percentiles, {"long_name": _PERCENTILE})
+    data["sample"] = (("output", "point"), both, {"long_name": "values of the samples A and B"})
+    coords = {
+        "scattered": list(labels[2:]),
+        "distribution": ("scattered", [str(each) for each in samples.inputs]),
+        "percent": PERCENTS,
+    }
+    return xr.Dataset(data, coords).merge(_over_rows(runs[:2].ravel(), outcomes, outputs))
+
+
+def _over_rows(runs: NDArray[np.int_], outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
+    """Percentiles at each instant or speed, and the values of the case, if all runs share them."""
+    axis = outcomes.shared_axis
+    if axis is None:
+        return xr.Dataset()
+    whole = [outcomes.over(name) for name in outputs]
+    percentiles = [percentiles_of(each[runs], PERCENTS) for each in whole]
+    over = ("output", "percent", axis.name)
+    return xr.Dataset(
+        {
+            "band": (over, percentiles, {"long_name": f"{_PERCENTILE} over {axis.name}"}),
+            "nominal": (("output", axis.name), [each[0] for each in whole]),
+        },
+        {axis.name: outcomes.joint[axis.name].values},
+    )
+
+
+_PERCENTILE = "percentiles of the output over the samples, in SI units"
+_INDICES = {
+    "first_order": "part of the variance that the input causes alone",
+    "total_order": "part of the variance that the input causes, also together with others",
+}
+
+
+def _about(name: str, end: str) -> dict[str, str]:
+    said = {"": "", "_low": ", lower end (95 %)", "_high": ", upper end (95 %)"}[end]
+    return {"units": "1", "long_name": f"{_INDICES[name]}{said}"}

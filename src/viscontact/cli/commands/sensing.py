@@ -28,6 +28,24 @@ def sensitivity(
             "bodies, load and motion.",
         ),
     ] = None,
+    scatter: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--scatter",
+            metavar="KEY=LOW:HIGH[:log|:normal]",
+            help="Input that scatters between two bounds (normal: 95 % of it), e.g. "
+            "indenter.radius='4.98 mm:5.02 mm'; repeated for each.",
+        ),
+    ] = None,
+    samples: Annotated[
+        int,
+        typer.Option(
+            "--samples",
+            metavar="N",
+            help="Number of samples, a power of two; with d inputs they take N (d + 2) runs.",
+        ),
+    ] = 64,
+    seed: Annotated[int, typer.Option("--seed", metavar="S", help="Seed of the samples.")] = 0,
     at: Annotated[
         str,
         typer.Option(
@@ -56,5 +74,8 @@ def sensitivity(
     """
     from viscontact.cli.sensitivity.execution import SensitivityRequest, execute_sensitivity
 
-    request = SensitivityRequest(case, output, of, change or (), at, step, settings or (), jobs)
+    request = SensitivityRequest(
+        *(case, output, of, change or (), scatter or (), samples, seed),
+        *(at, step, settings or (), jobs),
+    )
     execute_sensitivity(request, resume=resume, quiet=quiet)

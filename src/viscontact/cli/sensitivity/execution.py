@@ -21,7 +21,10 @@ from viscontact.units.parsing import parse_quantity
 #: Report in the directory of the runs.
 REPORT_NAME = "report.html"
 #: Options by the names of the arguments, at the beginning of a message.
-_OPTIONS = {"of": "--of", "change": "--change", "at": "--at", "step": "--step", "directory": "-o"}
+_OPTIONS = {
+    **{name: f"--{name}" for name in ("of", "change", "scatter", "samples", "seed", "at", "step")},
+    "directory": "-o",
+}
 #: Part of the runs between two lines of progress, where the output is no terminal.
 _LINE_PART = 0.1
 
@@ -34,6 +37,9 @@ class SensitivityRequest:
     output: Path
     of: str
     change: Sequence[str]
+    scatter: Sequence[str]  # KEY=LOW:HIGH, with :log or :normal
+    samples: int
+    seed: int
     at: str
     step: float
     settings: Sequence[str]
@@ -41,17 +47,33 @@ class SensitivityRequest:
 
     def arguments(self) -> dict[str, Any]:
         """Arguments of `viscontact.sensitivity` by name."""
-        settings = {}
-        for text in self.settings:
-            key, equals, value = (part.strip() for part in text.partition("="))
-            if not (key and equals and value):
-                refuse(f"--set {text}: write KEY=VALUE, with the unit, e.g. 'load.force=20 kN'")
-            settings[key] = value
+        scatter = _by_key("--scatter", self.scatter, "'indenter.radius=4.98 mm:5.02 mm'")
         return {
             **{"case": self.case, "of": self.of, "change": list(self.change) or None},
-            **{"at": _instant(self.at), "step": self.step, "settings": settings},
+            "scatter": {
+                key: tuple(map(str.strip, text.split(":"))) for key, text in scatter.items()
+            },
+            **{"samples": self.samples, "seed": self.seed},
+            **{"at": _instant(self.at), "step": self.step},
+            "settings": _by_key("--set", self.settings, "'load.force=20 kN'"),
             **{"workers": self.jobs, "directory": self.output},
         }
+
+
+def _bounds(text: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in text.split(":"))
+
+
+def _by_key(option: str, texts: Sequence[str], example: str) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for text in texts:
+        key, equals, value = (part.strip() for part in text.partition("="))
+        if not (key and equals and value):
+            refuse(f"{option} {text}: write KEY=VALUE, with the unit, e.g. {example}")
+        if key in found:
+            refuse(f"{option} {key}: is given twice; give it once")
+        found[key] = value
+    return found
 
 
 def execute_sensitivity(request: SensitivityRequest, *, resume: bool, quiet: bool) -> None:
@@ -109,7 +131,7 @@ def as_typed(message: str) -> str:
     >>> as_typed("of: name a scalar")
     '--of: name a scalar'
     """
-    name = re.match(r"\w+(?=: )", message)
+    name = re.match(r"\w+(?=: | must)", message)
     option = _OPTIONS.get(name.group() if name else "")
     return message if name is None or option is None else option + message[name.end() :]
 

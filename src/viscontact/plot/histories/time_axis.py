@@ -69,7 +69,7 @@ def scale_time(
     on_log = all(map(suits_log_time, runs.values())) and end >= _DECADE * first
     for axes in panels:
         if on_log:
-            _set_log_time(axes, first, end)
+            set_log_time(axes, first, end)
         if end > start:
             axes.set_xlim(start, end)
         label = time_unit.label("Time")
@@ -92,7 +92,8 @@ def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> 
     return "Time"
 
 
-def _set_log_time(axes: Axes, first: float, end: float) -> None:
+def set_log_time(axes: Axes, first: float, end: float) -> None:
+    """Make a time axis logarithmic from the first step on, with zero at its beginning."""
     # Linear up to the first step, so that the instant of loading is on the axis too, over a
     # fifth of its length, so that the tick labels there keep apart.
     share = BEFORE_FIRST * math.log10(end / first)
