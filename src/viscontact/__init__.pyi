@@ -12,6 +12,9 @@ from .calibration.record import ContactRecord as ContactRecord
 from .calibration.result import CaseFit as CaseFit
 from .case import shipped_material as shipped_material
 from .design.design import design as design
+from .design.profiles.design_profile import design_profile as design_profile
+from .design.profiles.drawing import write_dxf as write_dxf
+from .design.profiles.result import ProfileDesign as ProfileDesign
 from .design.result import DesignResult as DesignResult
 from .errors import AccuracyWarning as AccuracyWarning
 from .errors import ConvergenceError as ConvergenceError

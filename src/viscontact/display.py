@@ -52,6 +52,11 @@ def write_sensitivity_report(*arguments: object, **options: object) -> None:
     viscontact.report.write_sensitivity_report(*arguments, **options)
 
 
+def write_profile_report(*arguments: object, **options: object) -> None:
+    """Write the report of a profile design, by `viscontact.report`, imported when first used."""
+    viscontact.report.write_profile_report(*arguments, **options)
+
+
 class DisplayableGroup(Displayable, ABC):
     """Group of objects that are displayed one below the other."""
 

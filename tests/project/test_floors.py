@@ -53,7 +53,7 @@ OTHERS = {
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
     "contourpy": "plot", "plotly": "plot", "typst": "report",
     "typer": "cli", "click": "cli", "rich": "cli",
-    "distributed": "cli",
+    "distributed": "cli", "ezdxf": "design",
     "fastapi": "web", "starlette": "web", "uvicorn": "web",
 }  # fmt: skip
 # The only file that may import it.

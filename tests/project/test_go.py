@@ -281,6 +281,7 @@ def test_ci_ends_with_the_readme_test_command() -> None:
 
 def test_the_extras_are_those_promised() -> None:
     users = {"plot", "animation", "fast", "surfaces", "afm", "fit", "web", "cluster", "pdf"}
+    users.add("drawing")
     assert set(PROJECT["optional-dependencies"]) == users | {"all", "test", "docs", "dev"}
 
 

@@ -178,10 +178,10 @@ def design(
             limits,
             coarse_cells(own),
             budget,
-            opened.enter_context(_workers(count)),
+            opened.enter_context(warm_workers(count)),
             count,
             history.keep if history else _forget,
-            progress or _silent,
+            progress or silent,
             history.recorded if history else {},
         )
         found = _searched(evaluation, space, values)
@@ -257,7 +257,7 @@ def _checked(
     if own.steady is not None:
         raise ValueError(f"{path}: is in steady motion; a design takes a case over time")
     if own.adaptive is None and not isinstance(goal.at, str):
-        _require_instant(own.instants, goal.at)
+        require_instant(own.instants, goal.at)
     for corner in space.corners():
         for each in scenarios:
             if each is scenarios[0] or each.deviations:
@@ -267,7 +267,7 @@ def _checked(
     return own
 
 
-def _require_instant(instants: NDArray[np.float64], time: float) -> None:
+def require_instant(instants: NDArray[np.float64], time: float) -> None:
     """Raise ValueError if a time [s] is none of the instants."""
     near = float(instants[np.abs(instants - time).argmin()])
     if not np.isclose(near, time, rtol=1e-9, atol=0):
@@ -303,8 +303,15 @@ def _own_values(case: Case, keys: Sequence[str]) -> dict[str, str]:
 def _history(
     directory: str | PathLike[str] | None, arguments: dict[str, Any]
 ) -> Iterator[History | None]:
+    with in_use(directory):
+        yield None if directory is None else History(Path(directory), arguments)
+
+
+@contextmanager
+def in_use(directory: str | PathLike[str] | None) -> Iterator[None]:
+    """Lock the directory of a design; ValueError if it is a file, or another one is at work."""
     if directory is None:
-        yield None
+        yield
         return
     place = Path(directory)
     if place.exists() and not place.is_dir():
@@ -312,13 +319,13 @@ def _history(
     place.mkdir(parents=True, exist_ok=True)
     try:
         with locked(place):
-            yield History(place, arguments)
+            yield
     except DirectoryInUse as error:
         raise ValueError(str(error)) from None
 
 
 @contextmanager
-def _workers(count: int) -> Iterator[LocalWorkers | None]:
+def warm_workers(count: int) -> Iterator[LocalWorkers | None]:
     """Warm processes; none for one run at a time."""
     if count == 1:
         yield None
@@ -337,5 +344,5 @@ def _forget(trial: Trial) -> None:
     """Keep nothing."""
 
 
-def _silent(done: int, allowed: int) -> None:
+def silent(done: int, allowed: int) -> None:
     """Show nothing."""

@@ -25,10 +25,10 @@ class History:
     def __init__(self, directory: Path, arguments: dict[str, Any]) -> None:
         self._path = directory / HISTORY_NAME
         directory.mkdir(parents=True, exist_ok=True)
-        lines = _whole_lines(self._path)
+        lines = whole_lines(self._path)
         header = {"design": json.loads(json.dumps(arguments))}
         if lines:
-            _require_same(directory, _read(self._path, 1, lines[0]), header)
+            require_same(directory, read_line(self._path, 1, lines[0]), header)
         trials = [_trial(self._path, n, line) for n, line in enumerate(lines[1:], 2)]
         self.recorded = {identity(each): each for each in trials}
         # A line that a killed process has begun is removed.
@@ -52,7 +52,8 @@ class History:
             file.write(json.dumps(line) + "\n")
 
 
-def _require_same(directory: Path, found: Any, wanted: dict[str, Any]) -> None:
+def require_same(directory: Path, found: Any, wanted: dict[str, Any]) -> None:
+    """Raise ValueError unless the first line of a history is that of a design."""
     if found == wanted:
         return
     before = found.get("design", {}) if isinstance(found, dict) else {}
@@ -64,7 +65,7 @@ def _require_same(directory: Path, found: Any, wanted: dict[str, Any]) -> None:
     )
 
 
-def _whole_lines(path: Path) -> list[str]:
+def whole_lines(path: Path) -> list[str]:
     """Complete lines of a file; none without it."""
     try:
         text = path.read_text(encoding="utf-8")
@@ -75,7 +76,8 @@ def _whole_lines(path: Path) -> list[str]:
     return text.split("\n")[:-1]
 
 
-def _read(path: Path, number: int, line: str) -> Any:
+def read_line(path: Path, number: int, line: str) -> Any:
+    """Read a line of JSON; ValueError names the file."""
     try:
         return json.loads(line)
     except ValueError:
@@ -83,7 +85,7 @@ def _read(path: Path, number: int, line: str) -> Any:
 
 
 def _trial(path: Path, number: int, line: str) -> Trial:
-    found = _read(path, number, line)
+    found = read_line(path, number, line)
     try:
         results = tuple(
             ScenarioResult(

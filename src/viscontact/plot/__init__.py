@@ -45,6 +45,7 @@ from viscontact.plot.pressure.pressure_radial import pressure_radial
 from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces, pressure_surface
 from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
+from viscontact.plot.sweeps.profiles import profiles
 from viscontact.plot.sweeps.response import response
 from viscontact.plot.sweeps.scatter_bands import scatter_bands
 from viscontact.plot.sweeps.tornado import tornado
@@ -134,6 +135,7 @@ __all__ = [
     "pressure_profile",
     "pressure_radial",
     "pressure_surface",
+    "profiles",
     "require_suffix",
     "response",
     "save_animation",

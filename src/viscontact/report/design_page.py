@@ -60,7 +60,8 @@ def _chapters(
         element("p", headline, class_="headline"),
         listed_notes(table),
     )
-    yield element("section", element("h2", "Before and after"), *_values(table), *_figures(runs))
+    compared = (*_values(table), *before_and_after(runs))
+    yield element("section", element("h2", "Before and after"), *compared)
     if len(_goals(table)) > 1:
         yield element("section", element("h2", "Trade-off"), *_trade_off(table))
     figures = (_trials_figure(table, goal) for goal in _goals(table))
@@ -125,7 +126,7 @@ def _parameter(column: xr.DataArray, trial: int) -> str:
     return format_quantity(float(value), str(column.attrs.get("units", "1")), 5)
 
 
-def _figures(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
+def before_and_after(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
     """Pressure and line load at the first and the last instant, and the scalars over time."""
     if not runs:
         return

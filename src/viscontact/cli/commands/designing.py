@@ -74,6 +74,24 @@ def design(
     ] = "worst",
     over: Scenarios = None,
     scatter: Scatter = None,
+    profile: Annotated[
+        str | None,
+        typer.Option(
+            "--profile",
+            metavar="free[:KNOTS][:asymmetric]",
+            help="Find the drop curve of a roller for the least peak pressure, in place of "
+            "--change; DIR gets profile.csv and profile.dxf, too.",
+        ),
+    ] = None,
+    drop_tolerance: Annotated[
+        str | None,
+        typer.Option(
+            "--drop-tolerance",
+            metavar="LENGTH",
+            help="Production tolerance of the drop, to either side, e.g. '1 um'; the worst profile "
+            "within it counts.",
+        ),
+    ] = None,
     constraint: Constraints = None,
     settings: Settings = None,
     runs: Annotated[
@@ -82,7 +100,8 @@ def design(
             "--runs",
             min=1,
             metavar="N",
-            help="Most runs; by default 60, and several times as many for a trade-off.",
+            help="Most runs; by default 60, several times as many for a trade-off, and 2000 "
+            "for a profile.",
         ),
     ] = None,
     jobs: Annotated[
@@ -97,11 +116,21 @@ def design(
     """Find the values of a case for which a scalar is least or largest.
 
     The search begins on coarse cells; the best trials are computed on the cells of the case. DIR
-    gets best.yaml, trials.nc and report.html.
+    gets best.yaml, trials.nc and report.html. With --profile free, the drop curve of a roller is
+    found.
     """
     from viscontact.cli.design.execution import execute_design
     from viscontact.cli.design.options import DesignRequest
+    from viscontact.cli.design.profiles import ProfileRequest, execute_profile_design
 
+    if profile is not None or drop_tolerance is not None:
+        excluded = {"--change": change, "--maximise": maximise, "--constraint": constraint}
+        wanted = ProfileRequest(
+            *(case, output, profile, drop_tolerance, minimise or (), at, over or ()),
+            *(settings or (), runs, jobs, {**excluded, "--scatter": scatter}),
+        )
+        execute_profile_design(wanted, resume=resume, quiet=quiet)
+        return
     request = DesignRequest(
         *(case, output, change or (), minimise or (), maximise or (), at),
         *(over or (), scatter or (), constraint or (), settings or (), runs, jobs),

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from viscontact.case import CaseError
 from viscontact.cli.design.options import DesignRequest, as_typed
@@ -13,9 +15,12 @@ from viscontact.cli.terminal.progress import counted
 from viscontact.design.conclusions import InfeasibleError
 from viscontact.design.design import design
 from viscontact.design.history import HISTORY_NAME
+from viscontact.design.profiles.result import ProfileDesign
 from viscontact.design.result import DesignResult
 from viscontact.design.result_files import BEST_NAME
 from viscontact.errors import ConvergenceError, DomainError
+
+T = TypeVar("T")
 
 #: Report in the directory of a design.
 REPORT_NAME = "report.html"
@@ -26,18 +31,25 @@ _LINE_RUNS = 10
 def execute_design(request: DesignRequest, *, resume: bool, quiet: bool) -> None:
     """Search, write the result to its directory, and print it."""
     arguments = request.arguments()
-    has_begun = (request.output / HISTORY_NAME).exists()
+    found = performed(partial(design, **arguments), request.output, resume=resume, quiet=quiet)
+    _print(found)
+    written_report(found, request.output / REPORT_NAME)
+    print(request.output / BEST_NAME)
+
+
+def performed(search: Callable[..., T], output: Path, *, resume: bool, quiet: bool) -> T:
+    """Result of a search, which takes the argument `progress`; its failures end the program."""
+    has_begun = (output / HISTORY_NAME).exists()
     if has_begun and not resume:
         refuse(
-            f"{request.output}: holds a design already; continue it with --resume, or choose "
-            "another directory with -o DIR"
+            f"{output}: holds a design already; continue it with --resume, or choose another "
+            "directory with -o DIR"
         )
     if resume and not has_begun and not quiet:
-        say(f"{request.output}: nothing is saved there yet; starting at the beginning")
+        say(f"{output}: nothing is saved there yet; starting at the beginning")
     try:
         with counted("runs", quiet=quiet) as bar:
-            shown = bar if sys.stderr.isatty() or quiet else _lines()
-            found = design(**arguments, progress=shown)
+            return search(progress=bar if sys.stderr.isatty() or quiet else _lines())
     except CaseError as error:
         refuse(*(as_typed(line) for line in error.problems))
     except InfeasibleError as error:
@@ -45,16 +57,13 @@ def execute_design(request: DesignRequest, *, resume: bool, quiet: bool) -> None
     except ValueError as error:
         refuse(*map(as_typed, str(error).splitlines()))
     except OSError as error:
-        stop(f"{request.output}: {error}")
+        stop(f"{output}: {error}")
     except KeyboardInterrupt:
         stop(
-            f"interrupted; {request.output} keeps the finished trials",
+            f"interrupted; {output} keeps the finished trials",
             "continue with the same command and --resume",
             code=INTERRUPTED,
         )
-    _print(found)
-    _report(found, request.output / REPORT_NAME)
-    print(request.output / BEST_NAME)
 
 
 def _lines() -> Callable[[int, int], None]:
@@ -70,7 +79,7 @@ def _lines() -> Callable[[int, int], None]:
     return line
 
 
-def _report(found: DesignResult, page: Path) -> None:
+def written_report(found: DesignResult | ProfileDesign, page: Path) -> None:
     """Write the report where the packages of figures are installed."""
     try:
         found.report(page)

@@ -22,6 +22,7 @@ _OPTIONS = {
     "maximise": "--maximise",
     "at": "--at",
     "runs": "--runs",
+    "drop_tolerance": "--drop-tolerance",
     "directory": "-o",
 }
 
@@ -53,14 +54,14 @@ class DesignRequest:
             refuse("give --minimise or --maximise, e.g. --minimise peak_pressure")
         return {
             "case": self.case,
-            "change": _keys("--change", self.change, _parameter),
+            "change": keys("--change", self.change, _parameter),
             "minimise": self.minimise,
             "maximise": self.maximise,
-            "at": _instant(self.at),
-            "over": _keys("--over", self.over, split_values),
-            "scatter": _keys("--scatter", self.scatter, _parameter),
+            "at": instant(self.at),
+            "over": keys("--over", self.over, split_values),
+            "scatter": keys("--scatter", self.scatter, _parameter),
             "constraints": list(self.constraints),
-            "settings": _keys("--set", self.settings, str),
+            "settings": keys("--set", self.settings, str),
             "runs": self.runs,
             "workers": self.jobs,
             "directory": self.output,
@@ -78,7 +79,7 @@ def as_typed(message: str) -> str:
     return message if name is None or option is None else option + message[name.end() :]
 
 
-def _keys(option: str, texts: Sequence[str], read: Any) -> dict[str, Any]:
+def keys(option: str, texts: Sequence[str], read: Any) -> dict[str, Any]:
     """Values by key, each read from the text behind the equals sign."""
     found: dict[str, Any] = {}
     for text in texts:
@@ -107,7 +108,8 @@ def _parameter(given: str) -> Any:
     return bounds
 
 
-def _instant(text: str) -> Any:
+def instant(text: str) -> Any:
+    """Instant of a goal: worst, end or a time [s]."""
     if text in ("worst", "end"):
         return text
     try:

@@ -1,0 +1,43 @@
+"""Drop curves as tables with the digits that a grinding machine gets."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.indenters.profile import Profile
+from viscontact.indenters.tabulated import TabulatedProfile
+
+Array = NDArray[np.float64]
+
+#: Last digit of a drop [m].
+RESOLUTION = 1e-10
+
+
+def rounded(drop: Array) -> Array:
+    """Drops with the digits of the tables [m].
+
+    >>> rounded(np.array([1.23456789e-6])).tolist()
+    [1.2346e-06]
+    """
+    return np.asarray(np.round(drop / RESOLUTION) / round(1 / RESOLUTION))
+
+
+def tabulated(x: Array, drop: Array) -> TabulatedProfile:
+    """Profile through positions and drops [m]."""
+    return TabulatedProfile(x, rounded(drop))
+
+
+def finite_table(profile: Profile, x: Array, half_length: float) -> Array:
+    """Drops of a profile at positions [m], continued where they are infinite at the ends.
+
+    >>> from viscontact.indenters import LogarithmicProfile
+    >>> line = finite_table(LogarithmicProfile(1.0), np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 1.0)
+    >>> line.round(3).tolist()
+    [0.863, 0.288, 0.0, 0.288, 0.863]
+    """
+    drop = np.array(profile.drop(x, half_length))
+    for end, next_one, second in ((0, 1, 2), (-1, -2, -3)):
+        if np.isinf(drop[end]):
+            drop[end] = 2 * drop[next_one] - drop[second] + (drop[next_one] - drop[second])
+    return drop
