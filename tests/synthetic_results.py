@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from viscontact.results.accessor import ResultAccessor as ResultAccessor  # ds.viscontact
 from viscontact.results.variables import SCALARS
 
 FloatArray = NDArray[np.float64]

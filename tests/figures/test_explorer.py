@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ import xarray as xr
 
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.figures.look import DARK, LIGHT
+from viscontact.figures.pressure_map import pressure_map
+from viscontact.figures.shown_fields import shown_fields
 from viscontact.units.formatting import readable_unit
 from viscontact.units.systems import SYSTEMS, unit_in
 
@@ -48,6 +51,30 @@ def test_a_long_contact_has_its_line_load_in_a_row_of_its_own() -> None:
     assert figure.layout.yaxis4.title.text == "Line load [kN/m]"
     domains = [figure.layout[f"yaxis{mark}"].domain for mark in ("", 2, 4)]
     assert domains[0][0] > domains[1][1] > domains[1][0] > domains[2][1] > domains[2][0] >= 0
+
+
+def test_in_a_narrow_cell_every_panel_has_the_whole_width() -> None:
+    figure = roller(times=(0.0, 100.0)).viscontact.explore(width=380)
+    assert figure.layout.width == 380
+    marks = ("", 2, 3, 4)
+    assert all(figure.layout[f"xaxis{mark}"].domain == (0, 1) for mark in marks)
+    domains = [figure.layout[f"yaxis{mark}"].domain for mark in marks]
+    for (above, _), (low, high) in pairwise(domains):
+        assert above > high > low >= 0
+    assert figure.data[0].colorbar.orientation == "h"
+    with pytest.raises(ValueError, match="width: wanted 300 pixels or more, got 200"):
+        roller(times=(0.0, 100.0)).viscontact.explore(width=200)
+
+
+def test_the_map_contains_the_outline_of_the_reference() -> None:
+    small, large = (shown_fields(roller(times=times)) for times in ((0.0, 0.1), (100.0, 1000.0)))
+    for one, other in ((small, large), (large, small)):
+        figure = pressure_map(one, LIGHT, other)
+        for frame in figure.frames:
+            for letter in "xy":
+                low, high = figure.layout[f"{letter}axis"].range
+                places = np.asarray(getattr(frame.data[2], letter), dtype=float)
+                assert low < np.nanmin(places) < np.nanmax(places) < high
 
 
 def test_colours_and_units_can_be_chosen(ds: xr.Dataset) -> None:

@@ -20,11 +20,16 @@ from viscontact.units.systems import AUTOMATIC, SYSTEMS
 _WIDTH, _LEAST, _MOST = 760, 120, 440
 #: Heights of a section, of what lies between rows, and above and below all [pixel].
 _SECTION, _BETWEEN, _ABOVE, _BELOW = 190, 84, 40, 150
+#: Widths below which the sections are below each other, and least width; height of a colour bar
+#: above the map [pixel].
+_NARROW, _LEAST_WIDTH, _BAR = 560, 300, 52
 #: Time between two frames that are played [ms].
 _PAUSE = 800
 
 
-def explore(result: xr.Dataset, *, dark: bool = False, units: str = AUTOMATIC) -> go.Figure:
+def explore(
+    result: xr.Dataset, *, dark: bool = False, units: str = AUTOMATIC, width: int | None = None
+) -> go.Figure:
     """Draw pressure map and sections of a result with a slider over time or speed.
 
     Parameters
@@ -36,6 +41,9 @@ def explore(result: xr.Dataset, *, dark: bool = False, units: str = AUTOMATIC) -
     units : {"auto", "mm", "kn", "um", "us", "si"}, optional
         System of units: the units that read best; mm, N, MPa; mm, kN, MPa; µm, mN, kPa; inches and
         pounds; or SI.
+    width : int, optional
+        Width of the figure [pixel], such as 380 for a narrow cell; below 560 the sections are below
+        each other. By default it is that of the cell, which should be 600 or wider.
 
     Returns
     -------
@@ -47,7 +55,8 @@ def explore(result: xr.Dataset, *, dark: bool = False, units: str = AUTOMATIC) -
     Raises
     ------
     ValueError
-        If no fields are stored, the bodies do not touch in them, or the units are not known.
+        If no fields are stored, the bodies do not touch in them, the units are not known, or the
+        width is below 300.
 
     Examples
     --------
@@ -61,28 +70,35 @@ def explore(result: xr.Dataset, *, dark: bool = False, units: str = AUTOMATIC) -
     """
     if units not in SYSTEMS:
         raise ValueError(f"units: wanted one of {', '.join(SYSTEMS)}; got {units!r}")
+    if width is not None and not width >= _LEAST_WIDTH:
+        raise ValueError(f"width: wanted {_LEAST_WIDTH} pixels or more, got {width}")
     look = replace(DARK if dark else LIGHT, system=units)
     ds = in_order(result)
     fields = shown_fields(ds)
     figures = [pressure_map(fields, look), *sections(ds, fields, look)]
-    return _together(figures, fields, look)
+    return _together(figures, fields, look, width)
 
 
-def _together(figures: list[go.Figure], fields: ShownFields, look: Look) -> go.Figure:
+def _together(
+    figures: list[go.Figure], fields: ShownFields, look: Look, width: int | None
+) -> go.Figure:
     """Place a map above sections, as one figure whose frames change all of them."""
-    map_height = min(max(_WIDTH * fields.window.height_to_width, _LEAST), _MOST)
-    rows = len(figures) - 2  # two sections side by side, and a line load below
+    narrow = width is not None and width < _NARROW
+    map_height = min(max((width or _WIDTH) * fields.window.height_to_width, _LEAST), _MOST)
+    rows = len(figures) - (1 if narrow else 2)  # a row may have two sections side by side
+    above = _ABOVE + _BAR if narrow else _ABOVE
     inner = map_height + rows * (_SECTION + _BETWEEN)
     layout: Part = {
         "template": look.template,
-        "height": inner + _ABOVE + _BELOW,
-        "margin": {"l": 64, "r": 30, "t": _ABOVE, "b": _BELOW},
+        "width": width,
+        "height": inner + above + _BELOW,
+        "margin": {"l": 64, "r": 30, "t": above, "b": _BELOW},
         "paper_bgcolor": look.card,
         "plot_bgcolor": look.card,
         "uirevision": "kept",
         **_controls(fields, look),
     }
-    domains = _domains(len(figures), map_height / inner, (_SECTION / inner, _BETWEEN / inner))
+    domains = _domains(rows, narrow, map_height / inner, (_SECTION / inner, _BETWEEN / inner))
     traces: list[Part] = []
     offsets = []
     for number, (figure, (across, up)) in enumerate(zip(figures, domains, strict=True), start=1):
@@ -94,24 +110,28 @@ def _together(figures: list[go.Figure], fields: ShownFields, look: Look) -> go.F
         layout[f"xaxis{mark}"] = axes["xaxis"] | {"domain": across, "anchor": f"y{mark}"}
         layout[f"yaxis{mark}"] = axes["yaxis"] | {"domain": up, "anchor": f"x{mark}"}
     layout["xaxis"]["title"]["standoff"] = 8
-    upright = {"orientation": "v", "x": 1.0, "xanchor": "left", "y": 1.0, "yanchor": "top"}
-    traces[0]["colorbar"] |= upright | {"len": map_height / inner}
     headings = [_heading(domain, look) for domain in domains]
+    if narrow:  # the bar remains above the map
+        headings = [heading | {"font": {"size": 11, "color": look.ink}} for heading in headings]
+        headings[0]["yshift"] = _BAR
+    else:
+        upright = {"orientation": "v", "x": 1.0, "xanchor": "left", "y": 1.0, "yanchor": "top"}
+        traces[0]["colorbar"] |= upright | {"len": map_height / inner}
     frames = [_frame(figures, offsets, headings, index) for index in range(len(fields.snapshots))]
     return go.Figure(traces, layout | frames[fields.start]["layout"], frames)
 
 
 def _domains(
-    count: int, map_part: float, rows: tuple[float, float]
+    rows: int, narrow: bool, map_part: float, heights: tuple[float, float]
 ) -> list[tuple[list[float], list[float]]]:
-    """Horizontal and vertical domains: the map, two sections side by side, and the line load."""
-    section, between = rows
+    """Horizontal and vertical domains: the map, and below it rows of sections and the line load."""
+    section, between = heights
     found = [([0.0, 1.0], [1 - map_part, 1.0])]
-    top = 1 - map_part - between
-    row = [max(top - section, 0.0), top]  # not below zero by rounding
-    found += [([0.0, 0.45], row), ([0.55, 1.0], row)]
-    if count > 3:
-        found.append(([0.0, 1.0], [0.0, section]))
+    for row in range(rows):
+        top = 1 - map_part - between - row * (section + between)
+        up = [max(top - section, 0.0), top]  # not below zero by rounding
+        pair = row == 0 and not narrow
+        found += [(across, up) for across in ([[0.0, 0.45], [0.55, 1.0]] if pair else [[0.0, 1.0]])]
     return found
 
 

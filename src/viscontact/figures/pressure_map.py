@@ -43,7 +43,8 @@ def pressure_map(
     look : Look, optional
         Colours and units.
     reference : ShownFields, optional
-        Fields of another result, whose outline at the nearest instant is dashed.
+        Fields of another result, whose outline at the nearest instant is dashed; it lies within
+        the map.
 
     Returns
     -------
@@ -51,6 +52,7 @@ def pressure_map(
         The map at the instant shown first. Frames are named by their numbers: ``"0"``, ``"1"``.
         The title of an instant and its largest pressure are in ``layout.meta``.
     """
+    fields = fields.beside(reference)
     length = look.unit("m", fields.window.x, fields.window.y)
     pressure = look.unit("Pa", fields.peak)
     frames: list[Part] = [

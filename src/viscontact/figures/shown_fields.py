@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -69,6 +69,12 @@ class ShownFields:
             return (_middle_of(self.snapshots[self.start]),) * len(self.snapshots)
         pairs = zip(self.snapshots, self.body, strict=True)
         return tuple(_middle_of(each) if each.touching else place.axis for each, place in pairs)
+
+    def beside(self, other: ShownFields | None) -> ShownFields:
+        """The same fields in a window that contains the contacts of other fields as well."""
+        if other is None:
+            return self
+        return replace(self, window=window_around([*self.snapshots, *other.snapshots]))
 
 
 def shown_fields(ds: xr.Dataset) -> ShownFields:

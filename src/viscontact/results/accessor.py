@@ -39,9 +39,9 @@ class ResultAccessor(Displayable):
         """Its figures: ``plot.pressure_map()`` and the like, each of which returns axes."""
         return result_plots(self.result)
 
-    def explore(self, *, dark: bool = False, units: str = "auto") -> Any:
+    def explore(self, *, dark: bool = False, units: str = "auto", width: int | None = None) -> Any:
         """Pressure map and sections with a slider, see `viscontact.figures.explore`."""
-        return result_explorer(self.result, dark=dark, units=units)
+        return result_explorer(self.result, dark=dark, units=units, width=width)
 
     def __repr__(self) -> str:
         return str(self)

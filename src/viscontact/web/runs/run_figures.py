@@ -45,7 +45,7 @@ def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None)
     return {
         "surface": list(map(plain, surface)),
         "start": 0 if fields is None else fields.start,
-        "remarks": "" if fields is None else map_remarks(fields),
+        "remarks": "" if fields is None else map_remarks(fields.beside(others)),
         "friction": plain(friction(ds, look, other)) if has_friction(ds) else None,
         "histories": [plain(each) for each in _histories(ds, look, other)],
         "scale": _scale(ds, look, other),
