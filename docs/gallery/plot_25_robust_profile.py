@@ -2,9 +2,9 @@
 A robust profile
 ================
 
-A roller is loaded in its middle, or up to 2.5 mm beside it. Which profile has the least peak pressure
-in the worst of these cases? The drop curve itself is searched for, not the parameter of a named
-one, as by ``viscontact design roller.yaml --profile free``.
+A roller is loaded in its middle, or 2.5 mm beside it. Which profile has the least peak pressure in
+the worse of both cases? The drop curve itself is searched for, not the parameter of a named one, as
+by ``viscontact design roller.yaml --profile free``.
 """
 
 # %%
@@ -40,9 +40,9 @@ runs = found.before_and_after()  # the best named profile and the free one, in t
 # The figure
 # ----------
 #
-# Below, the line load of the eccentric force. The free profile drops more between the middle and the
-# ends. That makes the line load nearly even on the loaded side; under the best named profile it has
-# a maximum near the end.
+# Below, the line load of the eccentric force. The free profile drops more between the middle and
+# the ends. That makes the line load nearly even on the loaded side; under the best named profile it
+# has a maximum near the end.
 
 figure, (above, below) = plt.subplots(2, 1, figsize=(6.4, 5.4), sharex=True, layout="constrained")
 for (name, run), colour in zip(runs.items(), ["#D55E00", "#0072B2"], strict=True):
@@ -59,7 +59,7 @@ below.set(xlabel="x [mm]", ylabel="line load [N/mm]")
 # ---------
 #
 # The least possible pressure under the eccentric force is the even one of a long contact that is
-# centred on the force and ends with the roller: p₀ = sqrt(w E*/(π R)) with w = F/(2 (L - e)) (Hertz).
+# centred on the force and ends with the roller (Hertz): p₀ = sqrt(w E*/(π R)), w = F/(2 (L - e)).
 
 even = (force / (2 * (half_length - shift)) * modulus / (math.pi * radius)) ** 0.5
 named = float(found.table.peak_pressure.sel(profile=found.best_named))
