@@ -197,3 +197,29 @@ def test_what_has_no_program_is_refused():
         vc.simulate(BALL, material, PROGRAM, repeated, times)
     with pytest.raises(ValueError, match="load: a steady motion has a constant load"):
         vc.steady(BALL, material, PROGRAM, 1.0, rolling=False)
+
+
+def test_an_eccentric_force_is_unloaded_at_its_rate_until_contact_is_lost():
+    # Slender contact on an automatic grid, a free tilt, and the force throughout.
+    program = vc.LoadProgram(
+        "load at 10 N/s until contact_width reaches 0.3 mm; unload at 20 N/s until contact is lost",
+        eccentricity_x=2e-4,
+        tilt_x=None,
+    )
+    body, material = vc.Paraboloid(75e-3, 5e-3), vc.Material(vc.Zener(1e8, 1e8, 1e8), 0.4)
+    grid, times = vc.AutomaticGrid(0.05), vc.uniform_times(5.0, 200)
+    ds = vc.simulate(body, material, program, grid, times, errors=False, fields="none")
+    reached, lost = ds.attrs["event_times"]
+    event = ds.sel(time=reached)
+    assert float(event.contact_width) == pytest.approx(3e-4, rel=1e-6)
+    assert float(event.eccentricity_x) == pytest.approx(2e-4, rel=1e-4)
+    assert float(event.force) == pytest.approx(10 * reached, rel=1e-6)
+    # The force falls at twice the rate of its rise.
+    assert lost == pytest.approx(1.5 * reached, rel=1e-6)
+    assert ds.force[-1] == 0
+
+
+def test_a_force_is_not_reduced_below_zero():
+    program = vc.LoadProgram("load at 1 N/s for 50 ms; unload at 1 N/s for 60 ms")
+    with pytest.raises(ValueError, match="the force is zero after 50 ms of it"):
+        run(LAWS["zener"], 33, 10, program)

@@ -78,6 +78,7 @@ class EventSearch:
         """March to the end of the program; EventError if a condition is never met."""
         course = self._course
         while not course.is_over:
+            course.refuse_pull()
             first = len(self.states) - 1
             met = self._march_segment()
             if met is None and course.segment.until is not None:
@@ -187,7 +188,7 @@ def _excess(condition: Condition, state: ContactState) -> float:
     if condition.scalar != "contact":
         return float(getattr(state, condition.scalar)) - condition.value
     if state.outcome is Outcome.NO_CONTACT:
-        return -float(state.gap.min()) - math.ulp(0.0)
+        return -max(float(state.gap.min()), 0.0) - math.ulp(0.0)  # below 0 by rounding
     return state.force
 
 

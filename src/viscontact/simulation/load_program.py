@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.arguments import check_mixed
-from viscontact.errors import DomainError
+from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.loads import Condition, ForceHistory, LoadPoint, MixedHistory
 from viscontact.loads.program import CONTROL_UNITS
@@ -27,6 +27,9 @@ _LOG = logging.getLogger("viscontact")
 
 #: Cells along each axis and most steps of a rough march, and its tolerance of adaptive steps.
 ROUGH_CELLS, ROUGH_STEPS, ROUGH_ERROR = 40, 80, 1e-2
+
+#: Tolerance of the solver in a rough march.
+ROUGH_TOLERANCE = 1e-4
 
 #: Most rough marches in search of the size of the contact, and the factor between two sizes.
 ROUGH_MARCHES, ENLARGED = 40, 2.0
@@ -109,12 +112,12 @@ def _searched(
 def _rough_march(problem: Problem, latest: float) -> tuple[EventSearch, MixedHistory]:
     """March a program on few cells and steps, on a grid about as large as its largest contact."""
     easy = _with_few_steps(problem)
-    size = np.full(2, 2 * MARGIN * _first_reach(problem, latest))
+    size = 2 * MARGIN * np.array(_first_reach(problem, latest))
     for _ in range(ROUGH_MARCHES):
         grid = Grid((ROUGH_CELLS, ROUGH_CELLS), (float(size[0]), float(size[1])))
         try:
             found = _searched(easy, grid, latest)
-        except DomainError:
+        except (DomainError, ConvergenceError):  # too small, or cells of an awkward size
             size *= ENLARGED
             continue
         reach = np.add(found[0].reach, np.array(grid.cell_size) / 2)
@@ -128,8 +131,8 @@ def _rough_march(problem: Problem, latest: float) -> tuple[EventSearch, MixedHis
     )
 
 
-def _first_reach(problem: Problem, latest: float) -> float:
-    """First guess of the reach of the contact, from a load that the program names [m]."""
+def _first_reach(problem: Problem, latest: float) -> tuple[float, float]:
+    """First guess of the reach of the contact along x and y, from a load of the program [m]."""
     assert isinstance(problem.load, MixedHistory)
     program = problem.load.program
     assert program is not None
@@ -155,17 +158,19 @@ def _first_reach(problem: Problem, latest: float) -> float:
     compliance = float(problem.compliance(latest))
     response = problem.surface.response_at(latest)
     found = locate_contact(problem.indenter, compliance, point, response=response)
-    return max(found.reach_from((0.0, 0.0)))
+    return found.reach_from((0.0, 0.0))
 
 
 def _with_few_steps(problem: Problem) -> Problem:
     """The problem with fewer of its times, or a larger tolerance of adaptive ones."""
+    solved = max(problem.tolerance, ROUGH_TOLERANCE)
     if problem.adaptive is not None:
         tolerance = max(problem.adaptive.tolerance, ROUGH_ERROR)
-        return replace(problem, times=replace(problem.adaptive, tolerance=tolerance), fields="none")
+        times = replace(problem.adaptive, tolerance=tolerance)
+        return replace(problem, times=times, fields="none", tolerance=solved)
     instants = problem.instants
     kept = instants[:: math.ceil(len(instants) / ROUGH_STEPS)]
-    return replace(problem, times=np.union1d(kept, instants[-1:]), fields="none")
+    return replace(problem, times=np.union1d(kept, instants[-1:]), fields="none", tolerance=solved)
 
 
 def _coarse(grid: Grid) -> Grid:

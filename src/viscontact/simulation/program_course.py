@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from viscontact.loads import Condition, LoadProgram, MixedHistory, Segment
@@ -9,6 +10,9 @@ from viscontact.loads.history import Control
 from viscontact.loads.mixed import STOP
 from viscontact.state import ContactState
 from viscontact.units.formatting import format_quantity
+
+#: Part of a force, or of a duration, that is rounding.
+ROUNDING = 1e-12
 
 
 class EventError(ValueError):
@@ -63,7 +67,24 @@ class ProgramCourse:
         duration = self.segment.duration
         if self._lengths is not None:
             duration = self._lengths[len(self.controls)]
-        return self.latest if duration is None else min(self.begin + duration, self.latest)
+        end = self.latest if duration is None else min(self.begin + duration, self.latest)
+        return min(end, self.begin + self._way_to_zero)
+
+    @property
+    def _way_to_zero(self) -> float:
+        """Duration after which a force that the segment reduces is zero; inf for others [s]."""
+        rate = self.segment.rate
+        return self._begin / -rate if self.segment.control == "force" and rate < 0 else math.inf
+
+    def refuse_pull(self) -> None:
+        """Refuse a segment that would reduce the force below zero; EventError."""
+        duration, way = self.segment.duration, self._way_to_zero
+        if way == 0 or (duration is not None and way < duration * (1 - ROUNDING)):
+            raise EventError(
+                f"load: segment {len(self.controls) + 1}, '{self.segment}': the force is zero "
+                f"after {format_quantity(way, 's', 6)} of it, and a negative force, with adhesion, "
+                "is not modelled; end it with 'until contact is lost'"
+            )
 
     @property
     def conditions(self) -> list[Condition]:
@@ -89,7 +110,9 @@ class ProgramCourse:
 
     def _level(self, time: float) -> float:
         level = self._begin + self.segment.rate * (time - self.begin)
-        return max(level, 0.0) if self.segment.control == "force" else level
+        if self.segment.control == "approach":
+            return level
+        return level if level > ROUNDING * self._begin else 0.0
 
     def finish(self, state: ContactState, met: Condition | None) -> None:
         """End the segment at a state, where a condition was met, or none."""
