@@ -41,6 +41,7 @@ def write_profile_report(
         title=written(element("title", title)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
         body="\n".join(map(written, _chapters(table, runs, title, headline))),
+        scripts="",
     )
     Path(path).write_text(page, encoding="utf-8")
 

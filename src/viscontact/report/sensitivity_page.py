@@ -31,6 +31,7 @@ def write_sensitivity_report(table: xr.Dataset, path: str | Path, *, title: str)
         title=written(element("title", title)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
         body="\n".join(map(written, _chapters(table, title))),
+        scripts="",
     )
     Path(path).write_text(page, encoding="utf-8")
 
