@@ -41,6 +41,34 @@ class ContactCurve:
     )
 
 
+def cut_at_ends(
+    snapshot: Snapshot, along: Literal["x", "y"], at: float | None, curve: tuple[Array, Array]
+) -> tuple[Array, Array]:
+    """The curve along an axis, falling to zero where the body ends, not at the next centre.
+
+    The end is that on the row of cells next to `at` [m] on the other axis, by default the middle.
+    """
+    positions, values = curve
+    if snapshot.body_end is None:
+        return curve
+    axis = 0 if along == "x" else 1
+    across = (snapshot.y, snapshot.x)[axis]
+    row = int(np.abs(across - (snapshot.middle[1 - axis] if at is None else at)).argmin())
+    ends = (snapshot.body_end.along_x, snapshot.body_end.along_y.T)[axis][:, row]
+    places, found = [], []
+    for before in np.flatnonzero(np.isfinite(ends)):
+        inner, outer = (before, before + 1) if values[before] > 0 else (before + 1, before)
+        if values[inner] > 0 and values[outer] == 0:
+            end = positions[inner] + ends[before] * (positions[outer] - positions[inner])
+            # From the left, the value precedes the zero.
+            places.append((before + 1, end, end))
+            found.append((values[inner], 0.0) if inner < outer else (0.0, values[inner]))
+    for (index, *ends_at), pair in reversed(list(zip(places, found, strict=True))):
+        positions = np.insert(positions, [index, index], ends_at)
+        values = np.insert(values, [index, index], pair)
+    return positions, values
+
+
 def draw_curves(
     results: xr.Dataset,
     curve: ContactCurve,

@@ -5,13 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.layout.page import Width
-from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
+from viscontact.plot.pressure.contact_curves import (
+    ContactCurve,
+    compare_curves,
+    cut_at_ends,
+    draw_curves,
+)
 from viscontact.results.recorded_case import across_period
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.snapshots import Snapshot
@@ -129,13 +135,20 @@ def _beyond_border(snapshot: Snapshot) -> Snapshot:
     return snapshot.with_border(1) if any(snapshot.periodic) else snapshot
 
 
+def _section(
+    snapshot: Snapshot, along: Literal["x", "y"], at: float | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Positions [m] and pressure [Pa], up to the ends of the body."""
+    return cut_at_ends(snapshot, along, at, snapshot.section(along, at))
+
+
 def _curve(along: Literal["x", "y"], at: float | None) -> ContactCurve:
     return ContactCurve(
         "pressure-profile",
         "Pressure",
         "Pa",
         along,
-        lambda snapshot: _beyond_border(snapshot).section(along, at),
+        lambda snapshot: _section(_beyond_border(snapshot), along, at),
         lambda snapshot: float(snapshot.pressure.max()),
         f"peak {MESH_DEPENDENT}",
         marks_edges=True,
