@@ -193,20 +193,31 @@ def as_reals(spectrum: Field) -> Field:
     return spectrum.view(spectrum.real.dtype).reshape(*spectrum.shape, 2)
 
 
-def fill_of_order_one(block: Field, field: NDArray[np.float64]) -> float:
-    """Copy a field into a block, and return the factor that it was divided by.
+def order_of(field: NDArray[np.float64], number: np.dtype[Any]) -> float:
+    """Return the factor to divide a field by before it is stored as a kind of number.
 
     In single precision, with its few exponents, that is its largest value; else 1.
 
     Examples
     --------
-    >>> block = np.zeros(2, np.float32)
-    >>> fill_of_order_one(block, np.array([1e-99, -4e-99])), block.tolist()
-    (4e-99, [0.25, -1.0])
+    >>> order_of(np.array([1e-99, -4e-99]), np.dtype(np.float32))
+    4e-99
     """
-    if block.dtype == field.dtype:
-        block[...] = field
+    if number == field.dtype:
         return 1.0
-    size = max(float(field.max()), -float(field.min())) or 1.0
-    np.divide(field, size, out=block, dtype=np.float64, casting="same_kind")
-    return size
+    return max(float(field.max()), -float(field.min())) or 1.0
+
+
+def fill_of_order(size: float, block: Field, field: NDArray[np.float64]) -> None:
+    """Copy a field, divided by a factor, into a block.
+
+    Examples
+    --------
+    >>> block = np.zeros(2, np.float32)
+    >>> fill_of_order(4e-99, block, np.array([1e-99, -4e-99])); block.tolist()
+    [0.25, -1.0]
+    """
+    if block.dtype == field.dtype and size == 1.0:
+        block[...] = field
+    else:
+        np.divide(field, size, out=block, dtype=np.float64, casting="same_kind")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from viscontact.fourier import as_reals, transforms_by
+from viscontact.halfspace import convolution
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient, influence_table
 from viscontact.halfspace.preconditioner import Preconditioner
@@ -70,6 +71,29 @@ def test_applying_does_not_touch_its_argument_nor_what_it_returned_before():
     operator.apply(q)
     assert (p == kept).all()
     assert (first == before).all()
+
+
+@pytest.mark.parametrize("mirrored", [(False, False), (True, False), (False, True), (True, True)])
+@pytest.mark.parametrize("library", ["scipy", "ducc0"])
+@pytest.mark.parametrize("single", [False, True])
+def test_blocks_of_lines_are_the_whole_on_any_number_of_threads(
+    mirrored, library, single, monkeypatch
+):
+    if library == "ducc0":
+        pytest.importorskip("ducc0")
+    table = influence_table((26, 38), CELL)
+    options = {"mirrored": mirrored, "single": single}
+    whole = Convolution(table, transforms=transforms_by(library), **options)
+    (pressure,) = fields(whole.shape)
+    expected = whole.apply(pressure)
+    monkeypatch.setattr(convolution, "BLOCK_BYTES", 2000)
+    one, *others = (
+        Convolution(table, transforms=transforms_by(library, threads), **options).apply(pressure)
+        for threads in (1, 2, 3)
+    )
+    rounding = 1e-6 if single else ROUNDING
+    assert np.abs(one - expected).max() < rounding * np.abs(expected).max()
+    assert all((each == one).all() for each in others)
 
 
 @pytest.mark.parametrize("library", ["scipy", "ducc0"])

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from copy import copy
-from typing import Any, Self
+from functools import partial
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from viscontact.fourier import (
     Transforms,
     as_reals,
     fastest_transforms,
-    fill_of_order_one,
+    fill_of_order,
+    order_of,
     transforms_by,
 )
+from viscontact.halfspace.kernel_spectrum import kernel_spectrum, padded_length
+
+#: Size of the lines that are transformed at once [bytes]: they stay in the processor's cache.
+BLOCK_BYTES = 2**19
+
+#: Work on a block of lines, in a workspace of its own.
+_Work: TypeAlias = Callable[[slice, NDArray[Any]], None]
 
 
 class Convolution:
@@ -31,6 +40,10 @@ class Convolution:
     `coefficients` are those of the whole block, from `influence_table` or
     `periodic_influence_table` [m], even along both axes but for a `signed` one, with the 2 n - 1
     offsets of `moving_influence_table`; `single` precision takes half the time.
+
+    Only the cells with data are kept between the transforms along the two axes. Lines are padded,
+    transformed, multiplied by the symbol and transformed back in blocks that stay in the cache;
+    with several threads each takes blocks of its own, and the result is the same to the bit.
 
     References
     ----------
@@ -61,27 +74,45 @@ class Convolution:
         signed: int | None = None,
         transforms: Transforms | None = None,
     ) -> None:
-        self._transforms = transforms or transforms_by(fastest_transforms())
+        transforms = transforms or transforms_by(fastest_transforms())
         counts = [
             (entries + 1) // 2 if axis == signed else entries
             for axis, entries in enumerate(coefficients.shape)
         ]
         self.shape = _halved(counts, mirrored)
-        padded = [
-            _padded(cells, unpadded=mirrored[axis], exact=periodic[axis])
+        self._lengths = [
+            padded_length(cells, unpadded=mirrored[axis], exact=periodic[axis])
             for axis, cells in enumerate(counts)
         ]
-        # A real Fourier transform comes first, on the columns with data; the next one is complex.
-        self._first = 0 if mirrored == (False, True) else 1
-        self._second = 1 - self._first
-        self._even = mirrored
-        number = np.float32 if single else np.float64
-        complex_number = np.result_type(number, np.complex64)
-        symbol = _symbol(coefficients, padded, mirrored, self._first, signed)
-        self._symbol = symbol.astype(number if signed is None else complex_number)
-        self._block = np.zeros(_put(self.shape, self._first, padded[self._first]), number)
-        kind = number if mirrored[self._first] else complex_number
-        self._spectrum = np.zeros(self._symbol.shape, kind)
+        # A real Fourier transform comes first, and keeps half of its spectrum; then a complex one.
+        self._first = first = 0 if mirrored == (False, True) else 1
+        self._second = second = 1 - first
+        self._even, self._signed = mirrored, signed
+        self._number = np.dtype(np.float32 if single else np.float64)
+        complex_number = np.result_type(self._number, np.complex64)
+        symbol = kernel_spectrum(coefficients, self._lengths, mirrored, first, signed)
+        self._symbol = symbol.astype(self._number if signed is None else complex_number)
+        kind = self._number if mirrored[first] else complex_number
+        waves = symbol.shape[first]
+        self._lines = _blocks(self.shape[second], self._lengths[first] * self._number.itemsize)
+        self._waves = _blocks(waves, self._lengths[second] * kind.itemsize)
+        #: Padded lines for each thread, along the first and along the second axis.
+        self._padded = [
+            (
+                np.zeros(_put(first, self._lengths[first], self._lines[0].stop), self._number),
+                np.zeros(_put(second, self._lengths[second], self._waves[0].stop), kind),
+            )
+            for _ in range(transforms.threads)
+        ]
+        is_one_block = len(self._lines) == len(self._waves) == 1
+        # Threads share the blocks out, or else the lines of the only one.
+        self._transforms = transforms if is_one_block else transforms_by(transforms.name)
+        #: Spectrum along the first axis of cells with data; in the padded lines if they hold it.
+        self._half = (
+            _cut(self._padded[0][1], second, slice(self.shape[second]))
+            if len(self._waves) == 1
+            else np.zeros(_put(first, waves, self.shape[second]), kind)
+        )
 
     def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
         """Weighted sum of operators on the same block, in the precision of this one."""
@@ -98,36 +129,81 @@ class Convolution:
 
         The pressure [Pa] is positive in compression; the result is written to `into` if given.
         """
-        nx, ny = self.shape
-        # 1. Scale the pressure to order one and pad it with zeros.
-        size = fill_of_order_one(self._block[:nx, :ny], pressure)
-        _beyond(self._block, self.shape, self._first)[...] = 0
-        # 2. Transform, multiply by the symbol, transform back; 3. undo the scaling.
-        moved = self._back(self._forth(self._block))
-        return np.asarray(np.multiply(moved[:nx, :ny], size, out=into, dtype=np.float64))
+        result = np.empty(self.shape) if into is None else into
+        # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
+        # 3. undo the scaling.
+        size = order_of(pressure, self._number)
+        self._each(self._lines, 0, partial(self._forth, pressure, size))
+        self._each(self._waves, 1, self._multiply)
+        self._each(self._lines, 0, partial(self._back, result, size))
+        return result
 
-    def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
-        # First along the lines with data only, then along all lines of the padded block.
-        transforms, spectrum, second = self._transforms, self._spectrum, self._second
-        lines = _within(spectrum, self.shape, second)
-        if self._even[self._first]:
-            lines[...] = transforms.cosine_forward(block, self._first)
+    def _each(self, blocks: Sequence[slice], axis: int, work: _Work) -> None:
+        """Work on all blocks; with several threads, each takes every so many of them."""
+        threads = min(len(blocks), len(self._padded))
+        if threads == 1:
+            for block in blocks:
+                work(block, self._padded[0][axis])
+            return
+
+        def share(thread: int) -> None:
+            for block in blocks[thread::threads]:
+                work(block, self._padded[thread][axis])
+
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(share, range(threads)))
+
+    def _forth(
+        self, pressure: NDArray[np.float64], size: float, lines: slice, padded: NDArray[Any]
+    ) -> None:
+        """Transform lines of the pressure along the first axis."""
+        first, second, transforms = self._first, self._second, self._transforms
+        padded = _cut(padded, second, slice(lines.stop - lines.start))
+        cells = self.shape[first]
+        fill_of_order(size, _cut(padded, first, slice(cells)), _cut(pressure, second, lines))
+        _cut(padded, first, slice(cells, None))[...] = 0
+        spectrum = _cut(self._half, second, lines)
+        if self._even[first]:
+            spectrum[...] = transforms.cosine_forward(padded, first)
         else:
-            transforms.real_forward(block, lines, self._first)
-        _beyond(spectrum, self.shape, second)[...] = 0
-        ways = transforms.cosine_forward, transforms.complex_forward
-        spectrum = self._along_second(*ways, spectrum)
-        spectrum *= self._symbol
-        return spectrum
+            transforms.real_forward(padded, spectrum, first)
 
-    def _back(self, spectrum: NDArray[Any]) -> NDArray[Any]:
-        transforms = self._transforms
-        ways = transforms.cosine_inverse, transforms.complex_inverse
-        spectrum = self._along_second(*ways, spectrum)
-        lines = _within(spectrum, self.shape, self._second)
-        if self._even[self._first]:
-            return transforms.cosine_inverse(lines, self._first)
-        return transforms.real_inverse(lines, self._block, self._first)
+    def _multiply(self, waves: slice, padded: NDArray[Any]) -> None:
+        """Transform waves along the second axis, multiply them by the symbol, transform back."""
+        first, second, transforms = self._first, self._second, self._transforms
+        spectrum = _cut(self._half, first, waves)
+        padded = _cut(padded, first, slice(waves.stop - waves.start))
+        data = _cut(padded, second, slice(self.shape[second]))
+        apart = len(self._waves) > 1
+        if apart:
+            data[...] = spectrum
+        _cut(padded, second, slice(self.shape[second], None))[...] = 0
+        padded = self._along_second(transforms.cosine_forward, transforms.complex_forward, padded)
+        symbol = _cut(self._symbol, first, waves)
+        known = symbol.shape[second]
+        lower = _cut(padded, second, slice(known))
+        lower *= symbol
+        if known < self._lengths[second]:  # the symbol is even: the rest is its mirror image
+            upper = _cut(padded, second, slice(known, None))
+            upper *= _cut(symbol, second, slice(self._lengths[second] - known, 0, -1))
+        padded = self._along_second(transforms.cosine_inverse, transforms.complex_inverse, padded)
+        found = _cut(padded, second, slice(self.shape[second]))
+        if apart or not np.may_share_memory(found, spectrum):
+            spectrum[...] = found
+
+    def _back(
+        self, result: NDArray[np.float64], size: float, lines: slice, padded: NDArray[Any]
+    ) -> None:
+        """Transform lines back along the first axis, into the result."""
+        first, second, transforms = self._first, self._second, self._transforms
+        spectrum = _cut(self._half, second, lines)
+        if self._even[first]:
+            moved = transforms.cosine_inverse(spectrum, first)
+        else:
+            padded = _cut(padded, second, slice(lines.stop - lines.start))
+            moved = transforms.real_inverse(spectrum, padded, first)
+        moved = _cut(moved, first, slice(self.shape[first]))
+        np.multiply(moved, size, out=_cut(result, second, lines), dtype=np.float64)
 
     def _along_second(
         self,
@@ -148,63 +224,17 @@ def _halved(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
     return nx, ny
 
 
-def _padded(cells: int, *, unpadded: bool, exact: bool) -> int:
-    """Transform length for a number of cells of the whole block; exactly these in a period."""
-    if exact:
-        return cells
-    return int(fft.next_fast_len(cells if unpadded else 2 * cells - 1, real=True))
+def _blocks(lines: int, bytes_per_line: int) -> list[slice]:
+    """Blocks of lines of at most `BLOCK_BYTES`, the first of which is the largest."""
+    most = max(1, BLOCK_BYTES // bytes_per_line)
+    return [slice(start, min(start + most, lines)) for start in range(0, lines, most)]
 
 
-def _symbol(
-    coefficients: NDArray[np.float64],
-    padded: list[int],
-    mirrored: tuple[bool, bool],
-    first: int,
-    signed: int | None,
-) -> NDArray[Any]:
-    """Transform of the kernel: real if the kernel is even along both axes."""
-    index_x, index_y = (
-        _signed_offsets(padded[axis], entries)
-        if axis == signed
-        else _distances(padded[axis], entries, mirrored[axis])
-        for axis, entries in enumerate(coefficients.shape)
-    )
-    symbol = coefficients[index_x[:, None], index_y[None, :]]
-    for axis in (first, 1 - first):
-        if mirrored[axis]:
-            every = fft.dct(symbol, type=1, axis=axis)
-            symbol = np.take(every, np.arange(padded[axis]), axis)
-        else:
-            symbol = (fft.rfft if axis == first else fft.fft)(symbol, axis=axis)
-        if signed is None:
-            symbol = symbol.real
-    return np.ascontiguousarray(symbol)
+def _put(axis: int, along: int, across: int) -> tuple[int, int]:
+    """Shape of a number of lines along an axis, by their length and number."""
+    return (along, across) if axis == 0 else (across, along)
 
 
-def _distances(padded: int, cells: int, even: bool) -> NDArray[np.intp]:
-    """Offsets of a centred even kernel in the order of the transform: 0, 1, 2, ... (2, 1).
-
-    Offsets beyond the block fall on padding, which is never read; they are clipped.
-    """
-    index = np.arange(padded + even)
-    return np.minimum(index if even else np.minimum(index, padded - index), cells - 1)
-
-
-def _signed_offsets(padded: int, entries: int) -> NDArray[np.intp]:
-    """Entries of a kernel at signed offsets in the order of the transform: 0, 1, ... (-2, -1)."""
-    index, middle = np.arange(padded), entries // 2
-    return np.clip(np.where(index <= middle, index, index - padded), -middle, middle) + middle
-
-
-def _put(shape: tuple[int, int], axis: int, count: int) -> tuple[int, int]:
-    return (count, shape[1]) if axis == 0 else (shape[0], count)
-
-
-def _within(field: NDArray[Any], shape: tuple[int, int], axis: int) -> NDArray[Any]:
-    """Lines of a field that hold data, counted along an axis."""
-    return field[: shape[0]] if axis == 0 else field[:, : shape[1]]
-
-
-def _beyond(field: NDArray[Any], shape: tuple[int, int], axis: int) -> NDArray[Any]:
-    """Lines of a field that are padding, counted along an axis."""
-    return field[shape[0] :] if axis == 0 else field[:, shape[1] :]
+def _cut(field: NDArray[Any], axis: int, part: slice) -> NDArray[Any]:
+    """Part of a field along an axis, in the same memory."""
+    return field[part] if axis == 0 else field[:, part]

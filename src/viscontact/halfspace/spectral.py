@@ -22,7 +22,8 @@ from scipy import fft
 from viscontact.fourier import (
     Transforms,
     fastest_transforms,
-    fill_of_order_one,
+    fill_of_order,
+    order_of,
     transforms_by,
 )
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
@@ -165,7 +166,8 @@ class Spectra:
         into: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Field whose spectrum is that of the given field times a symbol."""
-        size = fill_of_order_one(self._block, field)
+        size = order_of(field, self._block.dtype)
+        fill_of_order(size, self._block, field)
         spectrum = self._forth(self._block)
         spectrum *= symbol
         return np.asarray(np.multiply(self._back(spectrum), size, out=into, dtype=np.float64))
