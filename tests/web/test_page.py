@@ -472,10 +472,10 @@ def test_everything_fits_and_has_a_name(width: int, browser: Any, server: seen.S
         assert page.evaluate(wide) <= 0, name
         page.wait_for_function(
             "() => !document.querySelector('.drawing[aria-busy]') && "
-            "document.querySelector('#drawing-indenter img').naturalWidth > 0"
+            "document.querySelector('#drawing-indenter img')?.naturalWidth > 0"
         )
         cut = """[...document.querySelectorAll(".drawing .scroll")].filter((each) =>
-          each.scrollWidth > each.clientWidth + 1).map((each) => each.parentElement.id)"""
+          each.scrollWidth > each.clientWidth + 1).map((each) => each.closest('.drawing').id)"""
         assert page.evaluate(cut) == [], name
         nameless = page.evaluate(
             """[...document.querySelectorAll("input, select, textarea, button")].filter((each) =>
