@@ -346,7 +346,7 @@ def test_a_server_that_dies_in_mid_run_is_missed_and_continued(
 ) -> None:
     with seen.served(tmp_path) as server:
         page, watched = seen.new_page(browser, server)
-        seen.visit(page, server, LONG.replace("[768, 768]", "[512, 512]").replace("60", "20"))
+        seen.visit(page, server, LONG)
         page.click("#refine")
         seen.until_at_work(page)
         server.kill()
