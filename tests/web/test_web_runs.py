@@ -21,8 +21,12 @@ import pytest
 import xarray as xr
 from fastapi.testclient import TestClient
 
+from figures.figure_data import array_of
 from viscontact.cli import main
+from viscontact.figures.look import LIGHT
+from viscontact.results.run_axis import TIME
 from viscontact.units.formatting import format_quantity
+from viscontact.web.runs.live_scalars import LiveScalars
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
 
 
@@ -102,6 +106,27 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
     rest = client.get(f"/api/runs/{run}/grown", params={"after": after}).json()
     assert (rest["begun"], rest["after"]) == (after, len(lines))
     assert rest["time"] == whole["time"][1:]
+    # The same as curves: read at once, and line by line as a run writes them.
+    drawn = client.get(f"/api/runs/{run}/growing", params={"units": "si"}).json()
+    assert drawn["count"] == len(whole["time"])
+    assert (drawn["reached"], drawn["texts"]) == (whole["reached"], whole["texts"])
+    curve = drawn["figures"]["peak_pressure"]["data"][0]
+    assert array_of(curve["x"]) == pytest.approx(whole["time"])
+    assert array_of(curve["y"]) == pytest.approx(pressures)
+    growing, place = LiveScalars(tmp_path / "half"), tmp_path / "half" / "progress.jsonl"
+    place.parent.mkdir()
+    place.write_bytes(lines[:after])
+    first = growing.drawn(TIME, (0.0, 5.0), LIGHT)
+    place.write_bytes(lines)
+    assert (first["count"], growing.drawn(TIME, (0.0, 5.0), LIGHT)["count"]) == (1, drawn["count"])
+    assert growing.places == whole["time"]
+    # A resumed run repeats its last lines; one that is replaced begins anew.
+    place.write_bytes(lines + lines[after:])
+    growing.drawn(TIME, (0.0, 5.0), LIGHT)
+    assert growing.places == whole["time"]
+    assert growing.scalars["peak_pressure"] == pressures
+    place.write_bytes(lines[:after])
+    assert growing.drawn(TIME, (0.0, 5.0), LIGHT)["count"] == 1
     # Positions in a log that was shorter, or longer, before it was replaced.
     for position in (after + 5, len(lines) + 1):
         again = client.get(f"/api/runs/{run}/grown", params={"after": position}).json()

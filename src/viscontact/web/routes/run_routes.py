@@ -105,6 +105,17 @@ def growth(calculator: AppCalculator, name: str, after: Place = 0) -> dict[str, 
     return grown(calculator.queue.run(name).directory, after)
 
 
+@router.get("/runs/{name}/growing")
+def growing(
+    calculator: AppCalculator, name: str, dark: bool = False, units: str = AUTOMATIC
+) -> Response:
+    """Return figures of the scalars of an active run, as far as they are computed."""
+    run, look = calculator.queue.run(name), look_of(units, dark=dark)
+    ends = (run.entry.begin or 0.0, run.entry.end)
+    found = run.live.drawn(run.axis, ends, look)
+    return Response(json.dumps(found, allow_nan=False), media_type="application/json")
+
+
 @router.get("/runs/{name}/given")
 def given(calculator: AppCalculator, name: str) -> dict[str, str]:
     """Return the case of a run as submitted."""

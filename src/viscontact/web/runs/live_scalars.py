@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import json
 import math
+import threading
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from viscontact.results.run_axis import SPEED, TIME
+import numpy as np
+
+from viscontact.figures.growing import growing
+from viscontact.figures.look import Look, plain
+from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.results.variables import SCALARS, Place, labels_in
 from viscontact.run_files import PROGRESS_NAME
 from viscontact.runs.directory.progress_log import reached_in
@@ -47,6 +52,47 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
         **{"reached": _place(last), "texts": _texts(last, labels)},
         **{"speed" if "speed" in written else "time": places, "scalars": scalars},
     }
+
+
+class LiveScalars:
+    """All scalars of an active run so far; of its lines, only the new ones are read."""
+
+    def __init__(self, directory: Path) -> None:
+        self._directory, self._lock = directory, threading.Lock()
+        self._clear()
+
+    def _clear(self) -> None:
+        self._after, self.places, self.reached = 0, list[float](), ""
+        self.scalars: dict[str, list[float | None]] = {}
+        self.texts: dict[str, str] = {}
+
+    def drawn(self, axis: RunAxis, ends: tuple[float, float], look: Look) -> dict[str, Any]:
+        """Return the number of states, the last one in words, and a figure of each scalar."""
+        with self._lock:
+            self._read()
+            figures = {
+                name: growing(name, self.places, np.array(values, dtype=float), axis, ends, look)
+                for name, values in self.scalars.items()
+            }
+            return {
+                **{"count": len(self.places), "reached": self.reached, "texts": self.texts},
+                "figures": {name: plain(figure) for name, figure in figures.items()},
+            }
+
+    def _read(self) -> None:
+        found = grown(self._directory, self._after)
+        if found["begun"] == 0:
+            self._clear()
+        self._after = found["after"]
+        places = found.get("speed", found.get("time"))
+        if not places:
+            return
+        # A resumed run may have written some lines again.
+        kept = self.places.index(places[0]) if places[0] in self.places else len(self.places)
+        self.places[kept:] = places
+        for name, values in found["scalars"].items():
+            self.scalars.setdefault(name, [])[kept:] = values
+        self.reached, self.texts = found["reached"], found["texts"]
 
 
 def _place(line: Mapping[str, Any]) -> str:

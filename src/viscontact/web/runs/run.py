@@ -13,6 +13,7 @@ from viscontact.runs.processes.child import Child, Ended, RunProcess
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.progress import Course
 from viscontact.runs.processes.request import DONE, INTERRUPTED, RunRequest
+from viscontact.web.runs.live_scalars import LiveScalars
 from viscontact.web.workspace.folder import Folder, RunEntry
 
 #: Time for estimating errors, as a part of the time of the march [-].
@@ -31,6 +32,7 @@ class ManagedRun:
         self._folder = folder
         self._child: Child | None = None
         self._stop_state = ""
+        self.live = LiveScalars(self.directory)
         self._pace: tuple[float, float] | None = None
         self._marched: float | None = None
         self._since, self._before = 0.0, 0

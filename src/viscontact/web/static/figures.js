@@ -15,7 +15,12 @@ export function plotly() {
   loading ??= new Promise((ready, failed) => {
     const script = make("script", { src: "/static/plotly.min.js" });
     script.onload = ready;
-    script.onerror = () => { loading = null; failed(new Error("plotly.min.js cannot be loaded")); };
+    script.onerror = () => {
+      loading = null;
+      const message = "plotly.min.js cannot be loaded";
+      // As of a request that the server does not answer.
+      failed(Object.assign(new Error(message), { problems: [{ path: "", line: null, message }] }));
+    };
     document.head.append(script);
   });
   return loading;
