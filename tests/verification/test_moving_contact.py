@@ -418,7 +418,8 @@ def test_two_rolling_bodies_have_the_compliance_of_both() -> None:
         fields="none",
         errors=False,
     )
-    assert both.resistance_y.values == pytest.approx(one.resistance_y.values, rel=1e-9)
+    # Both are solved to 1e-6 of the pressure, and differ by the rounding of their compliances.
+    assert both.resistance_y.values == pytest.approx(one.resistance_y.values, rel=1e-7)
 
 
 def test_long_steps_are_reported() -> None:

@@ -13,7 +13,7 @@ from viscontact.steady.preparation import SteadySetup
 #: Memory of the program [bytes], and number of grid-sized arrays of a run, both measured for a body
 #: without symmetry planes; each term of the law adds two arrays. The program takes 150 to 190 MB,
 #: since the buffers of the linear algebra library differ between processors.
-PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 54, 2
+PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 56, 2
 
 #: Arrays of a state over speed on the grid of all speeds.
 ARRAYS_OF_STATE = 4
@@ -53,7 +53,7 @@ def needed_memory(grid: Grid, fields_kept: int) -> float:
     exponential term of the contact compliance, or one for each step.
 
     >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
-    684
+    700
     """
     nx, ny = grid.shape
     return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)
@@ -66,7 +66,7 @@ def least_memory(grid: Grid, compliance: ContactCompliance) -> float:
     >>> from viscontact.materials.material import Material
     >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber.contact_compliance()) / 1e6)
-    668
+    684
     """
     # The fields that other laws store depend on the steps, which are not known yet.
     terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
