@@ -129,7 +129,7 @@ def test_any_start_leads_to_the_same_pressure():
     _, expected, _ = pressed(zener(1.0), grid, tolerance=1e-9)
     aside = np.zeros(grid.shape)
     aside[5, 20] = FORCE / grid.cell_area
-    start = Guess(aside, aside, np.zeros(3))
+    start = Guess.of(aside, aside, np.zeros(3))
     found, pressure, _ = pressed(zener(1.0), grid, tolerance=1e-9, guess=start)
     assert found.converged
     assert np.abs(pressure - expected).max() < 1e-7 * expected.max()

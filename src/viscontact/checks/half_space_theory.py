@@ -62,9 +62,9 @@ class Geometry:
     def _verbs(self) -> tuple[str, str]:
         return ("will be about", "will reach") if self.predicted else ("is", "reaches")
 
-    @cached_property
+    @property
     def steepness(self) -> NDArray[np.float64]:
-        """Larger absolute slope from each cell to the next along either axis [-]."""
+        """Larger absolute slope from each cell to the next along either axis, not kept [-]."""
         steepness = np.zeros(self.grid.shape)
         for axis in (0, 1):
             here = np.moveaxis(steepness, axis, 0)[:-1]

@@ -79,7 +79,7 @@ class Sampling:
         """
         x, y = self.indenter.sample_points
         if not x.size:
-            return np.zeros(self.grid.shape)
+            return np.broadcast_to(0.0, self.grid.shape)
         missed = np.maximum(*(height_over_neighbours(self.open_gap, axis) for axis in (0, 1)))
         places = [
             (along - lines[0]) / cell

@@ -76,10 +76,11 @@ def _outline_crossings(
     y: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Crossings along the first axis, in cells from the centre inside the body."""
-    crossings = np.full((inside.shape[0] - 1, inside.shape[1]), np.nan)
+    shape = inside.shape[0] - 1, inside.shape[1]
     i, j = np.nonzero(inside[:-1] != inside[1:])
     if not len(i):
-        return crossings
+        return np.broadcast_to(np.nan, shape)
+    crossings = np.full(shape, np.nan)
     # From the centre inside the body towards the one outside.
     inner, outer = np.where(inside[i, j], i, i + 1), np.where(inside[i, j], i + 1, i)
     low, high = np.zeros(len(i)), np.ones(len(i))

@@ -11,7 +11,8 @@ The method follows Polonsky & Keer (1999), Wear 231, 206, and differs from it in
 5. Where a step would leave cells in tension, the trial pressure is first cut off and rebalanced,
    and the step is taken straight towards that: one convolution, where cutting afterwards takes two.
 
-The comments in `BoundedCG` number the steps of an iteration:
+Passes over the fields go through blocks of rows (`RigidPlane.each`), and work in a few fields that
+are kept. The comments in `BoundedCG` number the steps of an iteration:
 
 1. Fit approach and tilts to the gap under pressure by least squares; measure the residual.
 2. Add the cells that the body overlaps to the active set; precondition the gap of the active cells.
@@ -29,7 +30,7 @@ from numpy.typing import NDArray
 
 from viscontact.contact.domain import Patch
 from viscontact.contact.problem import ContactProblem, Guess
-from viscontact.contact.rigid_balance import restore_balance
+from viscontact.contact.rigid_balance import Moments, RigidPlane, added, balance
 from viscontact.contact.winkler import project_onto_balance
 
 #: Iterations without a new least residual after which the search counts as stagnant.
@@ -55,57 +56,79 @@ class ContactResidual:
     """Residual of the contact conditions for a given pressure."""
 
     contact: NDArray[np.bool_]  # cells under pressure
-    weight: NDArray[np.float64]  # 1 for these, 0 elsewhere
     inverse_gram: NDArray[np.float64]  # inverse Gram matrix of the planes over these cells
     motion: NDArray[np.float64]  # rigid motion that fits best: approach [m], tilts [rad]
     gap: NDArray[np.float64]  # gap with that motion [m]
-    gap_in_contact: NDArray[np.float64]  # the same under pressure, 0 elsewhere [m]
     error: float  # largest gap in contact or penetration over the largest displacement [-]
 
 
-def contact_residual(problem: ContactProblem, patch: Patch, iterate: Guess) -> ContactResidual:
-    """Step 1: rigid motion by least squares over the contact, gap and residual."""
-    contact = iterate.pressure > 0
-    gap = problem.compliance * iterate.unit_displacement
-    scale = max(problem.displacement_scale, float(gap.max()))
-    gap += problem.open_gap
-    gap -= patch.plane.field(iterate.motion)
-    gap_in_contact = np.where(contact, gap, 0.0)
-    weight = contact.astype(float)
-    inverse = patch.plane.inverse_gram(weight, problem.constraints.free)
+def contact_residual(
+    problem: ContactProblem,
+    patch: Patch,
+    iterate: Guess,
+    into: tuple[NDArray[np.bool_], NDArray[np.float64]] | None = None,
+) -> ContactResidual:
+    """Step 1: rigid motion by least squares over the contact, gap and residual.
+
+    The cells under pressure and the gap [m] are written to `into` if that is given.
+    """
+    shape = iterate.pressure.shape
+    contact, gap = into or (np.empty(shape, bool), np.empty(shape))
+
+    def opened(block: RigidPlane) -> tuple[float, Moments, NDArray[np.float64]]:
+        rows = block.rows
+        here = np.multiply(problem.compliance, iterate.unit_displacement[rows], out=gap[rows])
+        largest = float(here.max())
+        here += problem.open_gap[rows]
+        here -= block.field(iterate.motion)
+        touching = np.greater(iterate.pressure[rows], 0, out=contact[rows])
+        held = np.where(touching, here, 0.0)
+        return largest, block.moments_of_rows(touching), block.sums_of_rows(held)
+
+    largest, moments, sums = zip(*patch.plane.each(opened), strict=True)
+    inverse = patch.plane.inverse_of(moments, problem.constraints.free)
     # Fitted as a correction, so that a motion which the contact does not determine is unchanged.
-    correction = inverse @ patch.plane.sums(gap_in_contact)
-    gap -= patch.plane.field(correction)
-    np.copyto(gap_in_contact, gap, where=contact)
-    error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
-    return ContactResidual(
-        contact, weight, inverse, iterate.motion + correction, gap, gap_in_contact, error
-    )
+    correction = inverse @ added(sums)
+
+    def fitted(block: RigidPlane) -> float:
+        here = gap[block.rows]
+        here -= block.field(correction)
+        held = np.where(contact[block.rows], here, 0.0)
+        return max(float(held.max()), -float(here.min()))
+
+    scale = max(problem.displacement_scale, *largest)
+    error = max(0.0, *patch.plane.each(fitted)) / scale
+    return ContactResidual(contact, inverse, iterate.motion + correction, gap, error)
 
 
 class BoundedCG:
-    """Bound-constrained conjugate gradients on one patch, from a guess on that patch."""
+    """Bound-constrained conjugate gradients on one patch, from a guess on that patch.
+
+    The pressure and the displacement of the guess are changed in their own memory.
+    """
 
     def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
-        motion = problem.constraints.with_prescribed(start.motion)
-        self.iterate = Guess(start.pressure, start.unit_displacement, motion)
-        self._active = np.zeros(0, dtype=bool)
-        self._residual = self._direction = np.zeros(0)
+        self.iterate = Guess(start.values, problem.constraints.with_prescribed(start.motion))
+        shape = start.pressure.shape
+        #: Cells of the last direction and of the next; gap in these, and the same to come.
+        self._active, self._next_active = np.zeros(shape, bool), np.empty(shape, bool)
+        self._residual, self._next_residual = np.zeros(shape), np.empty(shape)
+        self._direction, self._spare = np.zeros(shape), np.empty(shape)
+        self._change = np.empty(shape)  # unit displacement of a step
         self._slope = 0.0
         self._length = INITIAL_STEP_LENGTH / problem.compliance
-        self.stagnated = not (self._is_feasible() or self._project_to_feasible(start.pressure))
+        self.stagnated = not (self._is_feasible() or self._project_to_feasible())
 
     def run(self, tolerance: float, max_iterations: int) -> None:
         """Iterate until the relative residual meets the tolerance, or no progress is made."""
         best, since_best = np.inf, 0
         while not self.stagnated:
             # Step 1: measure the residual.
-            checked = contact_residual(self.problem, self.patch, self.iterate)
-            self.iterate = Guess(
-                self.iterate.pressure, self.iterate.unit_displacement, checked.motion
-            )
+            into = self._next_active, self._next_residual
+            checked = contact_residual(self.problem, self.patch, self.iterate, into)
+            self.iterate = Guess(self.iterate.values, checked.motion)
             if checked.error <= tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
@@ -116,104 +139,150 @@ class BoundedCG:
 
     def _advance(self, checked: ContactResidual) -> None:
         """Steps 2 to 5: one conjugate-gradient iteration from a measured residual."""
+        active, residual = self._next_active, self._next_residual
         # Step 2: release the cells that the body overlaps, and precondition.
-        released = checked.gap < 0
-        released &= ~checked.contact
-        active, weight, residual = checked.contact, checked.weight, checked.gap_in_contact
         inverse = checked.inverse_gram
-        if released.any():
-            active = active | released
-            weight, residual = active.astype(float), np.where(active, checked.gap, 0.0)
-            inverse = self.patch.plane.inverse_gram(weight, self.problem.constraints.free)
+        if any(self.patch.plane.each(self._release)):
+            inverse = self.patch.plane.inverse_gram(active, self.problem.constraints.free)
+        found = self.patch.preconditioner.apply(residual, into=self._spare)
         # Step 3: project.
-        direction = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
-        slope = _inner(direction, residual)
+        self._project(found, active, inverse)
         # Step 4: conjugate; beta = max(<z, r - r_old> / <z_old, r_old>, 0) (Polak & Ribiere).
+        factor, slope = 0.0, _inner(self.patch.plane, found, residual)
         if self._slope > 0:
-            change = slope - _inner(direction, self._residual)
-            before = self._direction
+            change = slope - _inner(self.patch.plane, found, self._residual)
+            factor = max(change / self._slope, 0.0)
             if not np.array_equal(active, self._active):
-                before = self._project(before, weight, inverse)
-            # Minus: directions point downhill, the preconditioned residual uphill.
-            direction -= max(change / self._slope, 0.0) * before
-        self._active, self._residual, self._slope = active, residual, slope
-        self._direction = np.negative(direction, out=direction)
+                self._project(self._direction, active, inverse)
+        self._conjugate(found, factor)
+        self._direction, self._spare = found, self._direction
+        self._active, self._next_active = active, self._active
+        self._residual, self._next_residual = residual, self._residual
+        self._slope = slope
         self.iterations += 1
         self._step()
 
+    def _release(self, block: RigidPlane) -> bool:
+        """Add overlapped cells to the active ones, and set the gap of the others to zero."""
+        active, gap = self._next_active[block.rows], self._next_residual[block.rows]
+        released = gap < 0
+        released &= ~active
+        active |= released
+        np.copyto(gap, 0.0, where=~active)
+        return bool(released.any())
+
     def _project(
-        self, vector: NDArray[np.float64], weight: NDArray[np.float64], inverse: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+        self,
+        vector: NDArray[np.float64],
+        active: NDArray[np.bool_],
+        inverse: NDArray[np.float64],
+    ) -> None:
         """Step 3: restrict a direction to the active cells, and remove its force and moments."""
-        plane = self.patch.plane
-        vector = weight * vector
-        vector -= weight * plane.field(inverse @ plane.sums(vector))
-        return vector
+
+        def restricted(block: RigidPlane) -> NDArray[np.float64]:
+            here = vector[block.rows]
+            here *= active[block.rows]
+            return block.sums_of_rows(here)
+
+        plane = inverse @ added(self.patch.plane.each(restricted))
+
+        def levelled(block: RigidPlane) -> None:
+            here = vector[block.rows]
+            here -= active[block.rows] * block.field(plane)
+
+        self.patch.plane.each(levelled)
+
+    def _conjugate(self, found: NDArray[np.float64], factor: float) -> None:
+        """Turn the preconditioned residual into the next direction, in its memory."""
+
+        def conjugated(block: RigidPlane) -> None:
+            here = found[block.rows]
+            # Minus: directions point downhill, the preconditioned residual uphill.
+            np.subtract(factor * self._direction[block.rows], here, out=here)
+
+        self.patch.plane.each(conjugated)
 
     def _step(self) -> None:
         """Steps 4 and 5: step to the least energy on the direction, or towards the cut pressure."""
         # Step 5: where a step of about the last length leads to tension, step towards the cut and
         # balanced pressure instead of cutting afterwards.
-        projected = self._projected_trial()
-        if projected is not None and self._step_to_projected(projected):
+        if self._is_projected_trial() and self._step_to_projected():
             return
         # Step 4: exact line search, length = -<r, d> / <d, J K d>.
-        direction, before = self._direction, self.iterate
+        plane, direction = self.patch.plane, self._direction
         change = self._unit_displacement_of(direction)
-        curvature = self.problem.compliance * _inner(direction, change)
+        curvature = self.problem.compliance * _inner(plane, direction, change)
         if curvature <= 0:
             self._slope = 0.0
             return
-        self._length = length = -_inner(self._residual, direction) / curvature
-        self.iterate = _stepped(before, length, direction, change)
+        self._length = length = -_inner(plane, self._residual, direction) / curvature
         # Step 5: cut off tension; a plane factor restores the balances.
-        if float(self.iterate.pressure.min()) >= 0 or self._project_to_feasible(
-            self.iterate.pressure
-        ):
+        if self._moved(length, direction) >= 0 or self._project_to_feasible():
             return
         # No plane factor balances the cut pressure. Adding a plane and cutting does, as all active
         # cells together can carry the load.
         self._slope = 0.0
-        constraints, plane, area = self.problem.constraints, self.patch.plane, self.patch.cell_area
-        nearest = project_onto_balance(
-            self.iterate.pressure, self._active, constraints, plane, area
-        )
-        if not self._project_to_feasible(nearest):
-            self._step_to_first_bound(before, length, change)
+        others = self.problem.constraints, plane, self.patch.cell_area
+        self._spare[...] = project_onto_balance(self.iterate.pressure, self._active, *others)
+        if not self._project_to_feasible(from_spare=True):
+            self._step_to_first_bound(length)
 
-    def _projected_trial(self) -> NDArray[np.float64] | None:
-        """Pressure after a step of about the last length, cut and balanced; None without a cut."""
-        ahead = TRIAL_STEP_FACTOR * self._length * self._direction
-        ahead += self.iterate.pressure
-        return self._balanced(ahead) if float(ahead.min()) < 0 else None
+    def _is_projected_trial(self) -> bool:
+        """Put the pressure after a step of about the last length, cut and balanced, aside.
 
-    def _step_to_projected(self, projected: NDArray[np.float64]) -> bool:
-        """Step towards a feasible pressure, at most all the way; whether that is far enough."""
+        False without a cut, and where no plane factor balances it.
+        """
+        ahead, length = self._spare, TRIAL_STEP_FACTOR * self._length
+
+        def stepped(block: RigidPlane) -> float:
+            here = np.multiply(length, self._direction[block.rows], out=ahead[block.rows])
+            here += self.iterate.pressure[block.rows]
+            return float(here.min())
+
+        return min(self.patch.plane.each(stepped)) < 0 and self._is_balanced(ahead)
+
+    def _step_to_projected(self) -> bool:
+        """Step towards the feasible pressure set aside, at most all the way.
+
+        Return whether that is far enough.
+        """
         # Exact line search on the segment from the iterate to the projected pressure.
-        before, step = self.iterate, projected - self.iterate.pressure
+        plane, step = self.patch.plane, self._spare
+        step -= self.iterate.pressure
         change = self._unit_displacement_of(step)
-        curvature = self.problem.compliance * _inner(step, change)
-        best = -_inner(self._residual, step) / curvature if curvature > 0 else 0.0
+        curvature = self.problem.compliance * _inner(plane, step, change)
+        best = -_inner(plane, self._residual, step) / curvature if curvature > 0 else 0.0
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
-        moved = _stepped(before, min(best, 1.0), step, change)
-        self.iterate = (
-            moved if best < 1 else Guess(projected, moved.unit_displacement, moved.motion)
-        )
+        self._moved(min(best, 1.0), step, cut=True)
         return True
 
-    def _step_to_first_bound(
-        self, before: Guess, length: float, change: NDArray[np.float64]
-    ) -> None:
-        """Step until the first cell loses its pressure, which keeps the balances."""
-        step = length * self._direction
-        room = np.divide(before.pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
+    def _moved(self, length: float, step: NDArray[np.float64], *, cut: bool = False) -> float:
+        """Move the iterate along a step of known unit displacement; return its least pressure.
+
+        With `cut`, no pressure falls below zero by rounding.
+        """
+
+        def moved(block: RigidPlane) -> float:
+            pressure, displacement = self.iterate.values[:, block.rows]
+            pressure += length * step[block.rows]
+            displacement += length * self._change[block.rows]
+            if cut:
+                np.maximum(pressure, 0.0, out=pressure)
+            return float(pressure.min())
+
+        return min(self.patch.plane.each(moved))
+
+    def _step_to_first_bound(self, length: float) -> None:
+        """Go back, and step until the first cell loses its pressure, which keeps the balances."""
+        self._moved(-length, self._direction)
+        pressure, step = self.iterate.pressure, length * self._direction
+        room = np.divide(pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
         part = float(room.min())
-        moved = _stepped(before, length * part, self._direction, change)
+        self._moved(length * part, self._direction, cut=True)
         # Exactly zero: a remainder from rounding would keep all later steps as short.
-        pressure = np.where(room == part, 0.0, np.maximum(moved.pressure, 0.0))
-        self.iterate = Guess(pressure, moved.unit_displacement, moved.motion)
+        pressure[room == part] = 0.0
 
     def _is_feasible(self) -> bool:
         """True if the pressure is non-negative and balanced to rounding."""
@@ -221,45 +290,34 @@ class BoundedCG:
         off = self.problem.constraints.imbalance(sums, self.patch.arm)
         return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
 
-    def _project_to_feasible(self, pressure: NDArray[np.float64]) -> bool:
-        """Cut off tension and restore the balances; whether that was possible."""
-        pressure = np.where(np.isfinite(self.problem.open_gap), pressure, 0.0)
-        restored = self._balanced(pressure)
-        if restored is None:
+    def _project_to_feasible(self, *, from_spare: bool = False) -> bool:
+        """Cut off tension and restore the balances; whether that was possible.
+
+        Of the iterate's pressure, or of one that has been put aside.
+        """
+        projected = self._spare
+        if not from_spare:
+            projected[...] = self.iterate.pressure
+        np.copyto(projected, 0.0, where=np.isinf(self.problem.open_gap))
+        if not self._is_balanced(projected):
             return False
-        change = self._unit_displacement_of(restored - self.iterate.pressure)
-        self.iterate = Guess(restored, self.iterate.unit_displacement + change, self.iterate.motion)
+        step = np.subtract(projected, self.iterate.pressure, out=self._change)
+        self._unit_displacement_of(step)
+        self.iterate.unit_displacement[...] += self._change
+        self.iterate.pressure[...] = projected
         return True
 
-    def _balanced(self, pressure: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Pressure without tension, balanced by a plane factor; None where no factor does it."""
+    def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
+        """Cut off tension and balance by a plane factor; False where no factor does it."""
         patch = self.patch
-        return restore_balance(
-            np.maximum(pressure, 0.0),
-            self.problem.constraints,
-            patch.plane,
-            patch.cell_area,
-            patch.arm,
-        )
+        return balance(pressure, self.problem.constraints, patch.plane, patch.cell_area, patch.arm)
 
-    def _unit_displacement_of(self, change: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Unit displacement ``K change`` by a convolution on the patch [Pa m]."""
+    def _unit_displacement_of(self, step: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Unit displacement ``K step`` by a convolution on the patch [Pa m], in kept memory."""
         self.convolutions += 1
-        return self.patch.convolution.apply(change)
+        return self.patch.convolution.apply(step, into=self._change)
 
 
-def _stepped(
-    iterate: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
-) -> Guess:
-    """Iterate after a step along a direction of known unit displacement."""
-    return Guess(
-        iterate.pressure + length * direction,
-        iterate.unit_displacement + length * change,
-        iterate.motion,
-    )
-
-
-def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    # Not a dot product of BLAS, which would put threads to work.
+def _inner(plane: RigidPlane, a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     """Inner product, not by BLAS, which would start threads."""
-    return float(np.einsum("ij,ij->", a, b))
+    return sum(plane.each(lambda block: float(np.einsum("ij,ij->", a[block.rows], b[block.rows]))))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,10 +17,12 @@ from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
+from viscontact.halfspace.influence import influence_table
 from viscontact.halfspace.layered_influence import (
     layered_influence_table,
     periodic_layered_table,
 )
+from viscontact.halfspace.line_blocks import Team, Workspace
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
 from viscontact.halfspace.surface_response import (
@@ -37,6 +41,25 @@ MIN_CELLS = 32
 MAX_PATCH_SHARE = 0.8
 
 
+class PatchOperators:
+    """Operators of the search on a block of cells, made when they are first used."""
+
+    def __init__(
+        self, convolution: Callable[[], Operator], preconditioner: Callable[[], Preconditioner]
+    ) -> None:
+        self._convolution, self._preconditioner = convolution, preconditioner
+
+    @cached_property
+    def convolution(self) -> Operator:
+        """Pressure to unit displacement, in single precision."""
+        return self._convolution()
+
+    @cached_property
+    def preconditioner(self) -> Preconditioner:
+        """Approximate inverse of the convolution."""
+        return self._preconditioner()
+
+
 @dataclass(frozen=True, eq=False)
 class Patch:
     """Rectangular block of cells with its operators."""
@@ -45,9 +68,23 @@ class Patch:
     columns: slice
     cell_area: float  # [m²]
     arm: float  # longer edge, which scales moments to forces [m]
-    convolution: Operator  # pressure to unit displacement, in single precision
-    preconditioner: Preconditioner  # approximate inverse of the convolution
+    operators: PatchOperators
     plane: RigidPlane  # rigid motions over the patch
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of rows and columns."""
+        return self.rows.stop - self.rows.start, self.columns.stop - self.columns.start
+
+    @property
+    def convolution(self) -> Operator:
+        """Pressure to unit displacement, in single precision."""
+        return self.operators.convolution
+
+    @property
+    def preconditioner(self) -> Preconditioner:
+        """Approximate inverse of the convolution."""
+        return self.operators.preconditioner
 
     def cut(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The patch's part of a field."""
@@ -106,6 +143,7 @@ class ContactDomain:
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
+        self._team, self._workspace = Team(self._transforms.threads), Workspace()
         self._first_row, self._first_column = (
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
@@ -166,9 +204,7 @@ class ContactDomain:
         return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
     def expand_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The field on the whole grid of its independent part, in its own memory."""
-        if not any(self.mirrored):  # a view would keep the array it is taken from
-            return field if field.base is None else field.copy()
+        """The field on the whole grid of its independent part, in the same memory if it is all."""
         for axis in (0, 1):
             if self.mirrored[axis]:
                 field = np.concatenate([np.flip(field, axis), field], axis)
@@ -237,14 +273,18 @@ class ContactDomain:
             columns,
             grid.cell_area,
             _arm(shape, grid),
-            self._operator(shape, single=True),
-            self._preconditioner(shape),
+            PatchOperators(
+                lambda: self._operator(shape, single=True), lambda: self._preconditioner(shape)
+            ),
             self._plane(rows, columns),
         )
 
     def _influence_table(self) -> NDArray[np.float64]:
-        """Influence coefficients between all cells of the grid; none for a periodic one."""
-        if all(self.grid.periodic) or self._parts:
+        """Influence coefficients between all cells of the grid.
+
+        None for a periodic one, and for a half-space, where those of each block are soon computed.
+        """
+        if all(self.grid.periodic) or self._parts or self._is_plain(self.response):
             return np.empty((0, 0))
         if not isinstance(self.response, SummedResponse):
             return self._table_of(self.response)
@@ -257,6 +297,10 @@ class ContactDomain:
             self._tables[response] = _coefficients(self.grid, response)
         return self._tables[response]
 
+    def _is_plain(self, response: SurfaceResponse) -> bool:
+        """True of a half-space without a period, whose coefficients have a closed form."""
+        return response is HALF_SPACE and not any(self.grid.periodic)
+
     def _preconditioner(self, shape: tuple[int, int]) -> Preconditioner:
         """Approximate inverse of the convolution over a block of cells."""
         if self._parts:
@@ -266,13 +310,15 @@ class ContactDomain:
     def _preconditioner_of(
         self, response: SurfaceResponse, shape: tuple[int, int]
     ) -> Preconditioner:
-        options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
+        options: Any = {"mirrored": self.mirrored, "workspace": self._workspace}
+        options["transforms"] = self._transforms
         return Preconditioner(shape, self.grid.cell_size, response=response, **options)
 
     def _plane(self, rows: slice, columns: slice) -> RigidPlane:
         """Rigid motions over rows and columns of the domain, about the body's axis."""
         x, y = self.grid.x[self._first_row :][rows], self.grid.y[self._first_column :][columns]
-        return RigidPlane(x - self._axis[0], y - self._axis[1], self.grid.cell_size, self.mirrored)
+        along = x - self._axis[0], y - self._axis[1]
+        return RigidPlane(*along, self.grid.cell_size, self.mirrored, self._team)
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """Convolution over a block of cells, or over the whole period."""
@@ -288,25 +334,30 @@ class ContactDomain:
         *,
         single: bool,
     ) -> Operator:
-        transforms = self._transforms
+        options: Any = {"transforms": self._transforms, "workspace": self._workspace}
         if all(self.grid.periodic):
             cell_size = self.grid.cell_size
-            return PeriodicConvolution(
-                shape, cell_size, response, single=single, transforms=transforms
-            )
+            return PeriodicConvolution(shape, cell_size, response, single=single, **options)
         nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
+        if not coefficients.size:
+            coefficients = influence_table((nx, ny), self.grid.cell_size)
+        # Whole grids are convolved a few times a step only: their memory comes from the system
+        # then, since the search, which has none of it, needs the most.
+        if not single and shape == self.shape:
+            del options["workspace"]
         return Convolution(
             coefficients[:nx, :ny],
             mirrored=self.mirrored,
             periodic=(self.grid.periodic[0], self.grid.periodic[1]),
             single=single,
-            transforms=transforms,
+            team=self._team,
+            **options,
         )
 
     def _on_block(self, shape: tuple[int, int]) -> PartOperators:
         """Operators of parts of the response over a block of cells; the last blocks' are kept."""
         if shape not in self._of_blocks:
-            last = self._last.convolution.shape
+            last = self._last.shape
             self._of_blocks = {
                 each: kept for each, kept in self._of_blocks.items() if each in (self.shape, last)
             }

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.conjugate_gradients import BoundedCG, contact_residual
-from viscontact.contact.domain import ContactDomain
+from viscontact.contact.domain import ContactDomain, Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.winkler import winkler_contact
 
@@ -47,7 +47,7 @@ class ContactSolution:
     @property
     def found(self) -> Guess:
         """The solution as a guess for another solve."""
-        return Guess(self.values[0], self.values[1], self.motion)
+        return Guess(self.values, self.motion)
 
 
 def solve_contact(
@@ -61,28 +61,27 @@ def solve_contact(
     """Solve for the pressure and rigid motion that satisfy contact conditions and balances.
 
     The unit displacement of a guess must belong to its pressure; tension in it is cut off and its
-    balances are restored. Without a guess, or if it does not converge, the solve starts from the
-    solution on a coarser grid, and on the coarsest from a Winkler foundation. The tolerance bounds
-    the relative residual and the relative imbalance. ``converged`` is False if the iteration
-    stagnates or uses up `max_iterations`.
+    balances are restored. The solution is found in the memory of the guess. Without a guess, or if
+    it does not converge, the solve starts from the solution on a coarser grid, and on the coarsest
+    from a Winkler foundation. The tolerance bounds the relative residual and the relative
+    imbalance. ``converged`` is False if the iteration stagnates or uses up `max_iterations`.
     """
     problem = _above_rounding(problem, domain, tolerance)
-    # Start from the guess.
-    found = None
+    spent = 0, 0
     if guess is not None:
         found = _solve_from(guess, problem, domain, tolerance, max_iterations)
         if found.converged:
             return found
+        spent = found.iterations, found.convolutions
+        del found
     # Cold start: after a large change of the load, a guess can be worse than none.
-    start = _cold_start(problem, domain)
-    cold = _solve_from(start, problem, domain, tolerance, max_iterations)
-    if found is None:
-        return cold
-    better = cold if cold.converged or cold.residual < found.residual else found
+    memory = np.empty((2, *domain.shape)) if guess is None else guess.values
+    start = _cold_start(problem, domain, memory)
+    found = _solve_from(start, problem, domain, tolerance, max_iterations)
     return replace(
-        better,
-        iterations=found.iterations + cold.iterations,
-        convolutions=found.convolutions + cold.convolutions,
+        found,
+        iterations=spent[0] + found.iterations,
+        convolutions=spent[1] + found.convolutions,
     )
 
 
@@ -104,37 +103,59 @@ def _solve_from(
     max_iterations: int,
 ) -> ContactSolution:
     """Search on patches until the residual on the whole grid meets the tolerance."""
-    cells = start.pressure > 0
-    iterations = convolutions = 0
+    pressure, unit_displacement = start.values
+    cells = pressure > 0
+    rounds = iterations = convolutions = 0
     error = np.inf
-    for _ in range(MAX_ROUNDS):
+    while True:
         # Search on a patch around the contact, in single precision.
         patch = domain.patch_around(cells)
-        search = BoundedCG(problem.within(patch), patch, start.within(patch))
-        search.run(tolerance, max_iterations - iterations)
-        iterations += search.iterations
-        convolutions += search.convolutions + 1
+        searched = _search_on(patch, problem, start, tolerance, max_iterations - iterations)
+        rounds += 1
+        iterations += searched.iterations
+        convolutions += searched.convolutions + 1
         # Check the returned pressure by a fresh convolution, not by the recurrence of the search.
-        values = np.zeros((2, *domain.shape))
-        pressure, unit_displacement = values
-        patch.cut(pressure)[...] = search.iterate.pressure
         domain.convolution.apply(pressure, into=unit_displacement)
-        checked = contact_residual(
-            problem, domain.whole, Guess(pressure, unit_displacement, search.iterate.motion)
-        )
-        start = Guess(pressure, unit_displacement, checked.motion)
+        checked = contact_residual(problem, domain.whole, Guess(start.values, searched.motion))
+        start = Guess(start.values, checked.motion)
         converged = checked.error <= tolerance and _is_balanced(
             problem, domain, pressure, tolerance
         )
-        stagnant = search.stagnated and checked.error > error / 2
-        if converged or stagnant or iterations >= max_iterations:
-            break
+        stagnant = searched.stagnated and checked.error > error / 2
+        is_last = rounds == MAX_ROUNDS or iterations >= max_iterations
+        if converged or stagnant or is_last:
+            spent = iterations, convolutions
+            return ContactSolution(
+                start.values, start.motion, checked.gap, checked.error, *spent, converged
+            )
         # The next patch holds the contact and all cells that the body still overlaps.
         error = checked.error
         cells = (pressure > 0) | (checked.gap < 0)
-    return ContactSolution(
-        values, start.motion, checked.gap, checked.error, iterations, convolutions, converged
-    )
+        del checked  # the search needs the memory
+
+
+@dataclass(frozen=True)
+class _Search:
+    """Motion that a search on a patch has found, and its cost."""
+
+    motion: NDArray[np.float64]
+    stagnated: bool
+    iterations: int
+    convolutions: int
+
+
+def _search_on(
+    patch: Patch, problem: ContactProblem, start: Guess, tolerance: float, max_iterations: int
+) -> _Search:
+    """Search from a guess, whose pressure becomes that found on the patch, 0 outside."""
+    search = BoundedCG(problem.within(patch), patch, start.within(patch))
+    search.run(tolerance, max_iterations)
+    pressure = start.pressure
+    for outside in (slice(patch.rows.start), slice(patch.rows.stop, None)):
+        pressure[outside] = 0.0
+    for outside in (slice(patch.columns.start), slice(patch.columns.stop, None)):
+        pressure[:, outside] = 0.0
+    return _Search(search.iterate.motion, search.stagnated, search.iterations, search.convolutions)
 
 
 def _is_balanced(
@@ -149,26 +170,38 @@ def _is_balanced(
     return off <= tolerance
 
 
-def _cold_start(problem: ContactProblem, domain: ContactDomain) -> Guess:
-    """Nested iteration: the solution of a coarser grid, on the coarsest a Winkler foundation."""
+def _cold_start(
+    problem: ContactProblem, domain: ContactDomain, memory: NDArray[np.float64]
+) -> Guess:
+    """Nested iteration: the solution of a coarser grid, on the coarsest a Winkler foundation.
+
+    It is put into the given memory, of shape (2, nx, ny).
+    """
     coarser = domain.coarser()
     # A body may be too narrow to lie under any four cells.
     if coarser is None or not np.isfinite((coarsened := problem.coarsened()).open_gap).any():
-        return _winkler_guess(problem, domain)
+        return _winkler_guess(problem, domain, memory)
     coarse = solve_contact(coarsened, coarser, tolerance=NESTED_TOLERANCE)
     # Each coarse pressure on its four cells. Smoother interpolation, and finer tolerances, take
     # more iterations rather than fewer, as they blur the rim.
-    pressure = np.repeat(np.repeat(coarse.found.pressure, 2, axis=0), 2, axis=1)
+    pressure = memory[0]
+    for row, column in np.ndindex(2, 2):
+        pressure[row::2, column::2] = coarse.found.pressure
     # The coarse cells may not touch at all, or not be able to carry the load.
     if not (coarse.converged and pressure.any()):
-        return _winkler_guess(problem, domain)
-    return Guess(pressure, domain.convolution.apply(pressure), coarse.found.motion)
+        return _winkler_guess(problem, domain, memory)
+    domain.convolution.apply(pressure, into=memory[1])
+    return Guess(memory, coarse.found.motion)
 
 
-def _winkler_guess(problem: ContactProblem, domain: ContactDomain) -> Guess:
-    """Balanced pressure on a Winkler foundation, as a first guess."""
+def _winkler_guess(
+    problem: ContactProblem, domain: ContactDomain, memory: NDArray[np.float64]
+) -> Guess:
+    """Balanced pressure on a Winkler foundation, as a first guess in the given memory."""
     whole = domain.whole
     pressure, motion = winkler_contact(
         problem.open_gap, problem.compliance, problem.constraints, whole.plane, whole.cell_area
     )
-    return Guess(pressure, domain.convolution.apply(pressure), motion)
+    memory[0] = pressure
+    domain.convolution.apply(memory[0], into=memory[1])
+    return Guess(memory, motion)

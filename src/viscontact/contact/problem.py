@@ -41,10 +41,32 @@ class ContactProblem:
 class Guess:
     """Pressure, its unit displacement, and the body's rigid motion."""
 
-    pressure: NDArray[np.float64]  # [Pa]
-    unit_displacement: NDArray[np.float64]  # K p of that pressure [Pa m]
+    #: Pressure [Pa] and unit displacement K p of it [Pa m]; shape (2, nx, ny).
+    values: NDArray[np.float64]
     motion: NDArray[np.float64]  # approach [m] and tilts along x and y [rad]
 
+    @classmethod
+    def of(
+        cls,
+        pressure: NDArray[np.float64],
+        unit_displacement: NDArray[np.float64],
+        motion: NDArray[np.float64],
+    ) -> Guess:
+        """Guess from a pressure [Pa] and its unit displacement [Pa m], which are copied."""
+        return cls(np.stack([pressure, unit_displacement]), motion)
+
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Pressure [Pa]."""
+        pressure: NDArray[np.float64] = self.values[0]
+        return pressure
+
+    @property
+    def unit_displacement(self) -> NDArray[np.float64]:
+        """Unit displacement K p of that pressure [Pa m]."""
+        displacement: NDArray[np.float64] = self.values[1]
+        return displacement
+
     def within(self, patch: Patch) -> Guess:
-        """The part on a patch."""
-        return Guess(patch.cut(self.pressure), patch.cut(self.unit_displacement), self.motion)
+        """The part on a patch, in the same memory."""
+        return Guess(self.values[:, patch.rows, patch.columns], self.motion)

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.line_blocks import Team, blocks_of
 from viscontact.loads import LoadPoint
+
+_Found = TypeVar("_Found")
+
+#: Sums of weight times 1, x, y, x², xy, y² over cells.
+Moments = tuple[float, ...]
+
+#: Size of a number of a field [bytes].
+ITEM_BYTES = 8
 
 #: Variance of position [cells²] below which cells count as one, or as a line, without a known tilt.
 NO_EXTENT = 1e-9
@@ -80,7 +91,8 @@ class RigidPlane:
     """Planes c0 + c1 x + c2 y on a block of cells, and sums of fields against 1, x, y.
 
     `x` and `y` are cell centres [m]. Mirrored cells count for their mirror images across x = 0, or
-    y = 0, as well: sums that are odd along that axis vanish.
+    y = 0, as well: sums that are odd along that axis vanish. Passes over the fields of the cells go
+    through blocks of rows, `each` of which is a plane on its own, by the threads of a `team`.
 
     Examples
     --------
@@ -95,9 +107,14 @@ class RigidPlane:
         y: NDArray[np.float64],
         cell_size: tuple[float, float],
         mirrored: tuple[bool, bool] = (False, False),
+        team: Team | None = None,
+        rows: slice | None = None,
     ) -> None:
         self._x, self._y = x, y
-        self._mirrored = mirrored
+        self._mirrored, self._cell_size = mirrored, cell_size
+        self._team = team or Team()
+        #: Rows of a field that these cells are.
+        self.rows = rows or slice(0, len(x))
         # In units of cells, so that NO_EXTENT means the same on every grid.
         unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
         self._column, self._row = x * unit[1], y * unit[2]
@@ -123,8 +140,26 @@ class RigidPlane:
             return np.asarray(along_x[:, None])
         return np.asarray(np.add.outer(along_x, coefficients[2] * self._y))
 
+    def each(self, work: Callable[[RigidPlane], _Found]) -> list[_Found]:
+        """Work on each block of rows, and return what that gives, in their order."""
+        return self._team.each(work, self._blocks)
+
+    @cached_property
+    def _blocks(self) -> list[RigidPlane]:
+        lines = blocks_of(len(self._x), len(self._y) * ITEM_BYTES)
+        if len(lines) == 1:
+            return [self]
+        return [
+            RigidPlane(self._x[rows], self._y, self._cell_size, self._mirrored, rows=rows)
+            for rows in lines
+        ]
+
     def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of a field against 1, x and y."""
+        return added(self.each(lambda block: block.sums_of_rows(values[block.rows])))
+
+    def sums_of_rows(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sums of the rows of one block against 1, x and y, at once."""
         # Not as matrix products: BLAS would start threads, which cost more than they save.
         along_x = values.sum(axis=1)
         moment_x = 0.0 if self._mirrored[0] else along_x @ self._x
@@ -132,17 +167,26 @@ class RigidPlane:
         return np.array([along_x.sum(), moment_x, moment_y])
 
     def inverse_gram(
-        self, weight: NDArray[np.float64], free: NDArray[np.bool_]
+        self, weight: NDArray[np.float64] | NDArray[np.bool_], free: NDArray[np.bool_]
     ) -> NDArray[np.float64]:
         """Pseudo-inverse of the weighted sums of (1, x, y) (1, x, y)ᵀ over the free coefficients.
 
         Where the cells determine only some coefficients (one cell, or a line of cells) the others
         are of least norm about the cells' centre.
         """
-        return _inverse(self._moments(weight), free) * self._units
+        moments = self.each(lambda block: block.moments_of_rows(weight[block.rows]))
+        return self.inverse_of(moments, free)
 
-    def _moments(self, weight: NDArray[np.float64]) -> tuple[float, ...]:
-        """Sums of weight times 1, x, y, x², xy, y², in units of cells; no squares if mirrored."""
+    def inverse_of(
+        self, moments: Sequence[Moments], free: NDArray[np.bool_]
+    ) -> NDArray[np.float64]:
+        """The same of the moments of all blocks."""
+        total = tuple(map(sum, zip(*moments, strict=True)))
+        return _inverse(total, free) * self._units
+
+    def moments_of_rows(self, weight: NDArray[np.float64] | NDArray[np.bool_]) -> Moments:
+        """Sums of the rows' weights times 1, x, y, x², xy, y² in cells; no squares if mirrored."""
+        weight = np.asarray(weight, dtype=np.float64)
         column, row = self._column, self._row
         x = y = xx = xy = yy = 0.0
         along_x = weight.sum(axis=1)
@@ -155,6 +199,11 @@ class RigidPlane:
         if not any(self._mirrored):
             xy = column @ np.einsum("ij,j->i", weight, row)
         return tuple(map(float, (n, x, y, xx, xy, yy)))
+
+
+def added(parts: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Sum of the sums of all blocks."""
+    return np.asarray(np.sum(parts, axis=0))
 
 
 def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.float64]:
@@ -200,23 +249,44 @@ def restore_balance(
     cell_area: float,
     arm: float,
 ) -> NDArray[np.float64] | None:
-    """Multiply a pressure by a plane so that force and moments match the constraints again.
+    """Cut off tension, and multiply by a plane so that force and moments match the constraints.
 
-    The result is non-negative; None if these cells cannot carry the resultants. `arm` [m] scales
-    moments as in `Constraints.imbalance`.
+    None if the cells under pressure cannot carry the resultants. `arm` [m] scales moments as in
+    `Constraints.imbalance`.
     """
-    if not constraints.free.any():
-        return pressure
+    restored = pressure.copy()
+    return restored if balance(restored, constraints, plane, cell_area, arm) else None
+
+
+def balance(
+    pressure: NDArray[np.float64],
+    constraints: Constraints,
+    plane: RigidPlane,
+    cell_area: float,
+    arm: float,
+) -> bool:
+    """Do the same in the pressure's memory; return whether it was possible."""
     target = constraints.targets / cell_area
+
+    def cut(block: RigidPlane) -> tuple[NDArray[np.float64], Moments]:
+        here = pressure[block.rows]
+        np.maximum(here, 0.0, out=here)
+        return block.sums_of_rows(here), block.moments_of_rows(here)
+
+    def scaled(block: RigidPlane) -> tuple[NDArray[np.float64], float]:
+        here = pressure[block.rows]
+        here *= block.field(factor)
+        return block.sums_of_rows(here), float(here.min())
+
     for _ in range(20):
+        sums, moments = zip(*plane.each(cut), strict=True)
+        if not constraints.free.any():
+            return True
         # A correction to 1, so that the factor is 1 where all balances are met.
-        lacking = target - plane.sums(pressure)
-        factor = plane.inverse_gram(pressure, constraints.free) @ lacking + np.array(
-            [1.0, 0.0, 0.0]
-        )
-        scaled = pressure * plane.field(factor)
-        if float(scaled.min()) >= 0:
-            off = constraints.imbalance(plane.sums(scaled) * cell_area, arm)
-            return scaled if off < 1e-9 else None
-        pressure = np.maximum(scaled, 0.0)
-    return None
+        lacking = target - added(sums)
+        inverse = plane.inverse_of(moments, constraints.free)
+        factor = inverse @ lacking + np.array([1.0, 0.0, 0.0])
+        sums, least = zip(*plane.each(scaled), strict=True)
+        if min(least) >= 0:
+            return constraints.imbalance(added(sums) * cell_area, arm) < 1e-9
+    return False

@@ -91,7 +91,7 @@ def _measured(
     problem: ContactProblem, domain: MovingDomain, pressure: NDArray[np.float64], before: Guess
 ) -> tuple[Guess, ContactResidual]:
     """Balanced pressure with its displacement and best motion, and its residual."""
-    convolved = Guess(pressure, domain.convolution.apply(pressure), before.motion)
+    convolved = Guess.of(pressure, domain.convolution.apply(pressure), before.motion)
     checked = contact_residual(problem, domain.whole, convolved)
     return replace(convolved, motion=checked.motion), checked
 

@@ -79,7 +79,9 @@ def _balanced(guess: Guess, problem: ContactProblem, domain: MovingDomain) -> Gu
     whole = domain.whole
     under = np.where(np.isfinite(problem.open_gap), guess.pressure, 0.0)
     pressure = restore_balance(under, problem.constraints, whole.plane, whole.cell_area, whole.arm)
-    return None if pressure is None else replace(guess, pressure=pressure)
+    if pressure is None:
+        return None
+    return Guess.of(pressure, guess.unit_displacement, guess.motion)
 
 
 def _cold_start(problem: ContactProblem, domain: MovingDomain) -> tuple[Guess, float]:
@@ -92,14 +94,14 @@ def _cold_start(problem: ContactProblem, domain: MovingDomain) -> tuple[Guess, f
         for axis in (0, 1):
             pressure = np.repeat(pressure, domain.shape[axis] // pressure.shape[axis], axis)
         work = coarse.work * coarse.values[0].size / pressure.size
-        start = _balanced(Guess(pressure, pressure, coarse.motion), problem, domain)
+        start = _balanced(Guess.of(pressure, pressure, coarse.motion), problem, domain)
         if start is not None:
             return start, work
     whole, constraints = domain.whole, problem.constraints
     others = constraints, whole.plane, whole.cell_area
     pressure, motion = winkler_contact(problem.open_gap, problem.compliance, *others)
     balanced = restore_balance(pressure, *others, whole.arm)
-    return Guess(pressure if balanced is None else balanced, pressure, motion), work
+    return Guess.of(pressure if balanced is None else balanced, pressure, motion), work
 
 
 def _proximal_search(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from functools import partial
 from typing import Any, Self, TypeAlias
@@ -20,9 +19,7 @@ from viscontact.fourier import (
     transforms_by,
 )
 from viscontact.halfspace.kernel_spectrum import kernel_spectrum, padded_length
-
-#: Size of the lines that are transformed at once [bytes]: they stay in the processor's cache.
-BLOCK_BYTES = 2**19
+from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of
 
 #: Work on a block of lines, in a workspace of its own.
 _Work: TypeAlias = Callable[[slice, NDArray[Any]], None]
@@ -73,6 +70,8 @@ class Convolution:
         single: bool = False,
         signed: int | None = None,
         transforms: Transforms | None = None,
+        team: Team | None = None,
+        workspace: Workspace | None = None,
     ) -> None:
         transforms = transforms or transforms_by(fastest_transforms())
         counts = [
@@ -94,8 +93,8 @@ class Convolution:
         self._symbol = symbol.astype(self._number if signed is None else complex_number)
         kind = self._number if mirrored[first] else complex_number
         waves = symbol.shape[first]
-        self._lines = _blocks(self.shape[second], self._lengths[first] * self._number.itemsize)
-        self._waves = _blocks(waves, self._lengths[second] * kind.itemsize)
+        self._lines = blocks_of(self.shape[second], self._lengths[first] * self._number.itemsize)
+        self._waves = blocks_of(waves, self._lengths[second] * kind.itemsize)
         #: Padded lines for each thread, along the first and along the second axis.
         self._padded = [
             (
@@ -107,12 +106,10 @@ class Convolution:
         is_one_block = len(self._lines) == len(self._waves) == 1
         # Threads share the blocks out, or else the lines of the only one.
         self._transforms = transforms if is_one_block else transforms_by(transforms.name)
-        #: Spectrum along the first axis of cells with data; in the padded lines if they hold it.
-        self._half = (
-            _cut(self._padded[0][1], second, slice(self.shape[second]))
-            if len(self._waves) == 1
-            else np.zeros(_put(first, waves, self.shape[second]), kind)
-        )
+        self._team = team or Team(transforms.threads)
+        self._workspace = workspace
+        #: Shape and kind of the spectrum along the first axis of cells with data.
+        self._half = _put(first, waves, self.shape[second]), np.dtype(kind)
 
     def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
         """Weighted sum of operators on the same block, in the precision of this one."""
@@ -133,10 +130,17 @@ class Convolution:
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.
         size = order_of(pressure, self._number)
-        self._each(self._lines, 0, partial(self._forth, pressure, size))
-        self._each(self._waves, 1, self._multiply)
-        self._each(self._lines, 0, partial(self._back, result, size))
+        half = self._half_spectrum()
+        self._each(self._lines, 0, partial(self._forth, pressure, size, half))
+        self._each(self._waves, 1, partial(self._multiply, half))
+        self._each(self._lines, 0, partial(self._back, result, size, half))
         return result
+
+    def _half_spectrum(self) -> NDArray[Any]:
+        """Array for the spectrum along the first axis; in the padded lines if they hold it."""
+        if len(self._waves) == 1:
+            return _cut(self._padded[0][1], self._second, slice(self.shape[self._second]))
+        return self._workspace.array(*self._half) if self._workspace else np.empty(*self._half)
 
     def _each(self, blocks: Sequence[slice], axis: int, work: _Work) -> None:
         """Work on all blocks; with several threads, each takes every so many of them."""
@@ -150,11 +154,15 @@ class Convolution:
             for block in blocks[thread::threads]:
                 work(block, self._padded[thread][axis])
 
-        with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(share, range(threads)))
+        self._team.each(share, range(threads))
 
     def _forth(
-        self, pressure: NDArray[np.float64], size: float, lines: slice, padded: NDArray[Any]
+        self,
+        pressure: NDArray[np.float64],
+        size: float,
+        half: NDArray[Any],
+        lines: slice,
+        padded: NDArray[Any],
     ) -> None:
         """Transform lines of the pressure along the first axis."""
         first, second, transforms = self._first, self._second, self._transforms
@@ -162,16 +170,16 @@ class Convolution:
         cells = self.shape[first]
         fill_of_order(size, _cut(padded, first, slice(cells)), _cut(pressure, second, lines))
         _cut(padded, first, slice(cells, None))[...] = 0
-        spectrum = _cut(self._half, second, lines)
+        spectrum = _cut(half, second, lines)
         if self._even[first]:
             spectrum[...] = transforms.cosine_forward(padded, first)
         else:
             transforms.real_forward(padded, spectrum, first)
 
-    def _multiply(self, waves: slice, padded: NDArray[Any]) -> None:
+    def _multiply(self, half: NDArray[Any], waves: slice, padded: NDArray[Any]) -> None:
         """Transform waves along the second axis, multiply them by the symbol, transform back."""
         first, second, transforms = self._first, self._second, self._transforms
-        spectrum = _cut(self._half, first, waves)
+        spectrum = _cut(half, first, waves)
         padded = _cut(padded, first, slice(waves.stop - waves.start))
         data = _cut(padded, second, slice(self.shape[second]))
         apart = len(self._waves) > 1
@@ -192,11 +200,16 @@ class Convolution:
             spectrum[...] = found
 
     def _back(
-        self, result: NDArray[np.float64], size: float, lines: slice, padded: NDArray[Any]
+        self,
+        result: NDArray[np.float64],
+        size: float,
+        half: NDArray[Any],
+        lines: slice,
+        padded: NDArray[Any],
     ) -> None:
         """Transform lines back along the first axis, into the result."""
         first, second, transforms = self._first, self._second, self._transforms
-        spectrum = _cut(self._half, second, lines)
+        spectrum = _cut(half, second, lines)
         if self._even[first]:
             moved = transforms.cosine_inverse(spectrum, first)
         else:
@@ -222,12 +235,6 @@ class Convolution:
 def _halved(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
     nx, ny = (cells // (1 + even) for cells, even in zip(shape, mirrored, strict=True))
     return nx, ny
-
-
-def _blocks(lines: int, bytes_per_line: int) -> list[slice]:
-    """Blocks of lines of at most `BLOCK_BYTES`, the first of which is the largest."""
-    most = max(1, BLOCK_BYTES // bytes_per_line)
-    return [slice(start, min(start + most, lines)) for start in range(0, lines, most)]
 
 
 def _put(axis: int, along: int, across: int) -> tuple[int, int]:

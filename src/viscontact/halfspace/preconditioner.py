@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.fourier import Transforms
+from viscontact.halfspace.line_blocks import Workspace
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.spectral import Spectra
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
@@ -35,8 +36,9 @@ class Preconditioner:
         response: SurfaceResponse = HALF_SPACE,
         mirrored: tuple[bool, bool] = (False, False),
         transforms: Transforms | None = None,
+        workspace: Workspace | None = None,
     ) -> None:
-        self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms)
+        self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms, workspace)
         self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
         if response is not HALF_SPACE:
             self._set_ratios(response.ratio(self.waves))
@@ -76,9 +78,11 @@ class Preconditioner:
         _, before, part = self._interpolation
         return np.asarray(known[before] + np.diff(known)[before] * part)
 
-    def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
+    def apply(
+        self, displacement: NDArray[np.float64], into: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
-        return self._spectra.filtered(displacement, self._symbol)
+        return self._spectra.filtered(displacement, self._symbol, into)
 
 
 class MovingPreconditioner(Preconditioner):

@@ -26,6 +26,7 @@ from viscontact.fourier import (
     order_of,
     transforms_by,
 )
+from viscontact.halfspace.line_blocks import Workspace
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Factor of waves by their wave numbers along the motion [1/m].
@@ -58,10 +59,11 @@ class PeriodicConvolution:
         *,
         single: bool = False,
         transforms: Transforms | None = None,
+        workspace: Workspace | None = None,
     ) -> None:
         self.shape = shape
         number = np.float32 if single else np.float64
-        self._spectra = Spectra(shape, cell_size, (False, False), number, transforms)
+        self._spectra = Spectra(shape, cell_size, (False, False), number, transforms, workspace)
         half = self._spectra.half_wave_numbers
         half[0, 0] = np.inf  # q = 0 comes below
         symbol = 1 / half
@@ -144,6 +146,7 @@ class Spectra:
         mirrored: tuple[bool, bool],
         number: type,
         transforms: Transforms | None,
+        workspace: Workspace | None = None,
     ) -> None:
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._even = [axis for axis in (0, 1) if mirrored[axis]]
@@ -152,12 +155,14 @@ class Spectra:
         waves = [self._waves(axis, shape[axis], cell_size[axis]) for axis in (0, 1)]
         #: Signed wave numbers along x and y, in the order of the transform [1/m].
         self.wave_numbers = 2 * np.pi * waves[0], 2 * np.pi * waves[1]
-        #: |q|/2 at each entry of a spectrum [1/m].
-        self.half_wave_numbers = np.pi * np.hypot(waves[0][:, None], waves[1][None, :])
-        self._block: NDArray[Any] = np.empty(shape, number)
-        self._spectrum = np.empty(
-            self.half_wave_numbers.shape, np.result_type(number, np.complex64)
-        )
+        self._shape, self._number = shape, np.dtype(number)
+        self._workspace = workspace or Workspace()
+
+    @property
+    def half_wave_numbers(self) -> NDArray[np.float64]:
+        """|q|/2 at each entry of a spectrum, a new array [1/m]."""
+        x, y = self.wave_numbers
+        return np.asarray(np.hypot(x[:, None], y[None, :]) / 2)
 
     def filtered(
         self,
@@ -166,11 +171,15 @@ class Spectra:
         into: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Field whose spectrum is that of the given field times a symbol."""
-        size = order_of(field, self._block.dtype)
-        fill_of_order(size, self._block, field)
-        spectrum = self._forth(self._block)
+        size = order_of(field, self._number)
+        waves = len(self.wave_numbers[0]), len(self.wave_numbers[1])
+        kind = np.result_type(self._number, np.complex64)
+        block, spectrum = self._workspace.arrays((self._shape, self._number), (waves, kind))
+        fill_of_order(size, block, field)
+        spectrum = self._forth(block, spectrum)
         spectrum *= symbol
-        return np.asarray(np.multiply(self._back(spectrum), size, out=into, dtype=np.float64))
+        back = self._back(spectrum, block)
+        return np.asarray(np.multiply(back, size, out=into, dtype=np.float64))
 
     def factor_along(self, axis: int, factor: WaveFactor) -> NDArray[np.complex128]:
         """Factor of each entry of a spectrum by its wave number along an axis [1/m]."""
@@ -182,26 +191,26 @@ class Spectra:
 
         That is the shortest one of an even number of cells.
         """
-        cells = self._block.shape[axis]
+        cells = self._shape[axis]
         if cells % 2 == 0:
             shortest = (cells // 2,) if axis == 0 else (slice(None), cells // 2)
             values[shortest] = values[shortest].real
         return values
 
-    def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
+    def _forth(self, block: NDArray[Any], spectrum: NDArray[Any]) -> NDArray[Any]:
         for axis in self._even:
             block = self._transforms.cosine_forward(block, axis)
         if self._fourier:
-            block = self._transforms.real_forward(block, self._spectrum, self._fourier[0])
+            block = self._transforms.real_forward(block, spectrum, self._fourier[0])
         for axis in self._fourier[1:]:
             block = self._transforms.complex_forward(block, axis)
         return block
 
-    def _back(self, spectrum: NDArray[Any]) -> NDArray[Any]:
+    def _back(self, spectrum: NDArray[Any], block: NDArray[Any]) -> NDArray[Any]:
         for axis in self._fourier[1:]:
             spectrum = self._transforms.complex_inverse(spectrum, axis)
         if self._fourier:
-            spectrum = self._transforms.real_inverse(spectrum, self._block, self._fourier[0])
+            spectrum = self._transforms.real_inverse(spectrum, block, self._fourier[0])
         for axis in self._even:
             spectrum = self._transforms.cosine_inverse(spectrum, axis)
         return spectrum

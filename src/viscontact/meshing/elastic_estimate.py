@@ -149,7 +149,7 @@ def elastic_contact(
     guess = None
     if start is not None and start.any():
         pressure = domain.reduce_by_symmetry(np.where(np.isfinite(open_gap), start, 0.0))
-        guess = Guess(pressure, domain.convolution.apply(pressure), np.zeros(3))
+        guess = Guess.of(pressure, domain.convolution.apply(pressure), np.zeros(3))
     solution = solve_contact(problem, domain, guess, tolerance=tolerance)
     return ContactEstimate(
         grid,

@@ -63,6 +63,7 @@ class March:
         self._steps = run.problem.steps(run.grid.cell_size)
         self._observer = Observer(run, warns=warns)
         self.done, self.outcome = 0, Outcome.CONVERGED
+        self._failure: str | None = None
         if restart_data is not None:
             self._restore(restart_data)
 
@@ -75,10 +76,9 @@ class March:
             As in `march`.
         """
         while self._steps.next_step() is not None:
-            step, trial = self._advance()
-            yield self._complete(step, trial)
-            if trial.outcome is Outcome.NOT_CONVERGED:
-                raise ConvergenceError(not_converged(self._run, step, trial.solution))
+            yield self._solved_step()
+            if self._failure is not None:
+                raise ConvergenceError(self._failure)
         self._observer.refuse_coarse_mesh()
 
     @property
@@ -142,9 +142,16 @@ class March:
         self._observer.map_fields(run, enlargement)
         self._run, self._domain = run, enlargement.large
 
+    def _solved_step(self) -> ContactState | None:
+        """Solve the next step; the fields of the trial are not kept until the one after it."""
+        step, trial = self._advance()
+        self.outcome = trial.outcome
+        if trial.outcome is Outcome.NOT_CONVERGED:
+            self._failure = not_converged(self._run, step, trial.solution)
+        return self._complete(step, trial)
+
     def _complete(self, step: Step, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)
-        self.outcome = trial.outcome
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
         _LOG.debug(

@@ -54,7 +54,7 @@ TOUCH_SAMPLES = 16
 
 @dataclass(frozen=True, eq=False)
 class StepProblem:
-    """The contact problem of a step.
+    """The contact problem of a step, and the guess of its solution if there is one.
 
     `drive` is the force [N] or approach [m] that the elastic reference is extrapolated over.
     """
@@ -63,6 +63,7 @@ class StepProblem:
     response: SurfaceStep
     drive: float
     problem: ContactProblem
+    guess: Guess | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +140,7 @@ class Stepper:
         mapped = enlargement.pairs
         self._run, self._domain = run, enlargement.large
         self._history.map_fields(enlargement)
-        self._errors.map_fields(mapped)
+        self._errors.map_fields(mapped, enlargement.pressure)
         self._references = [
             replace(reference, fields=mapped(reference.fields)) for reference in self._references
         ]
@@ -156,13 +157,20 @@ class Stepper:
         position = self._run.position_at(step.time)
         self._domain.move_axis(position)
         open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
+        past = response.past()
         problem = ContactProblem(  # step 2: the history widens the gap
-            open_gap + response.history,
+            open_gap + past.displacement,
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
-        return StepProblem(point, response, drive, problem)
+        known = self._reference_history(step)
+        if self._run.problem.motion is None:
+            guess = self._reference_guess(predict(known, step.time, drive), response, past.first)
+        else:
+            moved = predict(self._moved(known, step), step.time, point.level)
+            guess = None if moved is None else self._moved_guess(moved, problem)
+        return StepProblem(point, response, drive, problem, guess)
 
     def accept(self, step: Step, trial: TrialStep) -> StepSolution:
         """Add a solved step to the history (step 5), and return its solution on the whole grid."""
@@ -208,36 +216,37 @@ class Stepper:
         """The references that the next one is extrapolated from; after a kink, the last one."""
         return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
 
-    def _guess(self, step: Step, posed: StepProblem) -> Guess | None:
-        """Guess from earlier steps; of a moving body from their pressures, moved with it."""
-        known = self._reference_history(step)
-        if self._run.problem.motion is None:
-            return self._reference_guess(predict(known, step.time, posed.drive), posed.response)
-        moved = predict(self._moved(known, step), step.time, posed.point.level)
-        if moved is None:
-            return None
-        pressure, unit_displacement = moved.fields
+    def _moved_guess(self, moved: ElasticReference, problem: ContactProblem) -> Guess:
+        """Guess from earlier pressures that have been moved with the body."""
+        pressure, unit_displacement = moved.fields  # made by `predict` for this use
         # Moved by whole cells it may lie beyond the body's end.
-        beyond = np.isinf(posed.problem.open_gap)
+        beyond = np.isinf(problem.open_gap)
         if pressure[beyond].any():
-            pressure = np.where(beyond, 0.0, pressure)
-            unit_displacement = self._domain.convolution.apply(pressure)
-        return Guess(pressure, unit_displacement, moved.motion)
+            pressure[beyond] = 0.0
+            self._domain.convolution.apply(pressure, into=unit_displacement)
+        return Guess(moved.fields, moved.motion)
 
     def _reference_guess(
-        self, reference: ElasticReference | None, response: SurfaceStep
+        self,
+        reference: ElasticReference | None,
+        response: SurfaceStep,
+        history: NDArray[np.float64],
     ) -> Guess | None:
-        """Pressure and unit displacement that a predicted elastic reference belongs to."""
+        """Pressure and unit displacement that a predicted elastic reference belongs to.
+
+        `history` is that of the first term.
+        """
         if reference is None or response.first.compliance == 0:
             return None
         values = reference.fields  # made by `predict` for this use, so it may be overwritten
         if len(response.terms) > 1:  # the displacement is that of all terms
-            pressure = (values[0] - response.first.history[0]) / response.first.compliance
-            unit_displacement = self._domain.convolution.apply(pressure)
-            return Guess(pressure, unit_displacement, reference.motion)
-        np.subtract(values, response.first.history, out=values)
+            np.subtract(values[0], history[0], out=values[0])
+            values[0] /= response.first.compliance
+            self._domain.convolution.apply(values[0], into=values[1])
+            return Guess(values, reference.motion)
+        np.subtract(values, history, out=values)
         values /= response.compliance
-        return Guess(values[0], values[1], reference.motion)
+        return Guess(values, reference.motion)
 
     def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
@@ -259,14 +268,13 @@ class Stepper:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
-            untouched = not response.history.any()
+            untouched = not response.past().displacement.any()
             return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):
             return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT
-        guess = self._guess(step, posed)
         tolerance = self._run.problem.tolerance
-        solution = solve_contact(problem, self._domain, guess, tolerance=tolerance)
+        solution = solve_contact(problem, self._domain, posed.guess, tolerance=tolerance)
         if not solution.converged:
             return solution, Outcome.NOT_CONVERGED
         if solution.values[0].any():

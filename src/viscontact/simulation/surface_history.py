@@ -31,6 +31,14 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
+class SurfacePast:
+    """What earlier steps have left at the end of a step."""
+
+    first: Array  # ∫ J_1 dp [-] and ∫ J_1 dq_1 [m] of the first term, shape (2, nx, ny)
+    displacement: Array  # of all terms [m]
+
+
+@dataclass(frozen=True, eq=False)
 class SurfaceStep:
     """Displacement at the end of a step, as a function of the new pressure."""
 
@@ -42,13 +50,13 @@ class SurfaceStep:
         """Response of the first term."""
         return self.terms[0]
 
-    @property
-    def history(self) -> Array:
-        """Displacement from all earlier steps [m]."""
-        history: Array = self.first.history[1]
+    def past(self) -> SurfacePast:
+        """Displacement from all earlier steps, computed anew."""
+        first = self.first.history
+        displacement: Array = first[1]
         for term in self.terms[1:]:
-            history = history + term.history[1]
-        return history
+            displacement = displacement + term.history[1]
+        return SurfacePast(first, displacement)
 
     @property
     def weights(self) -> tuple[float, ...]:

@@ -132,4 +132,4 @@ def _guess(near: Neighbour, domain: MovingDomain) -> Guess | None:
     pressure = domain.reduce_by_symmetry(np.where(inside, near.pressure[clipped], 0.0))
     if not pressure.any():
         return None
-    return Guess(pressure, pressure, near.motion)
+    return Guess.of(pressure, pressure, near.motion)

@@ -79,7 +79,8 @@ class BoltzmannSum(HereditaryIntegral):
         self._next_jumps, self._next_smooth = True, False
         past = self._history_at(self._time, StepShape(0.0, 0.0))
         compliance = self._compliance.instant
-        return HereditaryResponse(past - compliance * self._value, compliance, resolved=True)
+        history = past - compliance * self._value
+        return HereditaryResponse(lambda: history, compliance, resolved=True)
 
     def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
@@ -103,7 +104,7 @@ class BoltzmannSum(HereditaryIntegral):
             history += (1 - step.turn_weight) * (risen - slow) * trend.mean
         crept = self._compliance(duration) - self._compliance.instant
         resolved = is_resolved(crept, self._compliance.instant, whole=step.slow == 0)
-        return HereditaryResponse(history, compliance, resolved, step.held, step.trended)
+        return HereditaryResponse(lambda: history, compliance, resolved, step.held, step.trended)
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Add the increments to the new value of the field, and close the step."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,11 +23,17 @@ MAX_RESOLVED_CREEP = 0.5
 class HereditaryResponse:
     """Displacement at the end of a step as a function of the new value q: u = history + J q."""
 
-    history: NDArray[np.float64]  # displacement from all earlier steps [m if q is in Pa m]
+    #: Makes the displacement from all earlier steps, until the step is accepted.
+    past: Callable[[], NDArray[np.float64]]
     compliance: float  # mean of J over the rise of the step, J(0) for a jump [1/Pa]
     resolved: bool  # the step is short against the law, so that pressure may change much over it
     held: float = 0.0  # part of the step over which the new value is held after its rise [-]
     trended: float = 0.0  # part of the step over which the last step's trend is continued [-]
+
+    @property
+    def history(self) -> NDArray[np.float64]:
+        """Displacement from all earlier steps, not to be changed [m if q is in Pa m]."""
+        return self.past()
 
     def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement for a new value of the field."""

@@ -25,6 +25,9 @@ from viscontact.time_integration.hereditary_integral import (
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
 
+#: Numbers of a field that are worked on at once.
+PART = 2**14
+
 
 class InternalVariables(HereditaryIntegral):
     """Running hereditary integral of one field under a Prony series, by internal variables.
@@ -62,7 +65,6 @@ class InternalVariables(HereditaryIntegral):
         self._compliance, self._others = compliance, others
         self._fields = np.zeros((compliance.term_count, *shape))
         self._value = np.zeros(shape)
-        self._term = np.empty(shape)  # work array
         self._jumped = self._next_jumps = False
         self._next, self._shape = _jump(compliance), StepShape(0.0, 0.0)
         #: Trend of the last step, and whether the next one begins with a kink.
@@ -95,10 +97,12 @@ class InternalVariables(HereditaryIntegral):
         value = value.copy() if value.flags.writeable else value
         values = self._weighted_values(value)
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
-        for index, field in enumerate(self._fields):
-            field *= self._next.decay[index]
-            for weights, each in values:
-                field += np.multiply(weights[index], each, out=self._term)
+        for part in _parts(value):
+            for index, field in enumerate(self._fields):
+                here = _flat(field)[part]
+                here *= self._next.decay[index]
+                for weights, each in values:
+                    here += weights[index] * _flat(each)[part]
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
@@ -132,7 +136,6 @@ class InternalVariables(HereditaryIntegral):
         """Continue with a larger field; see `HereditaryIntegral.map_fields`."""
         self._fields, self._value = grown(self._fields), grown(self._value)
         self._trend = None if self._trend is None else self._trend.mapped(grown)
-        self._term = np.empty(self._value.shape)
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data; see `HereditaryIntegral.restore`."""
@@ -152,15 +155,33 @@ class InternalVariables(HereditaryIntegral):
 
     def _response(self) -> HereditaryResponse:
         """Response to the step whose weights are set."""
-        # History: all of the displacement that does not depend on the new value.
         step, shape = self._next, self._shape
-        history = step.old.sum() * self._value
-        for field, decay in zip(self._fields, step.decay, strict=True):
-            history += np.multiply(decay, field, out=self._term)
-        if self._trend is not None and not shape.is_level:
-            history += np.multiply(step.trend.sum(), self._trend.mean, out=self._term)
         compliance = self._compliance.instant + float(step.new.sum())
-        return HereditaryResponse(history, compliance, step.resolved, shape.held, shape.trended)
+        return HereditaryResponse(
+            self._history, compliance, step.resolved, shape.held, shape.trended
+        )
+
+    def _history(self) -> NDArray[np.float64]:
+        """All of the displacement that does not depend on the new value; computed when wanted."""
+        step, has_trend = self._next, self._trend is not None and not self._shape.is_level
+        history = np.empty(self._value.shape)
+        for part in _parts(history):
+            here = np.multiply(step.old.sum(), _flat(self._value)[part], out=_flat(history)[part])
+            for field, decay in zip(self._fields, step.decay, strict=True):
+                here += decay * _flat(field)[part]
+            if has_trend and self._trend is not None:
+                here += step.trend.sum() * _flat(self._trend.mean)[part]
+        return history
+
+
+def _flat(field: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers of a contiguous field in one row, in the same memory."""
+    return field.reshape(-1)
+
+
+def _parts(field: NDArray[np.float64]) -> list[slice]:
+    """Parts of a field in one row that stay in the processor's cache."""
+    return [slice(first, first + PART) for first in range(0, field.size, PART)]
 
 
 @dataclass(frozen=True, eq=False)

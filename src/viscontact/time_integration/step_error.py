@@ -82,9 +82,9 @@ class TimeErrors:
         #: Displacement error of each term of J, from interpolation and from the pressure error [m].
         self._term_errors = np.zeros(plan.prony_approximation.term_count)
         self._pressure_error, self._jumped = 0.0, True
-        #: Durations of the last two steps since a kink, and values at their ends; rate over the
-        #: last.
-        self._past: list[tuple[float, NDArray[np.float64]]] = []
+        #: Durations of the last two steps since a kink, values after the last, rate over it.
+        self._durations: list[float] = []
+        self._values: NDArray[np.float64] | None = None
         self._rate: NDArray[np.float64] | None = None
         self._pending: tuple[float, float] | None = None
         self._size = 0.0
@@ -102,13 +102,13 @@ class TimeErrors:
         after a kink it is estimated from the change over it.
         """
         contact = values[0] > 0
-        if self._past:
-            contact |= self._past[-1][1][0] > 0
+        if self._values is not None:
+            contact |= self._values[0] > 0
         size = max(self._size, _mean_over(contact, values[1]))
         level = max(self._level, self._load.level_of(point))
-        if step.is_jump or not self._past:
+        if step.is_jump or self._values is None:
             return StepError(0.0, 0.0, size, level)
-        rate = values[1] - self._past[-1][1][1]
+        rate = values[1] - self._values[1]
         rate /= step.duration
         travel = LARGEST_OVER_MEAN * step.duration * _mean_over(contact, rate)
         interpolation_error = self._interpolation_error(step, rate, contact, travel, response)
@@ -129,21 +129,21 @@ class TimeErrors:
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
             self._settle(alone=True)
-            self._past = self._past[-1:]
+            self._durations = self._durations[-1:]
         if step.is_jump:
-            self._past = []
+            self._durations = []
             if self._compliance.instant > 0:  # otherwise the pressure does not jump
                 self._pressure_error = -float(self._term_errors.sum()) / self._compliance.instant
                 self._jumped = True
-        elif len(self._past) < 2:
+        elif len(self._durations) < 2:
             self._pending = (step.duration, error.travel)
         else:
             self._settle(
                 alone=False, interpolation_error=error.interpolation_error / step.duration**2
             )
             self._remember(step.duration, error.interpolation_error)
-        self._past = [*self._past[-1:], (step.duration, values)]
-        self._rate = error.rate
+        self._durations = [*self._durations[-1:], step.duration]
+        self._values, self._rate = values, error.rate
         return abs(self._pressure_error) / self._size if self._size > 0 else 0.0
 
     def restart_data(self) -> RestartData:
@@ -152,7 +152,9 @@ class TimeErrors:
             "term_errors": self._term_errors,
             "pressure_error": self._pressure_error,
             "jumped": self._jumped,
-            "past": [{"duration": duration, "values": values} for duration, values in self._past],
+            "durations": self._durations,
+            "values": self._values,
+            "rate": self._rate,
             "pending": None if self._pending is None else list(self._pending),
             "size": self._size,
             "level": self._level,
@@ -163,16 +165,16 @@ class TimeErrors:
         self._term_errors = restart_data["term_errors"]
         self._pressure_error = restart_data["pressure_error"]
         self._jumped = restart_data["jumped"]
-        self._past = [(point["duration"], point["values"]) for point in restart_data["past"]]
-        self._rate = self._last_rate()
+        self._durations, self._values = list(restart_data["durations"]), restart_data["values"]
+        self._rate = restart_data["rate"]
         pending = restart_data["pending"]
         self._pending = None if pending is None else (pending[0], pending[1])
         self._size, self._level = restart_data["size"], restart_data["level"]
 
-    def map_fields(self, grown: FieldMap) -> None:
-        """Continue with larger fields, mapped by `grown`."""
-        self._past = [(duration, grown(values)) for duration, values in self._past]
-        self._rate = self._last_rate()
+    def map_fields(self, grown: FieldMap, embedded: FieldMap) -> None:
+        """Continue with larger fields, mapped by `grown`; the rate is that of the smaller ones."""
+        self._values = None if self._values is None else grown(self._values)
+        self._rate = None if self._rate is None else embedded(self._rate)
 
     def _growth_to_come(self, level: float) -> float:
         """Least factor by which the pressure still grows with the load."""
@@ -191,16 +193,9 @@ class TimeErrors:
         if not step.smooth or self._rate is None:
             return max(late, ISOLATED_STEP_SHARE * travel)
         change = LARGEST_OVER_MEAN * _mean_over(contact, rate - self._rate)
-        curvature = 2 * change / (step.duration + self._past[-1][0])
+        curvature = 2 * change / (step.duration + self._durations[-1])
         part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
         return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
-
-    def _last_rate(self) -> NDArray[np.float64] | None:
-        """Rate of the unit displacement over the last step [Pa m/s], None after a kink."""
-        if len(self._past) < 2:
-            return None
-        (_, before), (duration, last) = self._past
-        return np.asarray((last[1] - before[1]) / duration)
 
     def _settle(self, *, alone: bool, interpolation_error: float = 0.0) -> None:
         """Add a pending first step, with the curvature of its successor if there is one."""

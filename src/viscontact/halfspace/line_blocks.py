@@ -1,0 +1,82 @@
+"""Work on fields in blocks of lines that stay in the processor's cache, by one or several threads.
+
+What is done to a block line by line needs memory for temporary arrays of one block only. Results
+are returned in the order of the blocks, so that sums of them do not depend on the threads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+#: Size of the lines that are worked on at once [bytes].
+BLOCK_BYTES = 2**19
+
+#: Start of each array in a workspace, for vector instructions [bytes].
+ALIGNMENT = 64
+
+_Block = TypeVar("_Block")
+_Found = TypeVar("_Found")
+
+
+class Team:
+    """Threads that share blocks out among themselves; with one, the caller works alone.
+
+    Examples
+    --------
+    >>> Team(2).each(lambda block: block.start, blocks_of(5, 2**18))
+    [0, 2, 4]
+    """
+
+    def __init__(self, threads: int = 1) -> None:
+        self.threads = threads
+
+    @cached_property
+    def _pool(self) -> ThreadPoolExecutor:
+        return ThreadPoolExecutor(self.threads)
+
+    def each(self, work: Callable[[_Block], _Found], blocks: Sequence[_Block]) -> list[_Found]:
+        """Work on all blocks, and return what that gives, in their order."""
+        if self.threads == 1 or len(blocks) == 1:
+            return [work(block) for block in blocks]
+        return list(self._pool.map(work, blocks))
+
+
+class Workspace:
+    """Memory that the operators of one domain use in turn, each only while it is applied."""
+
+    def __init__(self) -> None:
+        self._bytes = np.empty(0, np.uint8)
+
+    def array(self, shape: tuple[int, ...], kind: np.dtype[Any]) -> NDArray[Any]:
+        """Return an array without particular values, which is valid until the next one is asked."""
+        return self.arrays((shape, kind))[0]
+
+    def arrays(self, *wanted: tuple[tuple[int, ...], np.dtype[Any]]) -> list[NDArray[Any]]:
+        """Return arrays of shapes and kinds, beside each other, valid until the next call."""
+        sizes = [int(np.prod(shape)) * kind.itemsize for shape, kind in wanted]
+        begins = np.cumsum([0, *(size + -size % ALIGNMENT for size in sizes)])
+        if begins[-1] > len(self._bytes):
+            self._bytes = np.empty(0, np.uint8)  # freed before the larger one is made
+            self._bytes = np.empty(int(begins[-1]), np.uint8)
+        return [
+            self._bytes[begin : begin + size].view(kind).reshape(shape)
+            for begin, size, (shape, kind) in zip(begins, sizes, wanted, strict=False)
+        ]
+
+
+def blocks_of(lines: int, bytes_per_line: int) -> list[slice]:
+    """Blocks of lines of at most `BLOCK_BYTES`, the first of which is the largest.
+
+    Examples
+    --------
+    >>> blocks_of(5, 2**18)
+    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
+    """
+    most = max(1, BLOCK_BYTES // max(1, bytes_per_line))
+    return [slice(start, min(start + most, lines)) for start in range(0, lines, most)]
