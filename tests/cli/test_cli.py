@@ -21,6 +21,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.case import read_case
 from viscontact.cli import main
 from viscontact.cli.results import figures
 from viscontact.cli.run import execution
@@ -30,8 +31,10 @@ from viscontact.problem.problem import Problem
 from viscontact.results.formatting import format_percent
 from viscontact.runs import resources
 from viscontact.runs.directory.progress_log import ProgressLog
+from viscontact.runs.preparation import prepared
 from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation import stepper
+from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
 SPHERE = """\
@@ -563,7 +566,9 @@ def test_a_warning_that_names_its_instant_is_printed_without_it_in_front(
 def test_grid_is_measured_against_the_memory_that_is_free(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    needed = resources.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), fields_kept=1)
+    run = prepared(read_case(Path("case.yaml"))).run
+    assert isinstance(run, RunSetup)
+    needed = resources.run_memory(run)
     monkeypatch.setattr("viscontact.runs.preparation.available_memory", lambda: needed + 1)
     assert main(["run", "case.yaml", "-q", "-o", "fits"]) == 0
     monkeypatch.setattr("viscontact.runs.preparation.available_memory", lambda: needed - 1)

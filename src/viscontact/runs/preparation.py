@@ -9,7 +9,7 @@ from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.runs.forecast import Forecast, forecast
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import curve_memory, fields_kept, least_memory, needed_memory
+from viscontact.runs.resources import curve_memory, least_memory, run_memory
 from viscontact.runs.steady_forecast import steady_forecast
 from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -36,13 +36,12 @@ def prepared(
     """
     available = available_memory() if memory is None else memory
     if isinstance(case.grid, Grid):  # before arrays of its size are allocated
-        _refuse_beyond(available, case, case.grid, least_memory(case.grid, case.compliance))
+        even = True, True  # as it may turn out to be
+        least = least_memory(case.grid, case.compliance, even)
+        _refuse_beyond(available, case, case.grid, least)
     case = _carried_out(case, threads, roughly=roughly)
     run = _prepared_run(case, threads)
-    if isinstance(run, SteadySetup):
-        needed = curve_memory(run)
-    else:
-        needed = needed_memory(run.grid, fields_kept(run))
+    needed = curve_memory(run) if isinstance(run, SteadySetup) else run_memory(run)
     _refuse_beyond(available, case, run.grid, needed)
     return PreparedRun(case, run)
 

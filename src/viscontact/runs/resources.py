@@ -9,18 +9,27 @@ from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.simulation.setup import RunSetup
 from viscontact.steady.preparation import SteadySetup
+from viscontact.time_integration.boltzmann_sum import BLOCK_STEPS
 
-#: Memory of the program [bytes], and number of grid-sized arrays of a run, both measured for a body
-#: without symmetry planes; each term of the law adds two arrays. The program takes 150 to 190 MB,
-#: since the buffers of the linear algebra library differ between processors.
-PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 56, 2
+#: Memory of the program [bytes]. It takes 120 to 190 MB, since the buffers of the linear algebra
+#: library differ between processors.
+PROGRAM = 1.5e8
 
-#: Arrays of a state over speed on the grid of all speeds.
-ARRAYS_OF_STATE = 4
+#: Grid-sized arrays of a run without symmetry, measured; each term of the law adds two arrays.
+WORK_ARRAYS, ARRAYS_PER_TERM = 25.0, 2.0
+
+#: Of a body with symmetry planes: arrays of the whole grid, and those of the cells computed.
+WHOLE_ARRAYS, COMPUTED_ARRAYS = 11.0, 18.5
+
+#: Further arrays under a moving body, and of a sum over all steps.
+ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
+
+#: Arrays of a run over speed, and of a state on the grid of all speeds.
+ARRAYS_OF_CURVE, ARRAYS_OF_STATE = 60.0, 4.0
 
 #: Fields that take as much memory as the tables and operators of a further term of layers.
-#: In steady motion, which keeps no history, as many as these.
-ARRAYS_OF_TERM, ARRAYS_OF_MOVING_TERM = 12, 3
+#: In steady motion, which keeps no history, arrays.
+FIELDS_OF_TERM, ARRAYS_OF_MOVING_TERM = 7, 10.0
 
 #: Memory of the time and the scalars of a step [bytes], measured.
 BYTES_PER_STEP = 2000.0
@@ -29,48 +38,67 @@ BYTES_PER_STEP = 2000.0
 def run_memory(run: RunSetup) -> float:
     """Memory of a checked run [bytes], with the scalars of its steps."""
     kept = BYTES_PER_STEP * run.problem.step_count
-    return needed_memory(run.grid, fields_kept(run)) + kept
-
-
-def fields_kept(run: RunSetup) -> int:
-    """Stored fields of pressure of a run; each further term of layers adds a few operators."""
-    further = sum(plan.fields_kept + ARRAYS_OF_TERM for plan in run.other_terms)
-    return run.hereditary.fields_kept + further
+    further = 0.0 if run.problem.motion is None else ARRAYS_OF_MOTION
+    fields = 0
+    for plan in (run.hereditary, *run.other_terms):
+        fields += plan.fields_kept
+        if not isinstance(plan.compliance, SeriesCompliance):  # with the sums computed ahead
+            fields += min(plan.rows, BLOCK_STEPS)
+            further += ARRAYS_OF_SUM
+    fields += FIELDS_OF_TERM * len(run.other_terms)
+    return needed_memory(run.grid, fields, mirrored=run.mirrored, further=further) + kept
 
 
 def curve_memory(run: SteadySetup) -> float:
     """Memory of a checked run over speed [bytes]; its fields are written as they are found."""
-    largest = max(run.grids, key=lambda grid: grid.shape[0] * grid.shape[1])
-    kept = 8.0 * ARRAYS_OF_STATE * run.grid.shape[0] * run.grid.shape[1]
-    further = len(run.problem.contact.surface.terms) - 1
-    return needed_memory(largest, ARRAYS_OF_MOVING_TERM * further) + kept
+    terms = len(run.problem.contact.surface.terms)
+    largest = max(grid.shape[0] * grid.shape[1] for grid in run.grids)
+    each = ARRAYS_OF_CURVE + ARRAYS_OF_MOVING_TERM * (terms - 1)
+    kept = ARRAYS_OF_STATE * run.grid.shape[0] * run.grid.shape[1]
+    return PROGRAM + 8.0 * (largest * each + kept)
 
 
-def needed_memory(grid: Grid, fields_kept: int) -> float:
+def needed_memory(
+    grid: Grid,
+    fields_kept: int,
+    *,
+    mirrored: tuple[bool, bool] = (False, False),
+    further: float = 0.0,
+) -> float:
     """Memory of a run without the scalars of its steps [bytes]; allocates no arrays.
 
     `fields_kept` counts the stored fields of pressure, and as many of displacement: one for each
-    exponential term of the contact compliance, or one for each step.
+    exponential term of the contact compliance, or one for each step. A body that is even across
+    x = 0, or y = 0 (`mirrored`) needs less; `further` counts other arrays of the computed cells.
 
     >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
-    700
+    382
+    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), 2, mirrored=(True, True)) / 1e6)
+    283
     """
-    nx, ny = grid.shape
-    return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)
+    share = 0.5 ** sum(mirrored)
+    arrays = further + ARRAYS_PER_TERM * fields_kept
+    if any(mirrored):
+        arrays = WHOLE_ARRAYS + share * (COMPUTED_ARRAYS + arrays)
+    else:
+        arrays += WORK_ARRAYS
+    return PROGRAM + 8.0 * float(grid.shape[0]) * float(grid.shape[1]) * arrays
 
 
-def least_memory(grid: Grid, compliance: ContactCompliance) -> float:
+def least_memory(
+    grid: Grid, compliance: ContactCompliance, mirrored: tuple[bool, bool] = (False, False)
+) -> float:
     """Lower bound of the memory of a run [bytes], known before it is set up.
 
     >>> from viscontact.laws import Zener
     >>> from viscontact.materials.material import Material
     >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber.contact_compliance()) / 1e6)
-    684
+    366
     """
     # The fields that other laws store depend on the steps, which are not known yet.
     terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
-    return needed_memory(grid, terms)
+    return needed_memory(grid, terms, mirrored=mirrored)
 
 
 def fitting(needs: Iterable[float], available: float) -> int:

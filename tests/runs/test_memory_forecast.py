@@ -1,0 +1,65 @@
+"""The memory that `check` announces, against what processes of the operating system take."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from viscontact.runs.resources import PROGRAM
+
+#: A creeping sphere on many cells; the memory of the process before and after a run on a few.
+RUN = """
+import viscontact as vc
+from viscontact.problem.problem import Problem
+from viscontact.runs.resources import run_memory
+from viscontact.simulation.setup import prepare_run
+
+def resident(key):
+    lines = open("/proc/self/status").read().splitlines()
+    return 1024 * int(next(line for line in lines if line.startswith(key)).split()[1])
+
+def problem(cells):
+    spring, series = vc.Zener(1e6, 1e6, 1e6), vc.CreepSeries(5e-7, [2e-7] * 5, [0.1, 1, 3, 10, 30])
+    power = vc.PowerLaw(5e-7, 0.3, 1.0, instant=2e-7)
+    law = {{"series": series, "sum": power}}.get("{kind}", spring)
+    material = vc.Material(law, poisson_ratio=0.4)
+    if "{kind}" == "layers":
+        steel = vc.Material(vc.Elastic(5e6), poisson_ratio=0.3)
+        material = vc.Layered([vc.Layer(1e-3, material)], base=steel)
+    aside = 0.0 if "{kind}" == "symmetric" else 2e-6
+    load = vc.step(0.08, eccentricity_x=aside, eccentricity_y=aside / 2)
+    times = vc.uniform_times(2.0, 4)
+    return Problem(vc.Sphere(0.01), material, load, vc.Grid((cells, cells), (2e-3, 2e-3)), times)
+
+def march(cells):
+    given = problem(cells)
+    for _ in vc.march(given.indenter, given.material, given.load, given.grid, given.times):
+        pass
+
+march(64)
+before = resident("VmRSS")
+march(1024)
+print(resident("VmHWM") - before, run_memory(prepare_run(problem(1024))))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="needs Linux's /proc")
+@pytest.mark.parametrize(
+    ("kind", "most"),
+    [("spring", 216), ("series", 280), ("symmetric", None), ("sum", None), ("layers", None)],
+)
+def test_announced_memory_is_what_a_run_takes(kind: str, most: int | None) -> None:
+    """Within 10 %; without symmetry at most 200 bytes a cell and 16 for each term of the law."""
+    code = RUN.format(kind=kind)
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", code], check=True, capture_output=True, text=True
+    )
+    taken, announced = map(float, done.stdout.split())
+    assert taken == pytest.approx(announced - PROGRAM, rel=0.1)
+    if most is not None:
+        # Buffers of libraries, about 10 MB here, do not grow with the cells.
+        assert taken < most * 1024**2 + 2e7
