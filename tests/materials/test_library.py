@@ -220,6 +220,8 @@ def test_a_run_beyond_the_measured_time_warns() -> None:
         ("rubber", ["epdm-70-25c", "polyisoprene-226k-25c"]),
         ("pom-23c", ["pom-c-23c"]),
         ("PEEK", []),
+        ("PU", []),
+        ("PE", []),
         (" ", []),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 
 from viscontact.materials.library.entry import entry, names
 
@@ -18,8 +19,8 @@ def nearest_names(name: str) -> list[str]:
     Returns
     -------
     list of str
-        At most three: entries with `name` in their own name, else in their title or family, else
-        the one of the most similar name; empty if none is similar.
+        At most three: entries with a word that begins with `name` in their own name, else in
+        their title or family, else the one of the most similar name; empty if none is similar.
 
     Examples
     --------
@@ -29,9 +30,13 @@ def nearest_names(name: str) -> list[str]:
     asked = name.strip().lower()
     if not asked:
         return []
-    within = [each for each in names() if asked in each]
+    # At the beginning of a word only: "PU" is not in "computed", nor "PE" in "paper".
+    begins = re.compile(rf"\b{re.escape(asked)}")
+    within = [each for each in names() if begins.search(each)]
     within = within or [
-        each for each in names() if asked in f"{entry(each).title} {entry(each).family}".lower()
+        each
+        for each in names()
+        if begins.search(f"{entry(each).title} {entry(each).family}".lower())
     ]
     return within[:3] or difflib.get_close_matches(asked, names(), n=1)
 
