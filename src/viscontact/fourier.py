@@ -203,9 +203,18 @@ def order_of(field: NDArray[np.float64], number: np.dtype[Any]) -> float:
     >>> order_of(np.array([1e-99, -4e-99]), np.dtype(np.float32))
     4e-99
     """
-    if number == field.dtype:
-        return 1.0
-    return max(float(field.max()), -float(field.min())) or 1.0
+    return 1.0 if number == field.dtype else largest_of(field) or 1.0
+
+
+def largest_of(field: NDArray[np.float64]) -> float:
+    """Return the largest absolute value of a field.
+
+    Examples
+    --------
+    >>> largest_of(np.array([1e-99, -4e-99]))
+    4e-99
+    """
+    return max(float(field.max()), -float(field.min()))
 
 
 def fill_of_order(size: float, block: Field, field: NDArray[np.float64]) -> None:

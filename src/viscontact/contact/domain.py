@@ -119,6 +119,7 @@ class ContactDomain:
 
     whole: Patch  # all cells of the domain
     convolution: Operator  # pressure to unit displacement on all cells, in double precision
+    team: Team  # threads that share the rows of fields out
 
     def __init__(
         self,
@@ -143,7 +144,7 @@ class ContactDomain:
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
-        self._team, self._workspace = Team(self._transforms.threads), Workspace()
+        self.team, self._workspace = Team(self._transforms.threads), Workspace()
         self._first_row, self._first_column = (
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
@@ -318,7 +319,7 @@ class ContactDomain:
         """Rigid motions over rows and columns of the domain, about the body's axis."""
         x, y = self.grid.x[self._first_row :][rows], self.grid.y[self._first_column :][columns]
         along = x - self._axis[0], y - self._axis[1]
-        return RigidPlane(*along, self.grid.cell_size, self.mirrored, self._team)
+        return RigidPlane(*along, self.grid.cell_size, self.mirrored, self.team)
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """Convolution over a block of cells, or over the whole period."""
@@ -350,7 +351,7 @@ class ContactDomain:
             mirrored=self.mirrored,
             periodic=(self.grid.periodic[0], self.grid.periodic[1]),
             single=single,
-            team=self._team,
+            team=self.team,
             **options,
         )
 

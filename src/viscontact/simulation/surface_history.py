@@ -88,7 +88,7 @@ class SurfaceHistory:
         # All of one field, the pressure, so that its steps have one shape.
         laws = tuple(plan.compliance for plan in run.plans) if run.other_terms else ()
         self._integrals: list[HereditaryIntegral] = [
-            plan.integral((2, *domain.shape), laws) for plan in run.plans
+            plan.integral((2, *domain.shape), laws, domain.team) for plan in run.plans
         ]
 
     def loss(self, pairs: tuple[Array, ...]) -> tuple[float, float] | None:

@@ -15,6 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.line_blocks import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.time_integration.hereditary_integral import (
@@ -26,7 +27,7 @@ from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
 
 #: Numbers of a field that are worked on at once.
-PART = 2**14
+PART = 2**15
 
 
 class InternalVariables(HereditaryIntegral):
@@ -39,7 +40,8 @@ class InternalVariables(HereditaryIntegral):
     Goudreau 1970, Int. J. Numer. Meth. Eng. 2, 45, for relaxation; Simo & Hughes, Computational
     Inelasticity, 1998, section 10.3).
 
-    `others` are further creep functions that act on the same field, for the shape of its steps.
+    `others` are further creep functions that act on the same field, for the shape of its steps; the
+    threads of a `team` share the field out.
 
     Examples
     --------
@@ -61,8 +63,10 @@ class InternalVariables(HereditaryIntegral):
         compliance: SeriesCompliance,
         shape: tuple[int, ...],
         others: tuple[ContactCompliance, ...] = (),
+        team: Team | None = None,
     ) -> None:
         self._compliance, self._others = compliance, others
+        self._team = team or Team()
         self._fields = np.zeros((compliance.term_count, *shape))
         self._value = np.zeros(shape)
         self._jumped = self._next_jumps = False
@@ -97,12 +101,15 @@ class InternalVariables(HereditaryIntegral):
         value = value.copy() if value.flags.writeable else value
         values = self._weighted_values(value)
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
-        for part in _parts(value):
+
+        def add(part: slice) -> None:
             for index, field in enumerate(self._fields):
                 here = _flat(field)[part]
                 here *= self._next.decay[index]
                 for weights, each in values:
                     here += weights[index] * _flat(each)[part]
+
+        self._team.each(add, _parts(value))
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
@@ -165,12 +172,15 @@ class InternalVariables(HereditaryIntegral):
         """All of the displacement that does not depend on the new value; computed when wanted."""
         step, has_trend = self._next, self._trend is not None and not self._shape.is_level
         history = np.empty(self._value.shape)
-        for part in _parts(history):
+
+        def add(part: slice) -> None:
             here = np.multiply(step.old.sum(), _flat(self._value)[part], out=_flat(history)[part])
             for field, decay in zip(self._fields, step.decay, strict=True):
                 here += decay * _flat(field)[part]
             if has_trend and self._trend is not None:
                 here += step.trend.sum() * _flat(self._trend.mean)[part]
+
+        self._team.each(add, _parts(history))
         return history
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.line_blocks import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.boltzmann_sum import BoltzmannSum
 from viscontact.time_integration.hereditary_integral import HereditaryIntegral
@@ -45,14 +46,17 @@ class HereditaryPlan:
         return self.rows
 
     def integral(
-        self, shape: tuple[int, ...], others: tuple[ContactCompliance, ...] = ()
+        self,
+        shape: tuple[int, ...],
+        others: tuple[ContactCompliance, ...] = (),
+        team: Team | None = None,
     ) -> HereditaryIntegral:
         """Hereditary integral of a field of this shape, without a history.
 
-        `others` are further creep functions that act on the same field.
+        `others` are further creep functions that act on the same field, which a `team` shares out.
         """
         if isinstance(self.compliance, SeriesCompliance):
-            return InternalVariables(self.compliance, shape, others)
+            return InternalVariables(self.compliance, shape, others, team)
         is_adaptive = not self.instants.size
         room = STEP_RESERVE * self.rows if is_adaptive else self.rows
         return BoltzmannSum(self.compliance, shape, self.instants, room, others)
