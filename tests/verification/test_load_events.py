@@ -1,5 +1,7 @@
 """Events of load programs against exact solutions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -52,6 +54,16 @@ def test_events_are_where_lee_radok_and_ting_have_them(name):
     assert ds.force[-1] == 0
     assert float(ds.force.sel(time=events[0])) == pytest.approx(FORCE, rel=1e-6)
     assert "force reaches 50 mN" in ds.attrs["events"].splitlines()[0]
+
+
+def test_a_condition_that_would_be_met_later_in_the_step_changes_nothing():
+    alone = run(LAWS["zener"], 65, 8)
+    reached, lost = alone.attrs["event_times"]
+    after = RATE * (reached + 0.01)  # a step is 0.06 s
+    program = replace(PROGRAM, stop=(vc.Condition("approach", after),))
+    both = run(LAWS["zener"], 65, 8, program)
+    assert both.attrs["event_times"] == pytest.approx([reached, lost], rel=1e-9)
+    assert both.force.values == pytest.approx(alone.force.values, rel=1e-9)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])

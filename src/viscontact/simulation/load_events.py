@@ -104,6 +104,8 @@ class EventSearch:
                 self._accept(step, trial, state)
                 continue
             step, trial, state, met = min(found, key=lambda each: each[0].time)
+            if len(found) > 1:  # the history answers to the step that was solved last
+                trial, state = self._solved(step)
             self._accept(step, trial, state)
             return met
         return None
