@@ -121,6 +121,7 @@ BENCHMARKS = {
     "build-peers": "peers/build.py",
     "peers": "peers/compare.py",
     "memory": "memory.py",
+    "threads": "threads.py",
     "long-runs": "long_runs.py",
     "many-runs": "many_runs.py",
     "page-answer": "page_answer.py",
