@@ -203,7 +203,7 @@ class RigidPlane:
 
 def added(parts: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Sum of the sums of all blocks."""
-    return np.asarray(np.sum(parts, axis=0))
+    return parts[0] if len(parts) == 1 else np.asarray(np.sum(parts, axis=0))
 
 
 def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.float64]:

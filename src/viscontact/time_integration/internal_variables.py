@@ -99,15 +99,16 @@ class InternalVariables(HereditaryIntegral):
         """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
         value = value.copy() if value.flags.writeable else value
-        values = self._weighted_values(value)
+        values = [(weights, _flat(each)) for weights, each in self._weighted_values(value)]
+        fields = [_flat(field) for field in self._fields]
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
 
         def add(part: slice) -> None:
-            for index, field in enumerate(self._fields):
-                here = _flat(field)[part]
+            for index, field in enumerate(fields):
+                here = field[part]
                 here *= self._next.decay[index]
                 for weights, each in values:
-                    here += weights[index] * _flat(each)[part]
+                    here += weights[index] * each[part]
 
         self._team.each(add, _parts(value))
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
