@@ -236,7 +236,7 @@ MODULI = {"law": "relaxation-series", "equilibrium": "1 MPa", "moduli": [], "tim
     ("section", "given", "said"),
     [
         ("material", CASE["material"] | {"nu": 0.3}, "did you mean 'poisson_ratio'?"),
-        ("material", CASE["material"] | {"E": "1 GPa"}, "'youngs_modulus', with data: uniaxial?"),
+        ("material", CASE["material"] | {"E": "1 GPa"}, "did you mean 'youngs_modulus'?"),
         ("material", CASE["material"] | {"modulus": "1 GPa"}, "did you mean 'youngs_modulus'"),
         ("material", SERIES | {"E": "1 GPa"}, "'instant', its inverse 1/E, with data: uniaxial?"),
         ("material", MODULI | {"E": "1 GPa"}, "'equilibrium', and moduli, with data: uniaxial?"),

@@ -240,7 +240,15 @@ def test_bad_value_is_refused_at_its_key(setting: str, said: str, tmp_path: Path
             "viscosity",
         ),
         ("{law: maxwell, shear_modulus: 1 MPa, poisson_ratio: 0.5}", "viscosity: is missing"),
-        ("{law: elastic, youngs_modulus: 1 MPa, poisson_ratio: 0.5}", "data: uniaxial"),
+        (
+            "{law: elastic, data: shear, youngs_modulus: 1 MPa, poisson_ratio: 0.5}",
+            "youngs_modulus: does not go with data: shear; give shear_modulus",
+        ),
+        (
+            "{law: elastic, shear_modulus: 1 MPa, youngs_modulus: 3 MPa, poisson_ratio: 0.5}",
+            "give shear_modulus or youngs_modulus, and only one",
+        ),
+        ("{law: elastic, poisson_ratio: 0.5}", "or 'youngs_modulus: 1800 MPa'"),
         ("{law: elastic, poisson_ratio: 0.5}", "shear_modulus: is missing"),
         ("{law: elastic, shear_modulus: 1 MPa}", "poisson_ratio"),
         ("{shear_modulus: 1 MPa}", "material.law: is missing"),

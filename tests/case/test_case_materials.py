@@ -97,6 +97,10 @@ def problem(folder: Path, material: Any, files: dict[str, str] | None = None) ->
             vc.FractionalMaxwell.from_uniaxial(1e6, 0.005, 0.4, poisson_ratio=0.38),
         ),
         (
+            {"law": "elastic", "youngs_modulus": "210 GPa"},  # which says that it is uniaxial
+            vc.Elastic.from_uniaxial(210e9, poisson_ratio=0.38),
+        ),
+        (
             {"law": "fractional-zener", "shear_modulus": "3 MPa",
              "equilibrium_modulus": "0 MPa", "time": "2 s", "exponent": 0.5},
             vc.FractionalZener(3e6, 0.0, 2.0, 0.5),
@@ -121,7 +125,7 @@ def test_law_by_formula_is_the_law_made_by_hand(
 def test_table_is_used_at_its_own_times_whatever_its_test(
     data: str, factor: float, tmp_path: Path
 ) -> None:
-    # Phi = 1/(2G) as it stands; 1/G is twice Phi; Phi = (1 + nu) D, nu = 0.38.
+    # Phi = 1/(2G) is not changed; 1/G is twice Phi; Phi = (1 + nu) D, nu = 0.38.
     law = read(tmp_path, {**TABLE, "data": data}, {"pmma.csv": PMMA}).material.law
     assert isinstance(law, vc.TabulatedCreep)
     np.testing.assert_allclose(

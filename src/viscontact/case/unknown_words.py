@@ -30,7 +30,7 @@ _OTHER_VALUES = {
 
 _UNIAXIAL = "with data: uniaxial"
 _YOUNGS_MODULUS = {
-    "youngs_modulus": _UNIAXIAL,
+    "youngs_modulus": "",
     "effective_modulus": "",
     "equilibrium": f"and moduli, {_UNIAXIAL}",
     "instant": f"its inverse 1/E, {_UNIAXIAL}",

@@ -13,16 +13,18 @@ from viscontact.laws import Law
 
 
 class Springs(Medium):
-    """Law of elements with shear moduli, or with uniaxial ones for `data: uniaxial`."""
+    """Law of elements with shear moduli, or with uniaxial ones beside `youngs_modulus`."""
 
     law_class: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
 
     shear_modulus: Modulus | None = Field(default=None, description="instantaneous shear modulus")
     youngs_modulus: Modulus | None = Field(
-        default=None, description="instead of shear_modulus, with data: uniaxial"
+        default=None, description="instead of shear_modulus; all other moduli are then uniaxial"
     )
     data: Literal["shear", "uniaxial"] | None = Field(
-        default=None, description="kind of all moduli and viscosities; shear when left out"
+        default=None,
+        description="kind of all moduli and viscosities; uniaxial beside youngs_modulus, and shear "
+        "beside shear_modulus, when left out",
     )
 
     def build_law(self) -> Law:
@@ -36,15 +38,17 @@ class Springs(Medium):
         return law
 
     def _is_uniaxial(self) -> bool:
-        uniaxial = self.data == "uniaxial"
+        if self.shear_modulus is not None and self.youngs_modulus is not None:
+            raise ValueError("give shear_modulus or youngs_modulus, and only one")
+        uniaxial = self.data == "uniaxial" or (
+            self.data is None and self.youngs_modulus is not None
+        )
         wanted, unwanted = ("youngs_modulus", "shear_modulus")[:: 1 if uniaxial else -1]
         if getattr(self, unwanted) is not None:
-            hint = "" if uniaxial else "; tensile moduli need data: uniaxial"
-            raise ValueError(
-                f"{unwanted} does not go with data: {self.data or 'shear'}; give {wanted}{hint}"
-            )
+            raise ValueError(f"{unwanted} does not go with data: {self.data}; give {wanted}")
         if getattr(self, wanted) is None:
-            raise ValueError(f"{wanted} is missing; write e.g. '{wanted}: 1800 MPa'")
+            other = ", or 'youngs_modulus: 1800 MPa'" if self.data is None else ""
+            raise ValueError(f"{wanted} is missing; write e.g. '{wanted}: 1800 MPa'{other}")
         return uniaxial
 
     def _others(self) -> list[str]:
