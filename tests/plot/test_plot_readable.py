@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from pathlib import Path
 from typing import Any
@@ -62,6 +63,23 @@ def test_a_prescribed_tilt_is_a_line_from_zero_without_band_or_offset() -> None:
     free = with_tilt(maxwell_sphere(), 5e-4)
     free.attrs["case"] = maxwell_sphere().attrs["case"]
     assert panel(plot.history(free), "Tilt along x").collections
+
+
+@pytest.mark.parametrize("width", [None, "single"])
+def test_labels_of_times_over_a_week_do_not_touch(width: plot.Width | None) -> None:
+    times = np.append(0.0, np.geomspace(36.0, 604800.0, 5))
+    ds = maxwell_sphere()
+    ds = ds.isel(time=[0, -1]).interp(time=np.linspace(*ds["time"].values[[0, -1]], times.size))
+    ds = ds.assign_coords(time=times).assign(force=("time", np.full(times.size, 10.0)))
+    figure = plot.history(ds, width=width)
+    figure.draw_without_rendering()
+    labelled = 0
+    for axes in figure.axes:
+        boxes = [each.get_window_extent() for each in axes.get_xticklabels() if each.get_text()]
+        labelled = max(labelled, len(boxes))
+        for before, after in itertools.pairwise(boxes):
+            assert after.x0 - before.x1 > 2
+    assert labelled >= 4  # 0, 1 min, 1 h, 1 d
 
 
 def test_a_prescribed_negative_tilt_is_below_zero() -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 import viscontact as vc
 from viscontact.notebook.html import written
-from viscontact.report.stress_chapter import stress_chapter
-from viscontact.results.peak_stress import peak_stress
+from viscontact.report.stress_chapter import stress_chapter, stress_text
+from viscontact.results.peak_stress import PeakStress, peak_stress
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
@@ -22,6 +24,13 @@ def test_report_states_the_von_mises_stress_with_its_depth() -> None:
     assert f"{peak_stress(ds, 'von_mises').value / 1e3:.0f}" in text
     assert "at t = 0 s" in text
     assert "<img" in text
+
+
+def test_report_names_the_plane_of_the_stress_if_it_is_not_that_of_the_drawing() -> None:
+    found = PeakStress(1e6, 1e4, 0.0, 1e-4, "x")
+    ds = vc.simulate(BALL, RUBBER, LOAD, GRID, [0.0], errors=False)
+    assert "100 µm deep on the plane along x; the drawing is across" in stress_text(ds, found)
+    assert stress_text(ds, replace(found, plane="")).endswith("100 µm deep.")
 
 
 def test_nothing_is_shown_without_fields_or_of_layers() -> None:

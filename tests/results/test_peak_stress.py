@@ -115,3 +115,18 @@ def test_an_unknown_stress_is_refused_with_the_reason(change: dict[str, object],
     )
     with pytest.raises(ValueError, match=why):
         peak_stress(ds, "von_mises")
+
+
+@pytest.mark.parametrize("plane", ["x", "y"])
+def test_the_plane_is_that_of_the_larger_stress(plane: str) -> None:
+    """Below a long contact whose pressure falls from one end, it is not below that end."""
+    ds = ball(48, errors=False)
+    pressure = np.zeros((48, 48))
+    across = np.sqrt(1 - (np.arange(-6, 7) / 7.0) ** 2)
+    pressure[8:40, 12:25] = 1e9 * np.outer(np.linspace(1.0, 0.97, 32), across)
+    ds["pressure"][0] = pressure if plane == "x" else pressure.T
+    assert peak_stress(ds, "von_mises").plane == plane
+
+
+def test_below_a_ball_both_planes_are_equal() -> None:
+    assert peak_stress(ball(48, errors=False), "von_mises").plane == ""

@@ -10,15 +10,18 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.notebook.html import element
+from viscontact.plot.layout import style
 from viscontact.plot.layout.saving import as_svg
 
 
 def drawn_figure(drawn: Figure, caption: str) -> Element:
-    """Figure as a drawing within the page, with its caption."""
+    """Figure as a drawing within the page, with its caption; one of a column stays narrow."""
     drawing = base64.b64encode(as_svg(drawn)).decode()
     image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt=caption)
     frame = element("div", image, class_="scroll")
-    return element("figure", frame, element("figcaption", caption))
+    is_narrow = drawn.get_figwidth() <= style.ONE_COLUMN
+    width = {"class": "single"} if is_narrow else {}
+    return element("figure", frame, element("figcaption", caption), **width)
 
 
 def text_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Element:

@@ -164,8 +164,9 @@ def _fact(ds: xr.Dataset, name: str) -> tuple[int, str]:
 
 
 def _unbroken(text: str) -> str:
-    """Put no-break spaces between numbers and units, and between ± and the error."""
-    return re.sub(r"(?<=[±=]) (?=\d)|(?<=\d) (?=[a-zA-Zµ²]{1,4}\b)", "\N{NO-BREAK SPACE}", text)
+    """Put no-break spaces between numbers and units, within "t = 1 s", and after ±."""
+    spaces = r"(?<=[±=]) (?=\d)|(?<=\bt) (?==)|(?<=\d) (?=[a-zA-Zµ²]{1,4}\b)"
+    return re.sub(spaces, "\N{NO-BREAK SPACE}", text)
 
 
 def _without_fields(ds: xr.Dataset) -> str:

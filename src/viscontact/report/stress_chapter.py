@@ -44,7 +44,9 @@ def stress_text(ds: xr.Dataset, found: PeakStress) -> str:
     """Describe the stress in a sentence."""
     value = format_with_error(found.value, found.error, "Pa")
     place, depth = run_axis(ds).place(found.place), format_quantity(found.depth, "m", 2)
+    plane = f" on the plane along {found.plane}; the drawing is across the contact"
     return (
         f"On the planes along x and y through the largest pressure of the run, at {place}, "
-        f"the largest von Mises stress in the half-space is {value}, {depth} deep."
+        f"the largest von Mises stress in the half-space is {value}, {depth} deep"
+        f"{plane if found.plane else ''}."
     )

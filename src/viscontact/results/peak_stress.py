@@ -17,6 +17,9 @@ from viscontact.results.worst_values import first_largest
 #: Number of depths of the search, and of those around the deepest of them.
 _DEPTHS, _CLOSE = 14, 7
 
+#: Relative difference of stresses of two planes that are equal.
+_EQUAL = 1e-3
+
 Array = NDArray[np.float64]
 
 
@@ -28,6 +31,7 @@ class PeakStress:
     error: float  # half width of its error bar [Pa]; inf if mesh-dependent, NaN if unknown
     place: float  # instant [s] or speed [m/s]
     depth: float  # [m]
+    plane: str = ""  # axis along which its vertical plane runs, "x" or "y"; empty for both
 
 
 def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
@@ -66,9 +70,8 @@ def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
     change = (
         np.nan if coarse is None else abs(_over(coarse, found.around, name).max() - found.value)
     )
-    return PeakStress(
-        found.value, found.value * relative + change + found.error, place, found.depth
-    )
+    error = found.value * relative + change + found.error
+    return PeakStress(found.value, error, place, found.depth, _plane(field, found.depth, name))
 
 
 def _field_at(ds: xr.Dataset, place: float) -> xr.Dataset:
@@ -131,11 +134,24 @@ def _largest(field: xr.Dataset, depths: Array, name: str) -> _Found:
 
 def _over(field: xr.Dataset, depths: Array, name: str) -> Array:
     """Largest stress at each depth on the planes of x and y through the largest pressure [Pa]."""
+    return np.asarray(np.maximum(*_on_planes(field, depths, name)))
+
+
+def _plane(field: xr.Dataset, depth: float, name: str) -> str:
+    """Axis along which the plane of the larger stress at a depth [m] runs; empty for equal ones."""
+    along, across = (float(each[0]) for each in _on_planes(field, np.array([depth]), name))
+    if abs(along - across) <= _EQUAL * max(along, across):
+        return ""
+    return "x" if along > across else "y"
+
+
+def _on_planes(field: xr.Dataset, depths: Array, name: str) -> tuple[Array, Array]:
+    """Largest stress at each depth on the plane along x, and on that along y [Pa]."""
     cells = field["pressure"].isel({str(field["pressure"].dims[0]): 0}).transpose("x", "y")
     i, j = np.unravel_index(int(cells.values.argmax()), cells.shape)
     along = section_stresses(field, depths, y=float(field["y"][j]))[name].values[0]
     across = section_stresses(field, depths, x=float(field["x"][i]))[name].values[0]
-    return np.asarray(np.maximum(along.max(axis=1), across.max(axis=1)))
+    return along.max(axis=1), across.max(axis=1)
 
 
 def _coarser(field: xr.Dataset) -> xr.Dataset | None:

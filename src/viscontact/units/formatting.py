@@ -36,6 +36,7 @@ _PREFIXES = (
     *((1e-18, "a"), (1e-15, "f"), (1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m")),
     *((1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G")),
 )
+_HOUR = 3600.0
 _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
 _WITHOUT_PREFIX = ("K", "1/(Pa s)")
 _SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
@@ -138,14 +139,35 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     digits : int
         Significant digits; trailing zeros are left out.
 
+    Returns
+    -------
+    str
+        The value with its unit; times from an hour on are in the unit that needs fewest digits.
+
     Examples
     --------
     >>> format_quantity(0.009565, "m"), format_quantity(152.23e6, "Pa")
     ('9.565 mm', '152.2 MPa')
+    >>> [format_quantity(time, "s", 6) for time in (1000.0, 3600.0, 5000.0, 360000.0, 604800.0)]
+    ['1000 s', '1 h', '5000 s', '100 h', '7 d']
     """
     readable = _unit_of(abs(value), unit)
+    if unit == "s" and _HOUR <= abs(value) < math.inf:
+        readable = _unit_of_hours(value, digits, readable)
     number = without_trailing_zeros(format_number(value / readable.factor, digits))
     return f"{number} {readable.symbol}".rstrip()
+
+
+def _unit_of_hours(time: float, digits: int, usual: ReadableUnit) -> ReadableUnit:
+    """Unit in which a time [s] of an hour or more has fewest digits, the first of equal ones."""
+    hours, days = (ReadableUnit(name, factor) for _, factor, name in _LONG_TIMES)
+    units = [hours, usual, days] if usual.symbol == "s" else [usual, hours, days]
+
+    def needed(unit: ReadableUnit) -> int:
+        number = format_number(time / unit.factor, digits)
+        return len(number.replace(".", "").lstrip("0-").rstrip("0"))
+
+    return min(units, key=needed)
 
 
 def quoted(text: str, most: int = 60) -> str:

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.plot.layout import style
 from viscontact.results.run_axis import require_time
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
@@ -21,6 +22,9 @@ from viscontact.units.formatting import ReadableUnit, clock_ticks, format_quanti
 _STEADY, _SOON = 1e-5, 0.05
 #: Least ratio of a logarithmic axis: below a decade it has hardly any tick labels.
 _DECADE = 10.0
+#: Width of a decade in which two labels fit, and width of a panel beside its axis [inch]; largest
+#: ratio of the ends of an axis of which all ticks are labelled.
+_DECADE_WIDTH, _BESIDE, _MOST_RATIO = 0.5, 0.7, 1e5
 #: Length of a logarithmic time axis before the first step, against the rest of it.
 BEFORE_FIRST = 0.2
 
@@ -81,15 +85,25 @@ def scale_time(
 
 def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> str:
     """Mark s, min, h and d on a logarithmic axis over hours or days; return the axis label."""
-    ticks = clock_ticks(unit, first, end)
+    is_whole = axes.get_xscale() == "symlog"
+    ticks = clock_ticks(unit, first, end, close=_labelled_ratio(axes, is_whole=is_whole))
     if not ticks:
         return unit.label("Time")
-    start = {0.0: "0"} if axes.get_xscale() == "symlog" else {}
+    start = {0.0: "0"} if is_whole else {}
     labelled = start | {place: text for place, text in ticks.items() if text}
     axes.set_xticks(list(labelled), list(labelled.values()))
     axes.set_xticks([place for place, text in ticks.items() if not text], minor=True)
     axes.xaxis.set_minor_formatter(NullFormatter())
     return "Time"
+
+
+def _labelled_ratio(axes: Axes, *, is_whole: bool) -> float:
+    """Ratio of the ends of an axis from which on labels of all ticks would touch."""
+    place = axes.get_subplotspec()
+    columns = 1 if place is None else place.get_gridspec().ncols
+    width = style.figure_of(axes).get_figwidth() / columns - _BESIDE
+    decades = width / _DECADE_WIDTH
+    return float(min(_MOST_RATIO, 10.0 ** (decades / (1 + BEFORE_FIRST) if is_whole else decades)))
 
 
 def set_log_time(axes: Axes, first: float, end: float) -> None:
