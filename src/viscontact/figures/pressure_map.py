@@ -21,8 +21,8 @@ Floats = NDArray[np.float64]
 
 #: More cells than these along an axis are joined.
 MOST_CELLS = 256
-#: Number of outlines that remain distinguishable in one figure.
-_OUTLINES = 5
+#: Numbers of outlines that remain distinguishable in one figure, of a few spots and of many.
+_OUTLINES, _OUTLINES_OF_MANY = 5, 2
 #: Length of the arrow along a motion [pixel].
 _ARROW = 34
 _COLOURS = (
@@ -101,7 +101,7 @@ def outlines(fields: ShownFields, look: Look = LIGHT) -> go.Figure:
             **rim_of(fields.snapshots[index], length),
             "mode": "lines",
             "name": labels[index],
-            "line": {"color": colours[index], "width": 1.6},
+            "line": {"color": colours[index], "width": 1.0 if fields.many_spots else 1.6},
             "hovertemplate": f"x %{{x:.4g}} {length.symbol}, y %{{y:.4g}} {length.symbol}"
             f"<extra>{labels[index]}</extra>",
         }
@@ -127,7 +127,8 @@ def strides_of(fields: ShownFields) -> tuple[int, int]:
 
 def map_remarks(fields: ShownFields) -> str:
     """Remarks on the map: scale, averaged cells, instants left out."""
-    said = ["The line is the outline of the contact; without colour: no contact."]
+    line = "" if fields.many_spots else "The line is the outline of the contact; "
+    said = [f"{line}{'w' if line else 'W'}ithout colour: no contact."]
     if fields.body:
         said.append("The cross is the body's axis, the arrow the direction of its motion.")
     if fields.window.note:
@@ -170,10 +171,10 @@ def _frames(
     shape, headings = _shape(fields, around=130, most=600), _headings(fields, look)
     for index, each in enumerate(fields.snapshots):
         z = numbers(pressure(_cells(each, fields)))
-        traces: list[Part] = [{"type": "heatmap", "z": z}, rim_of(each, length)]
+        traces: list[Part] = [{"type": "heatmap", "z": z}, _rim_on_map(fields, each, length)]
         if reference is not None:
             then = reference.snapshots[nearest_to(reference, each.time)]
-            traces.append(rim_of(then, length))
+            traces.append(_rim_on_map(reference, then, length))
         note = _note(each, pressure, is_marked=fields.marked[index])
         meta = {"name": "map", "title": headings[index], "note": note} | shape
         layout: Part = {"meta": meta}
@@ -183,6 +184,11 @@ def _frames(
             traces.append({"x": [x], "y": [y]})
             layout["annotations"] = _arrow(body, (x, y), fields.window.stretch, look)
         yield traces, layout
+
+
+def _rim_on_map(fields: ShownFields, snapshot: Snapshot, length: ReadableUnit) -> Part:
+    """Outline of the contact, empty for one of many spots, whose pressure it would cover."""
+    return {"x": [], "y": []} if fields.many_spots else rim_of(snapshot, length)
 
 
 def _headings(fields: ShownFields, look: Look) -> list[str]:
@@ -224,8 +230,10 @@ def _shape(fields: ShownFields, *, around: int, most: int) -> Part:
 
 def _plane(fields: ShownFields, length: ReadableUnit) -> Part:
     """Axes in true shape, or stretched as the window is."""
-    # The surface ends at the border of a period; elsewhere the plane continues.
-    constrain = "domain" if any(fields.snapshots[0].periodic) else "range"
+    # The surface ends at the border of a period; elsewhere the plane continues, but a high map
+    # would be a small part of a broad one.
+    is_high = fields.window.height_to_width > 1
+    constrain = "domain" if is_high or any(fields.snapshots[0].periodic) else "range"
     shared = {"constrain": constrain, "showgrid": False}
     x, y = (length(limits).tolist() for limits in (fields.window.x, fields.window.y))
     anchored = {"scaleanchor": "x", "scaleratio": fields.window.stretch}
@@ -280,5 +288,6 @@ def _arrow(body: BodyPlace, at: tuple[float, float], stretch: float, look: Look)
 def _outlined(fields: ShownFields) -> list[int]:
     """Instants whose outline is drawn: some in contact, from the first to the last."""
     touching = [index for index, each in enumerate(fields.snapshots) if each.touching]
-    chosen = np.linspace(0, len(touching) - 1, min(_OUTLINES, len(touching))).round().astype(int)
+    most = _OUTLINES_OF_MANY if fields.many_spots else _OUTLINES
+    chosen = np.linspace(0, len(touching) - 1, min(most, len(touching))).round().astype(int)
     return [touching[index] for index in chosen]

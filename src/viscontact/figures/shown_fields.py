@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.plot.layout.window import Window, window_around
+from viscontact.plot.pressure.pressure_map import has_many_spots
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import Snapshot, field_times, take_snapshots
@@ -69,6 +70,11 @@ class ShownFields:
             return (_middle_of(self.snapshots[self.start]),) * len(self.snapshots)
         pairs = zip(self.snapshots, self.body, strict=True)
         return tuple(_middle_of(each) if each.touching else place.axis for each, place in pairs)
+
+    @cached_property
+    def many_spots(self) -> bool:
+        """True if the contact has so many spots at an instant that outlines cover its pressure."""
+        return any(map(has_many_spots, self.snapshots))
 
     def beside(self, other: ShownFields | None) -> ShownFields:
         """The same fields in a window that contains the contacts of other fields as well."""

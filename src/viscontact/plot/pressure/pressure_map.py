@@ -37,6 +37,8 @@ _NAME = "pressure-map"
 MapStyle = Literal["contours", "colours"]
 #: Largest number of spots with contour lines, which would cover more of them.
 _MOST_SPOTS = 12
+#: Height over width from which on maps are beside each other.
+_HIGH = 1.6
 #: Colours of cells: the palest one differs from the white without contact.
 _CELL_COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.18, 1.0, 256)))
 # Percentiles of pressure over the contact between which contours have room for labels.
@@ -154,7 +156,7 @@ def _draw(
     figure, panels = _panels(len(snapshots), window, width)
     if chosen not in (None, *get_args(MapStyle)):
         raise ValueError(f"{_NAME}: style must be 'contours' or 'colours', got {chosen!r}")
-    in_colours = chosen == "colours" or (chosen is None and any(map(_has_many_spots, snapshots)))
+    in_colours = chosen == "colours" or (chosen is None and any(map(has_many_spots, snapshots)))
     drawn = zip(panels, snapshots, strict=True)
     if in_colours:
         top = max(float(snapshot.pressure.max()) for snapshot in snapshots)
@@ -186,7 +188,8 @@ def _draw(
     return figure
 
 
-def _has_many_spots(snapshot: Snapshot) -> bool:
+def has_many_spots(snapshot: Snapshot) -> bool:
+    """True for a contact of so many spots that lines around them would cover the pressure."""
     return bool(label(snapshot.pressure > 0)[1] > _MOST_SPOTS)
 
 
@@ -227,9 +230,10 @@ def pressure_levels(highest: float) -> tuple[NDArray[np.float64], ReadableUnit]:
 
 def _panels(count: int, window: Window, wanted: Width | None) -> tuple[Figure, list[Axes]]:
     long = window.height_to_width < 0.6
-    columns = 1 if long else min(count, 2)
+    # Two rows of high maps would not fit on a page.
+    columns = 1 if long else min(count, 4 if window.height_to_width > _HIGH else 2)
     rows = -(-count // columns)
-    usual = style.TWO_COLUMNS if columns == 2 or long else style.ONE_COLUMN
+    usual = style.TWO_COLUMNS if columns >= 2 or long else style.ONE_COLUMN
     width = page_width(wanted, usual)
     panel_width = (width - 1.3) / columns
     height = rows * (panel_width * window.height_to_width + 0.22) + 0.45
