@@ -382,7 +382,7 @@ def test_case_as_run_keeps_comments_and_holds_what_was_set(tmp_path: Path) -> No
     ("data", "factor"), [("deviatoric", 1.0), ("shear", 0.5), ("uniaxial", 1.38)]
 )
 def test_data_says_what_a_compliance_means(data: str, factor: float, tmp_path: Path) -> None:
-    # CONTRACT 1: Phi = 1/(2G) as it stands; 1/G is twice Phi; Phi = (1 + nu) D, nu = 0.38.
+    # CONTRACT 1: Phi = 1/(2G) is not changed; 1/G is twice Phi; Phi = (1 + nu) D, nu = 0.38.
     case = read_case(written(tmp_path, ROLLER), [f"material.data={data}"])
     assert float(case.material.law(0.0)) == pytest.approx(factor * 5.545e-10, rel=1e-14)
 

@@ -171,7 +171,7 @@ def test_a_law_that_is_remembered_or_converted_badly_causes_a_warning(monkeypatc
         words = ("remembered are off by", "converted from the law's modulus")
         return [sum(word in str(w.message) for w in caught) for word in words]
 
-    assert kinds(creep) == [0, 0]  # the sum over all steps takes it as it stands
+    assert kinds(creep) == [0, 0]  # the sum over all steps takes it unchanged
     assert kinds(modulus) == [0, 1]
     monkeypatch.setattr("viscontact.time_integration.plan.MAX_HISTORY_BYTES", 0)
     assert kinds(creep) == [1, 0]

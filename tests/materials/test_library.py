@@ -31,7 +31,7 @@ POINTS = {"quantity": "creep_compliance", "what": "", "data": "shear", "toleranc
 
 @pytest.mark.parametrize(("name", "points"), ALL_POINTS)
 def test_a_material_keeps_to_what_its_source_prints_or_measured(name: str, points: Points) -> None:
-    # The tolerance stands beside the points, with its reason.
+    # The tolerance is given with the points, and its reason.
     law = shipped_material(name).law
     assert_allclose(points.of_law(law), points.values, rtol=points.tolerance)
 

@@ -1,4 +1,4 @@
-"""Every command and every line of Python that the documentation shows works as it stands."""
+"""Every command and every line of Python that the documentation shows works unchanged."""
 
 from __future__ import annotations
 

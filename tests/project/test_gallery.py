@@ -1,4 +1,4 @@
-"""The examples of the manual's gallery: each runs as it stands, draws, and checks its number."""
+"""The examples of the manual's gallery: each runs unchanged, draws, and checks its number."""
 
 from __future__ import annotations
 

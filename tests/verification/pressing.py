@@ -14,7 +14,7 @@ BALL = vc.Paraboloid(RADIUS, RADIUS)  # Hertz's sphere is a paraboloid
 
 @dataclass(frozen=True)
 class Shifted(vc.Indenter):
-    """An indenter whose axis stands beside the origin: no cell centre needs to lie on it."""
+    """An indenter whose axis is off the origin: no cell centre needs to lie on it."""
 
     shape: vc.Indenter
     shift_x: float

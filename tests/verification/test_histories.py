@@ -1,7 +1,7 @@
 """What holds for any law and any history of force or approach, drawn at random.
 
 Boltzmann's superposition where the contact is fixed; the clock, its unit and the units of force and
-length (Johnson 1985, ch. 3, and the time that stands beside a law's times only); and that a force
+length (Johnson 1985, ch. 3, and the time that occurs beside a law's times only); and that a force
 and the approach it causes are two records of one experiment. Each run is a few steps on a small
 mesh, on which all of this is exact but for the solver's tolerance.
 """

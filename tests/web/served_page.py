@@ -149,7 +149,7 @@ def write_case(page: Any, text: str) -> None:
 
 
 def until_checked(page: Any) -> None:
-    """Wait until the server has said what it thinks of the case as it stands."""
+    """Wait until the server has checked the present case."""
     page.wait_for_selector("#estimate[aria-busy=false]", state="attached")
 
 

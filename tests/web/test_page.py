@@ -458,6 +458,23 @@ def test_results_change_units_and_show_a_reference(page: Any, server: seen.Serve
     assert page.locator("#numbers th").all_inner_texts()[-1] != "change"
 
 
+def test_an_empty_place_announces_the_drawing_until_it_is_made(
+    browser: Any, server: seen.Server
+) -> None:
+    page, _ = seen.new_page(browser, server)
+    held: list[Any] = []
+    page.route("**/api/drawing", lambda route: held.append(route))
+    page.goto(server.address)
+    page.wait_for_selector(".drawing.chosen .pictures", state="attached")
+    empty = "getComputedStyle(document.querySelector('.drawing.chosen .pictures'), '::before')"
+    page.wait_for_function(f"() => {empty}.content === '\"Drawing…\"'")
+    for route in held:
+        route.continue_()
+    page.unroute("**/api/drawing")
+    page.wait_for_selector("#drawing-indenter img")
+    assert page.evaluate(f"{empty}.content") == "none"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 1440])
 def test_everything_fits_and_has_a_name(width: int, browser: Any, server: seen.Server) -> None:

@@ -34,7 +34,7 @@ from viscontact.runs.executors.local import LocalWorkers
 from viscontact.runs.recipes import refuse_import_by_a_worker
 from viscontact.units.numbers import whole
 
-_INSEPARABLE = 0.99  # correlation from which on two parameters are not told apart
+_INSEPARABLE = 0.99  # correlation from which on two parameters are not distinguished
 _AT_BOUND = 1e-3  # part of a range that counts as its bound
 _RUNS_PER_UNKNOWN = 40
 
@@ -216,7 +216,7 @@ def _notes(
         for m in range(n):
             if abs(correlation[n, m]) > _INSEPARABLE:
                 yield (
-                    f"{names[m]} and {names[n]} cannot be told apart (correlation "
+                    f"{names[m]} and {names[n]} cannot be distinguished (correlation "
                     f"{correlation[n, m]:+.4f}): fix one of them, or add a record with another "
                     "rate or a hold"
                 )

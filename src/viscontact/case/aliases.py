@@ -291,7 +291,7 @@ def _add(definition: dict[str, Any], aliases: list[Alias]) -> None:
         choice = [{"required": [name]} for name in names]
         if key in required:
             required.remove(key)
-            # The total length of a crowned roller stands beside that of its straight part.
+            # The total length of a crowned roller is given beside that of its straight part.
             rule: dict[str, Any] = {"anyOf" if len(names) > 2 else "oneOf": choice}
         else:
             rule = {"not": {"required": names}}

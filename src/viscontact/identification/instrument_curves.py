@@ -19,7 +19,7 @@ from viscontact.identification.force_curve import ForceCurve
 INSTRUMENT_FILES = (".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".h5", ".ibw")
 
 _NUMBERED = re.compile(r"(?P<file>.+)#(?P<number>\d+)")
-# The position that a sensor has measured comes before the one that the piezo was told.
+# The position that a sensor has measured comes before the one that was set at the piezo.
 _POSITIONS = ("height (measured)", "height (piezo)")
 
 

@@ -12,7 +12,7 @@ from viscontact.units.parsing import parse_any_quantity, parse_quantity, parse_u
 #: A condition: name of the scalar and its value in SI units.
 ReadCondition = tuple[str, float]
 
-#: Forms of sentences, as they are told in messages.
+#: Forms of sentences, as they are listed in messages.
 FORMS = (
     "move at 1 um/s until force reaches 10 nN",
     "retract at 2 um/s until contact is lost",

@@ -23,7 +23,7 @@ from viscontact.units.formatting import format_number, format_quantity
 #: Loads from this fraction of the largest one on count as the largest.
 LARGEST_LOAD_FRACTION = 0.999
 
-#: Errors of the grid below this are not told apart.
+#: Errors of the grid below this are not distinguished.
 LEAST_ERROR = 1e-4
 
 #: Ends of the body up to this multiple of the grid are drawn as well.
