@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import openpyxl
 import pytest
 
 import viscontact as vc
@@ -588,6 +589,20 @@ def test_show_prints_the_history_thinned_or_whole(
     assert capsys.readouterr().out == printed  # seven instants fit anyway
 
 
+def test_a_workbook_has_the_numbers_of_the_csv_file(finished: Path, tmp_path: Path) -> None:
+    table, book = tmp_path / "history.csv", tmp_path / "history.xlsx"
+    for file in (table, book):
+        assert main(["export", str(finished), "-o", str(file)]) == 0
+    sheet = openpyxl.load_workbook(book).active
+    assert sheet is not None
+    with table.open(encoding="utf-8", newline="") as lines:
+        texts = list(csv.reader(lines))
+    assert len(texts) > 2
+    for cells, row in zip(sheet.values, texts, strict=True):
+        for cell, text in zip(cells, row, strict=True):
+            assert text == (cell or "") if isinstance(cell, str | None) else float(text) == cell
+
+
 def test_export_holds_every_scalar_to_the_last_digit(finished: Path, tmp_path: Path) -> None:
     file = tmp_path / "history.csv"
     assert main(["export", str(finished), "-o", str(file)]) == 0
@@ -839,7 +854,7 @@ def test_result_is_not_overwritten_by_its_own_export(
 ) -> None:
     before = (finished / "result.nc").read_bytes()
     assert main(["export", str(finished), "-o", str(finished / "result.nc")]) == 2
-    assert "name a CSV file" in capsys.readouterr().err
+    assert "name a CSV or an XLSX file" in capsys.readouterr().err
     assert (finished / "result.nc").read_bytes() == before
 
 

@@ -179,10 +179,10 @@ def test_table_has_the_last_and_the_largest_values(sweep: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
-        (["sweep", "-o", "sweep.txt"], "name a netCDF or a CSV file"),
+        (["sweep", "-o", "sweep.txt"], "name a netCDF, CSV or XLSX file"),
         (["sweep", "-o", "no/sweep.nc"], "there is no directory no"),
         (["sweep/force=2N", "-o", "sweep.nc"], "no sweep there"),
-        (["sweep", "-o", "sweep.csv", "--fields"], "a CSV file has no fields"),
+        (["sweep", "-o", "sweep.csv", "--fields"], "a table has no fields"),
     ],
 )
 def test_collect_refuses(

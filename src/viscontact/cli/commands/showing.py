@@ -34,7 +34,9 @@ def export(
     directory: RunDirectory,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE.csv", help="CSV file; stdout by default."),
+        typer.Option(
+            "-o", "--output", metavar="FILE.csv", help="CSV or XLSX file; CSV on stdout by default."
+        ),
     ] = None,
     point: Annotated[
         list[str] | None,
@@ -45,14 +47,14 @@ def export(
         ),
     ] = None,
 ) -> None:
-    """Write the history of a run as CSV, in SI units."""
-    from viscontact.cli.results.history_table import write_csv
+    """Write the history of a run as CSV or XLSX, in SI units."""
+    from viscontact.cli.results.history_table import write_table
     from viscontact.cli.results.stored import opened
 
-    if output is not None and output.suffix == ".nc":
-        refuse(f"{output}: is the name of a result file; name a CSV file, e.g. -o history.csv")
+    if output is not None and output.suffix.lower() in (".nc", ".xls", ".ods"):
+        refuse(f"{output}: name a CSV or an XLSX file, e.g. -o history.csv or -o history.xlsx")
     with opened(directory) as ds:
-        write_csv(ds, output, point or ())
+        write_table(ds, output, point or ())
 
 
 def report(

@@ -34,8 +34,8 @@ def collect(
             "-o",
             "--output",
             metavar="FILE.nc",
-            help="netCDF file with the scalars of all runs over time, or CSV file with a row for "
-            "each run.",
+            help="netCDF file with the scalars of all runs over time, or CSV or XLSX file "
+            "with a row for each run.",
         ),
     ],
     fields: Annotated[

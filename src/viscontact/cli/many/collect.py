@@ -13,25 +13,26 @@ from viscontact.runs.sweep.collecting import write_joint_result
 from viscontact.runs.sweep.joint_layout import JointLayout, joint_layout
 from viscontact.runs.sweep.run_table import write_run_table
 from viscontact.runs.sweep.states import State
+from viscontact.tables.workbook import WORKBOOK, write_csv_or_workbook
 
 #: Suffixes of the formats.
-SUFFIXES = (".nc", ".csv")
+SUFFIXES = (".nc", ".csv", WORKBOOK)
 
 
 def collect_results(directory: Path, output: Path, *, fields: bool, quiet: bool) -> None:
     """Write the joint result of a sweep; exit code 1 if a run has no result."""
     if output.suffix not in SUFFIXES:
-        refuse(f"{output}: name a netCDF or a CSV file, e.g. -o {output.stem or 'sweep'}.nc")
+        refuse(f"{output}: name a netCDF, CSV or XLSX file, e.g. -o {output.stem or 'sweep'}.nc")
     if not output.absolute().parent.is_dir():
         refuse(f"{output}: there is no directory {output.parent}")
-    if fields and output.suffix == ".csv":
-        refuse("--fields: a CSV file has no fields; name a netCDF file, e.g. -o sweep.nc")
+    if fields and output.suffix != ".nc":
+        refuse("--fields: a table has no fields; name a netCDF file, e.g. -o sweep.nc")
     layout = _layout(directory, quiet=quiet)
     if fields and layout.fields is None:
         refuse(f"--fields: {_why_no_fields(layout)}")
     try:
         _write(layout, output, fields=fields, quiet=quiet)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         refuse(f"{output}: cannot be written: {error}")
     print(output)
     _report_missing(layout)
@@ -52,10 +53,10 @@ def _write(layout: JointLayout, output: Path, *, fields: bool, quiet: bool) -> N
         if output.suffix == ".nc":
             write_joint_result(layout, output, progress, fields=fields)
             return
+        text = io.StringIO()
+        write_run_table(layout, text, progress)
         with replacing(output) as file:
-            text = io.TextIOWrapper(file, encoding="utf-8", newline="")
-            write_run_table(layout, text, progress)
-            text.detach()
+            write_csv_or_workbook(file, text.getvalue(), output)
 
 
 def _why_no_fields(layout: JointLayout) -> str:

@@ -35,6 +35,7 @@ from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import SPEED, TIME, run_axis
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
 from viscontact.results.variables import AXES, SCALARS, Place, shown_in
+from viscontact.tables.workbook import write_csv_or_workbook
 from viscontact.units.formatting import (
     format_number,
     format_quantity,
@@ -90,8 +91,11 @@ def _shown(ds: xr.Dataset) -> list[str]:
     return [*friction, *(name for name in shown if name not in left_out)]
 
 
-def write_csv(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ()) -> None:
-    """Write all scalars in SI units, one row per instant or speed, and the pressure at points."""
+def write_table(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ()) -> None:
+    """Write all scalars in SI units, one row per instant or speed, and the pressure at points.
+
+    As CSV, or as a workbook where the name of the file ends in ``.xlsx``.
+    """
     written = io.StringIO()
     try:
         write_history(ds, written, [_point(text) for text in points])
@@ -101,9 +105,9 @@ def write_csv(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ()) -
         sys.stdout.write(written.getvalue())
         return
     try:
-        with output.open("w", encoding="utf-8", newline="") as file:
-            file.write(written.getvalue())
-    except OSError as error:
+        with output.open("wb") as file:
+            write_csv_or_workbook(file, written.getvalue(), output)
+    except (OSError, ValueError) as error:
         refuse(f"{output}: cannot be written: {error}")
 
 
