@@ -84,9 +84,12 @@ def test_a_value_without_a_limit_is_never_the_best() -> None:
     def singular(v: Mapping[str, float]) -> dict[str, Value]:
         return {"force": Value(2 - v["load.x"], math.inf if v["load.x"] > 0.4 else 0.0)}
 
-    _, best = searched(singular, {"load.x": ("0", "1")})
+    search, best = searched(singular, {"load.x": ("0", "1")})
     assert best is not None
     assert 0.38 < float(best.settings["load.x"]) <= 0.4
+    (note,) = [each for each in notes_on(best, search) if "without a limit" in each]
+    beside = float(note.partition("load.x=")[2].split()[0])
+    assert 0.4 < beside < float(best.settings["load.x"]) + 0.02
 
 
 def test_trials_that_fail_do_not_end_the_search() -> None:
@@ -150,6 +153,24 @@ def test_an_infeasible_design_names_the_constraint_and_the_closest_trial() -> No
     why = why_infeasible(search.evaluation, search)
     assert why.startswith("no feasible design in ")
     assert "contact_length <= 1 m is not kept; the closest is 1.5" in why
+
+
+@pytest.mark.parametrize("bound", [0.41, 0.6])
+def test_a_feasible_corner_is_found_in_a_third_of_the_runs(bound: float) -> None:
+    def long(v: Mapping[str, float]) -> dict[str, Value]:
+        x, y = v["load.x"], v["load.y"]
+        length = Value(0.4 + 0.8 * x + y, 0.0)
+        return exact(3 - x - y) | {f"contact_length <= {1000 * bound:g} mm": length}
+
+    # Feasible is a triangle at x = y = 0: of 0.006 % of the plane in the first case, where the
+    # middle of the plane exceeds the bound by more than 100 %, and of 2.5 % in the second.
+    limits = [f"contact_length<={bound} m"]
+    search, best = searched(long, TWO, constraints=limits, budget=20, is_coarse=True)
+    assert best is not None
+    assert best.level == "case"
+    assert search.evaluation.runs <= 20
+    # The optimum is that of a straight line: all of the length goes to x.
+    assert value_of(search, best) == pytest.approx(3 - (bound - 0.4) / 0.8, rel=0.03)
 
 
 @pytest.mark.parametrize("budget", [6, 9, 20])

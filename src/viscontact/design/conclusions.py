@@ -13,8 +13,9 @@ from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import format_quantity
 
-#: Part of a range from its end within which an optimum lies at the bound.
-AT_BOUND = 0.01
+#: Part of a range from its end within which an optimum lies at the bound, and from a trial without
+#: a limit within which it lies beside it.
+AT_BOUND, BESIDE = 0.01, 0.02
 
 
 class InfeasibleError(ValueError):
@@ -58,6 +59,7 @@ def notes_on(best: Trial, search: Search) -> Iterator[str]:
                 f"{goal.scalar} {verb} up to there, and a wider range may give a better one; if it "
                 f"{verb} for ever, there is no optimum"
             )
+    yield from _beside_no_limit(best, search)
     for limit in evaluation.constraints:
         yield from _undecided(best, limit)
     if search.is_cut_short:
@@ -80,6 +82,23 @@ def notes_on_trade_off(searches: Sequence[tuple[Search, Trial | None]]) -> Itera
         note for search, best in searches if best is not None for note in notes_on(best, search)
     )
     yield from dict.fromkeys(notes)
+
+
+def _beside_no_limit(best: Trial, search: Search) -> Iterator[str]:
+    """Yield that a trial next to the best one has no limit, as at a sharp end."""
+
+    def distance(trial: Trial) -> float:
+        return math.dist(search.point(trial), search.point(best))
+
+    for goal in search.objective.goals:
+        beside = [each for each in search.trials(best.level) if each.worst(goal).depends_on_mesh]
+        nearest = min(beside, key=distance, default=None)
+        if nearest is not None and distance(nearest) <= BESIDE:
+            where = ", ".join(f"{key}={value}" for key, value in nearest.settings.items())
+            yield (
+                f"the optimum lies beside values without a limit: at {where} the contact reaches "
+                f"an edge of the body, where the {goal.scalar} grows as the cells get smaller"
+            )
 
 
 def _undecided(best: Trial, limit: Constraint) -> Iterator[str]:

@@ -120,8 +120,9 @@ def design(
     -----
     The ranges are searched on coarse cells by the algorithm DIRECT (Jones, Perttunen and Stuckman
     1993; locally biased: Gablonsky and Kelley 2001), which needs no derivatives and no random
-    numbers; constraints are an exact penalty. The best trials are computed again on the cells of
-    the case, and the search goes on around the best one by the method of Nelder and Mead (1965).
+    numbers; constraints are an exact penalty. If half of the runs have given no feasible trial, the
+    search goes on around the one that is closest. The best trials are computed again on the cells
+    of the case, and the search goes on around the best one by the method of Nelder and Mead (1965).
     Each search ends when its last trials have gained less than the error of the scalar. A global
     optimum is not guaranteed. A peak pressure without a limit, as where a contact reaches the sharp
     end of a roller, is never the best one. A trade-off is searched for the best value of each

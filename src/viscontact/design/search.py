@@ -16,18 +16,14 @@ from scipy.optimize import direct, minimize
 from viscontact.design.evaluation import BudgetSpentError, Evaluation
 from viscontact.design.objectives import Objective
 from viscontact.design.parameters import Choice, Space
+from viscontact.design.penalised_cost import PenalisedCost
 from viscontact.design.trials import Level, Trial
 
 Point = tuple[float, ...]
 
-#: Cost of a relative excess over a bound, in parts of the objective: an exact penalty, as long as
-#: the objective changes less than this for a given relative change of the bound.
-PENALTY = 10.0
-#: Most that the reach of a contact adds to the cost of a value without a limit. A contact that
-#: reaches the sharp end of a body has a smaller cost the less it reaches.
-MOST_REACH = 5.0
-#: Times the patience of a search that has found no feasible trial.
-NOTHING_FEASIBLE = 3
+#: Times the patience of a search that has found no feasible trial, and the part of the runs, as its
+#: inverse, after which the search of the whole space ends without one.
+NOTHING_FEASIBLE, UNFEASIBLE_PART = 3, 2
 #: Trials in which a search must gain something, for each parameter and for the search itself: of
 #: the whole space, and of the surroundings of the best trial.
 PATIENCE, LOCAL_PATIENCE = 6, 3
@@ -37,10 +33,12 @@ LEAST_GAIN = 1e-3
 CANDIDATES = 3
 #: Part of all runs that is kept for them at most, as its inverse.
 RESERVED = 3
-#: Edge of the first simplex of the local search, in parts of the ranges.
-SIMPLEX = 0.04
-#: Parts of a range from its end in which the end itself is tried.
-NEAR_END = 0.1
+#: Edge of the first simplex of the local search, in parts of the ranges: around the best trial, and
+#: around the one that is closest to a feasible one.
+SIMPLEX, WIDE_SIMPLEX = 0.04, 0.1
+#: Parts of a range from its end in which the end itself is tried: for the best trial, and, where
+#: none is feasible, for the one that is closest to being so.
+NEAR_END, NEAR_UNFEASIBLE_END = 0.1, 0.25
 
 
 #: Cost of a point, and points that are likely to follow, a given number of them.
@@ -67,6 +65,9 @@ class Search:
     held: int = 0  # runs that are left to other searches
     is_cut_short: bool = False  # the runs were used up before the gain was within the error
 
+    def __post_init__(self) -> None:
+        self.cost = PenalisedCost(self.objective, self.evaluation.constraints)
+
     def run(self) -> Trial | None:
         """Return the best feasible trial on the cells of the case; None without one."""
         evaluation = self.evaluation
@@ -75,7 +76,10 @@ class Search:
             # The best trials are to be computed on the cells of the case in any event.
             most = (evaluation.budget - evaluation.runs - self.held) // RESERVED
             evaluation.reserved += min(CANDIDATES * len(evaluation.scenarios), most)
-        self._within_budget(partial(self._explore, evaluation.levels[0]))
+        first = evaluation.levels[0]
+        self._within_budget(partial(self._explore, first))
+        if self.best(first) is None:
+            self._within_budget(partial(self._approach, first))
         evaluation.reserved = self.held
         self._within_budget(self._certify)
         self._within_budget(self._refine)
@@ -93,14 +97,20 @@ class Search:
         found = self._ranked(level)
         return found[0] if found else None
 
+    def closest(self, level: Level) -> Trial | None:
+        """Trial of a level with the least cost, feasible or not; None if all of them failed."""
+        trials = [each for each in self.trials(level) if not each.failure]
+        return min(trials, key=self.cost, default=None)
+
+    def trials(self, level: Level) -> list[Trial]:
+        """Trials of a level, in their order."""
+        trials = enumerate(self.evaluation.trials)
+        return [each for number, each in trials if number in self.points and each.level == level]
+
     def _ranked(self, level: Level) -> list[Trial]:
         """Feasible trials of a level, the best first."""
         goals, limits = self.evaluation.goals, self.evaluation.constraints
-        found = [
-            each
-            for number, each in enumerate(self.evaluation.trials)
-            if number in self.points and each.level == level and each.is_feasible(goals, limits)
-        ]
+        found = [each for each in self.trials(level) if each.is_feasible(goals, limits)]
         return sorted(found, key=lambda each: self.objective.cost(each).value)
 
     def _explore(self, level: Level) -> None:
@@ -115,12 +125,25 @@ class Search:
         def minimise(cost: _Cost) -> None:
             direct(cost, bounds, maxfun=most, vol_tol=0, len_tol=1e-4)
 
-        _Watched(self, level, PATIENCE * (1 + len(self.space.parameters)), minimise).run()
+        left = (self.evaluation.budget - self.evaluation.reserved) // len(self.evaluation.scenarios)
+        patience = PATIENCE * (1 + len(self.space.parameters))
+        _Watched(self, level, patience, minimise, left // UNFEASIBLE_PART).run()
         self._try_ends(level)
 
+    def _approach(self, level: Level) -> None:
+        """Search around the trial that is closest to a feasible one, where none is feasible."""
+        closest = self.closest(level)
+        if closest is not None and self.space.ranges:
+            self._around(closest, level, WIDE_SIMPLEX)
+
     def _try_ends(self, level: Level) -> None:
-        """Try the end of a range that the best trial is close to, which DIRECT never reaches."""
-        best = self.best(level)
+        """Try the end of a range that the best trial is close to, which DIRECT never reaches.
+
+        Without a feasible trial it is the one that is closest to being so.
+        """
+        best, near_end = self.best(level), NEAR_END
+        if best is None:
+            best, near_end = self.closest(level), NEAR_UNFEASIBLE_END
         if best is None:
             return
         point = list(self.point(best))
@@ -128,13 +151,14 @@ class Search:
         near = [
             (n, end)
             for n, end in zip(self.space.ranges, ends, strict=True)
-            if abs(point[n] - end) < NEAR_END
+            if abs(point[n] - end) < near_end
         ]
         tried = [(*point[:n], float(end), *point[n + 1 :]) for n, end in near]
         if len(near) > 1:
             for n, end in near:
                 point[n] = float(end)
-            tried.append(tuple(point))
+            # A corner comes first: it may be the only feasible one of them.
+            tried.insert(0, tuple(point))
         self._try_all(tried, level)
 
     def _certify(self) -> None:
@@ -143,6 +167,9 @@ class Search:
             return
         certified: list[Trial] = []
         ranked = self._ranked("coarse")
+        if not ranked and (closest := self.closest("coarse")) is not None:
+            # It may be feasible on smaller cells.
+            self._try(self.point(closest), "case", _first_of([]))
         for rank, coarse in enumerate(ranked, 1):
             value = self.objective.cost(coarse)
             best = self.best("case")
@@ -158,13 +185,18 @@ class Search:
 
     def _refine(self) -> None:
         """Search around the best certified trial on the cells of the case, by Nelder and Mead."""
-        best, ranges = self.best("case"), self.space.ranges
-        if best is None or not ranges:
+        best = self.best("case")
+        if best is None or not self.space.ranges:
             return
-        start = np.array(self.point(best))
+        self._around(best, "case", SIMPLEX)
+        self._try_ends("case")
+
+    def _around(self, trial: Trial, level: Level, edge: float) -> None:
+        """Search around a trial by Nelder and Mead, from a simplex with some edge."""
+        start, ranges = np.array(self.point(trial)), self.space.ranges
         simplex = np.tile(start[list(ranges)], (len(ranges) + 1, 1))
         for row in range(len(ranges)):
-            simplex[row + 1, row] += SIMPLEX if simplex[0, row] < 0.5 else -SIMPLEX
+            simplex[row + 1, row] += edge if simplex[0, row] < 0.5 else -edge
         bounds = [(0, 1)] * len(ranges)
         options = {"initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.0}
 
@@ -176,8 +208,7 @@ class Search:
 
             minimize(of_ranges, simplex[0], method="Nelder-Mead", bounds=bounds, options=options)
 
-        _Watched(self, "case", LOCAL_PATIENCE * (1 + len(ranges)), minimise).run()
-        self._try_ends("case")
+        _Watched(self, level, LOCAL_PATIENCE * (1 + len(ranges)), minimise).run()
 
     def point(self, trial: Trial) -> Point:
         """Coordinates of a trial."""
@@ -203,12 +234,16 @@ class _Watched:
     """Cost of points in parts of the objective; it ends a search that gains less than the error."""
 
     def __init__(
-        self, search: Search, level: Level, patience: int, minimise: Callable[[_Cost], None]
+        self,
+        search: Search,
+        level: Level,
+        patience: int,
+        minimise: Callable[[_Cost], None],
+        most_unfeasible: float = math.inf,
     ) -> None:
         self._search, self._level, self._patience = search, level, patience
-        self._minimise = minimise
+        self._minimise, self._most_unfeasible = minimise, most_unfeasible
         self._known: dict[Point, float] = {}  # costs so far
-        self._scale = self._reach = 0.0  # sizes of the first objective, and of the first reach [m]
         self._mark = math.inf  # best cost when something was gained last
         self._tried, self._last = 0, 0
 
@@ -220,7 +255,7 @@ class _Watched:
     def __call__(self, given: Any) -> float:
         before, point = len(self._search.evaluation.trials), tuple(map(float, np.ravel(given)))
         trial = self._search._try(point, self._level, self._foreseen)
-        cost = self._known[point] = self._cost(trial)
+        cost = self._known[point] = self._search.cost(trial)
         self._watch(trial, cost, is_new=len(self._search.evaluation.trials) > before)
         return cost
 
@@ -247,26 +282,14 @@ class _Watched:
             self._minimise(repeated)
         return list(found)
 
-    def _cost(self, trial: Trial) -> float:
-        evaluation = self._search.evaluation
-        value = self._search.objective.cost(trial)
-        if not math.isfinite(value.value):
-            return 2 * PENALTY
-        self._scale = self._scale or abs(value.value) or 1.0
-        self._reach = self._reach or trial.reach() or 1.0
-        if value.depends_on_mesh:
-            return PENALTY + min(trial.reach() / self._reach, MOST_REACH)
-        cost = value.value / self._scale
-        return cost + PENALTY * min(trial.violation(evaluation.constraints), 1.0)
-
     def _watch(self, trial: Trial, cost: float, *, is_new: bool) -> None:
         self._tried += is_new
-        error = self._search.objective.cost(trial).error
-        least = max(LEAST_GAIN, error / self._scale if math.isfinite(error) else 0.0)
-        if cost < self._mark - least:
+        if cost < self._mark - max(LEAST_GAIN, self._search.cost.error(trial)):
             self._mark, self._last = cost, self._tried
         patience = self._patience
         if self._search.best(self._level) is None:
+            if self._tried >= self._most_unfeasible and self._search.closest(self._level):
+                raise _NothingGainedError
             patience *= NOTHING_FEASIBLE
         if self._tried - self._last >= patience:
             raise _NothingGainedError
