@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 
 import viscontact as vc
+from viscontact.design.parameters import space_of
+from viscontact.design.scenarios import scenarios_of
 
 BALL = """
 indenter: {shape: sphere, radius: 5 mm}
@@ -67,7 +69,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no list": ({"over": {"indenter.radius": "5 mm"}}, "must be a list of values"),
     "scatter of no sense": (
         {"scatter": {"load.force": "1 N"}},
-        "scatter: load.force: must be a tu",
+        "scatter: load.force: must be two bounds, or a number with its tolerance",
+    ),
+    "scatter of one bound": (
+        {"scatter": {"load.force": ("1 N",)}},
+        "scatter: load.force: must be a tuple of two bounds",
     ),
     "reversed scatter": (
         {"scatter": {"material.poisson_ratio": ("0.4", "0.3")}},
@@ -112,6 +118,28 @@ def test_an_argument_that_does_not_fit_is_refused(
         vc.design(ball, arguments.pop("change"), **arguments)
     assert message in str(refusal.value)
     assert "--set" not in str(refusal.value)
+
+
+def test_a_tolerance_is_scatter_and_of_a_parameter_a_deviation() -> None:
+    space = space_of(FORCE)
+    own = {"load.force": "0.05 N", "indenter.radius": "5 mm"}
+    for given, same in (
+        ({"load.force": "± 1 mN"}, {"load.force": ("-1 mN", "1 mN")}),
+        ({"load.force": "0.05 N ± 2 %"}, {"load.force": ("-0.001 N", "0.001 N")}),
+        ({"indenter.radius": "5 mm ± 0.02 mm"}, {"indenter.radius": ("4.98 mm", "5.02 mm")}),
+    ):
+        assert scenarios_of(None, given, space, own) == scenarios_of(None, same, space, own)
+
+
+def test_a_tolerance_of_the_case_that_does_not_scatter_is_noted(ball: Path) -> None:
+    ball.write_text(BALL.replace("radius: 5 mm", "radius: 5 mm ± 0.1 mm"), "utf-8")
+    known = {"minimise": "approach", "runs": 4}
+    (note,) = [n for n in vc.design(ball, FORCE, **known).notes if "tolerances" in n]
+    assert "as 'indenter.radius=5 mm ± 0.1 mm'" in note
+    scatter = {"indenter.radius": "5 mm ± 0.1 mm"}
+    found = vc.design(ball, FORCE, scatter=scatter, **known | {"runs": 12})
+    assert found.table.sizes["scenario"] == 3
+    assert not any("tolerances" in note for note in found.notes)
 
 
 def test_steady_motion_is_refused_by_name(tmp_path: Path) -> None:

@@ -62,12 +62,25 @@ def test_numbers_of_samples_are_rounded_up_with_a_note() -> None:
     assert samples_of(TWO, 0, 0) == samples_of({}, 64, 0) == (None, [])
 
 
+@pytest.mark.parametrize(
+    ("given", "bounds"),
+    [
+        ("12 N ± 0.02 N", ("11.98 N", "12.02 N")),
+        (("12 ± 0.02 N", "normal"), ("11.98 N", "12.02 N", "normal")),
+    ],
+)
+def test_a_tolerance_scatters_between_its_bounds(given: Any, bounds: Any) -> None:
+    assert samples_of({"load.force": given}, 8, 0) == samples_of({"load.force": bounds}, 8, 0)
+
+
 REFUSED: dict[str, tuple[Any, str]] = {
     "reversed": (("3 N", "1 N"), "scatter: load.force: the lower bound comes first"),
     "equal": (("3 N", "3000 mN"), "the lower bound comes first, and differs"),
     "no number": (("pmma", "epdm"), "'pmma' is not a number"),
     "units": (("3 N", "4 mm"), "the units of '3 N' and '4 mm' do not fit"),
-    "one bound": (("3 N",), "must be two bounds, as ('9 kN', '11 kN')"),
+    "one bound": (("3 N",), "must be two bounds, or a number with its tolerance, as '12 mm ±"),
+    "three bounds": (("3 N", "4 N", "5 N"), "must be two bounds, as ('9 kN', '11 kN'), or a"),
+    "another tolerance": ("3 N ± 1 mm", "the unit of 1 mm does not fit 3 N"),
     "word": (("3 N", "4 N", "gauss"), "'log' or 'normal'"),
     "zero": (("0 N", "4 N", "log"), "a logarithmic range needs bounds above zero"),
 }

@@ -180,3 +180,27 @@ def test_the_scatter_of_a_hertzian_approach_follows_its_closed_form(tmp_path: Pa
     factors = (0.8 + 0.4 * random[0]) ** (2 / 3) * (0.9 * (11 / 9) ** random[1]) ** (-2 / 3)
     wanted = np.percentile(factors, [5, 50, 95])
     assert table["percentile"].values / float(table["value"]) == pytest.approx(wanted, abs=0.015)
+
+
+def test_tolerances_of_the_case_scatter(tmp_path: Path) -> None:
+    text = HERTZ.replace("48, 48", "24, 24") + "output: {errors: false}\n"
+    text = text.replace("force: 1 N", "force: 1 N ± 0.2 N").replace("0.4}", "0.4 ± 0.1}")
+    found = vc.sensitivity(
+        written(tmp_path, text),
+        "approach",
+        change=[],
+        scatter={"material.poisson_ratio": "0.4 ± 0.05"},
+        samples=4,
+        workers=1,
+    )
+    assert sorted(found.table.scattered.values) == ["load.force", "material.poisson_ratio"]
+    assert "load.force: scatters by its tolerance in the case, 1 N ± 0.2 N" in found.notes
+    # Hertz: the approach is proportional to (F (1 - nu^2))^(2/3).
+    low, high = (
+        (force * (1 - ratio**2) / (1 - 0.4**2)) ** (2 / 3)
+        for force, ratio in ((0.8, 0.45), (1.2, 0.35))
+    )
+    table = found.table.sel(output="approach")
+    nominal = float(table["value"])
+    assert low * nominal < float(table["percentile"][0]) < 0.97 * nominal
+    assert 1.03 * nominal < float(table["percentile"][-1]) < high * nominal

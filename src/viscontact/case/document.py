@@ -13,6 +13,7 @@ from typing import Any
 from viscontact.case import toml_source, yaml_source
 from viscontact.case.aliases import Resolution, resolved, value_at
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
+from viscontact.case.tolerances import nominal
 
 # Largest case file [bytes]; long histories belong in a CSV file. The parser needs ten seconds for
 # a megabyte.
@@ -25,7 +26,8 @@ class Document:
 
     The `data` contain the values given by ``--set``, which are not in the `source` text; a
     `confined` case may name files in its folder only. Both have canonical keys; `aliases` are
-    those that were typed in their place, `misused` those that cannot be resolved.
+    those that were typed in their place, `misused` those that cannot be resolved, with tolerances
+    that cannot be read. Numbers are nominal; `tolerances` are those that were written with one.
     """
 
     path: Path
@@ -37,6 +39,7 @@ class Document:
     aliases: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
     of_aliases: Mapping[KeyPath, Any] = field(default_factory=dict)  # values, as typed
     misused: tuple[tuple[KeyPath, str], ...] = ()
+    tolerances: Mapping[KeyPath, str] = field(default_factory=dict)  # texts, under keys as typed
 
     @cached_property
     def text(self) -> str:
@@ -52,6 +55,14 @@ class Document:
         for canonical, typed in self.aliases.items():
             del value_at(data, canonical[:-1])[canonical[-1]]
             value_at(data, typed[:-1])[typed[-1]] = self.of_aliases[typed]
+        return data
+
+    @property
+    def data_with_tolerances(self) -> dict[str, Any]:
+        """The data as they were typed, with the tolerances."""
+        data = self.data_as_typed
+        for path, text in self.tolerances.items():
+            value_at(data, path[:-1])[path[-1]] = text
         return data
 
     def place(self, key: KeyPath) -> str:
@@ -134,8 +145,17 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
             f"got {_kind(data)}; `viscontact example` shows complete ones"
         )
     written = yaml_source.write(data) if is_toml else text
-    document = Document(path, written, data, lines, confined=confined)
-    return _with_canonical_keys(document, resolved(data))
+    plain = nominal(data)
+    document = Document(
+        path,
+        written,
+        plain.data,
+        lines,
+        confined=confined,
+        misused=plain.problems,
+        tolerances=plain.tolerances,
+    )
+    return _with_canonical_keys(document, resolved(plain.data))
 
 
 def _with_canonical_keys(document: Document, found: Resolution) -> Document:
@@ -154,7 +174,7 @@ def _with_canonical_keys(document: Document, found: Resolution) -> Document:
         lines=lines,
         aliases=found.typed,
         of_aliases=found.values,
-        misused=tuple(found.problems),
+        misused=(*document.misused, *found.problems),
     )
 
 

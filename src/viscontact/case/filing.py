@@ -25,7 +25,7 @@ def case_attributes(case: Case) -> Mapping[str, Any]:
     return {
         **{name: json.dumps(value) for name, value in sometimes.items() if value},
         "input_files": json.dumps(_input_files(case)),
-        "case_as_typed": json.dumps(case.document.data_as_typed, default=str),
+        "case_as_typed": json.dumps(case.document.data_with_tolerances, default=str),
     }
 
 

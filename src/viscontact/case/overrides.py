@@ -12,6 +12,7 @@ from viscontact.case import yaml_source
 from viscontact.case.aliases import Resolution, canonical_path, resolved, value_at
 from viscontact.case.document import Document
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
+from viscontact.case.tolerances import nominal
 
 _STEP = re.compile(r"\.?([^.\[\]=]+)|\[(\d+)\]")
 
@@ -29,7 +30,8 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         canonical = canonical_path(data, path)
         if canonical and canonical not in values and value_at(data, canonical) is not None:
             del value_at(data, canonical[:-1])[canonical[-1]]
-    found = resolved(data)
+    plain = nominal(data)
+    found = resolved(plain.data)
     # A setting of a key, or of its section, replaces the alias in the file.
     kept = [key for key in document.aliases if not any(key[: len(path)] == path for path in values)]
     aliases = {key: document.aliases[key] for key in kept}
@@ -39,8 +41,23 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         overrides=_canonical(document, found, values),
         aliases={**aliases, **found.typed},
         of_aliases={**document.of_aliases, **found.values},
-        misused=(*document.misused, *found.problems),
+        misused=(*document.misused, *plain.problems, *found.problems),
+        tolerances={**_kept(document, data, values), **plain.tolerances},
     )
+
+
+def _kept(document: Document, data: Any, values: Iterable[KeyPath]) -> dict[KeyPath, str]:
+    """Tolerances of the file whose keys, as typed or canonical, no setting replaces."""
+    typed = {alias: key for key, alias in document.aliases.items()}
+    replaced = {*values, *(canonical_path(data, path) for path in values)}
+    return {
+        path: text
+        for path, text in document.tolerances.items()
+        if not any(
+            path[:length] in replaced or typed.get(path, ())[:length] in replaced
+            for length in range(1, len(path) + 1)
+        )
+    }
 
 
 def key_path(name: str) -> KeyPath:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from os import PathLike
 from pathlib import Path
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.case import Case, CaseError, read_case
+from viscontact.case.errors import dotted
 from viscontact.design.conclusions import (
     InfeasibleError,
     notes_on,
@@ -51,7 +52,7 @@ def design(
     maximise: str | Sequence[str] | None = None,
     at: Literal["worst", "end"] | float = "worst",
     over: Mapping[str, Sequence[Any]] | None = None,
-    scatter: Mapping[str, tuple[Any, Any]] | None = None,
+    scatter: Mapping[str, tuple[Any, Any] | str] | None = None,
     constraints: Sequence[str] = (),
     settings: Mapping[str, Any] | None = None,
     runs: int | None = None,
@@ -82,7 +83,8 @@ def design(
     scatter : mapping, optional
         Scatter of at most three keys, by two bounds: values of a key, as
         ``{"material.poisson_ratio": ("0.36", "0.40")}``, or, for a key of `change`, deviations
-        from each value that is tried, as ``{"indenter.crown_radius": ("-2 mm", "2 mm")}``. Each
+        from each value that is tried, as ``{"indenter.crown_radius": ("-2 mm", "2 mm")}``. A number
+        with its tolerance is accepted, too, as ``{"indenter.radius": "12 mm ± 0.02 mm"}``. Each
         scenario is computed without scatter and at all corners of the ranges.
     constraints : sequence of str, optional
         Bounds on the magnitudes of scalars at all instants of all scenarios, as
@@ -185,7 +187,7 @@ def design(
             progress or silent,
             history.recorded if history else {},
         )
-        found = _searched(evaluation, space, values)
+        found = _searched(evaluation, space, values, _unused_tolerances(own, scatter))
         if directory is not None:
             write_result(Path(directory), found)
         return found
@@ -198,8 +200,10 @@ def _default_runs(goals: int) -> int:
     return RUNS * (goals + len(compromises(goals)))
 
 
-def _searched(evaluation: Evaluation, space: Space, own: Mapping[str, str]) -> DesignResult:
-    """Search, and describe the best trial; ValueError if none is feasible."""
+def _searched(
+    evaluation: Evaluation, space: Space, own: Mapping[str, str], known: Iterable[str]
+) -> DesignResult:
+    """Search, and describe the best trial, with notes `known` before; ValueError if none is."""
     goals, limits = evaluation.goals, evaluation.constraints
     try:
         evaluation.evaluate({}, "case")
@@ -218,7 +222,7 @@ def _searched(evaluation: Evaluation, space: Space, own: Mapping[str, str]) -> D
     names = [each.name or "as in the case" for each in evaluation.scenarios]
     table = table_of(evaluation.trials, space.keys, own, names, goals, limits)
     said = notes_on(best, search) if len(goals) == 1 else notes_on_trade_off(searches)
-    notes, number = tuple(said), evaluation.trials.index(best)
+    notes, number = (*known, *said), evaluation.trials.index(best)
     about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
     about["sense"] = " ".join("least" if goal.least else "largest" for goal in goals)
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
@@ -233,6 +237,16 @@ def _searched(evaluation: Evaluation, space: Space, own: Mapping[str, str]) -> D
         number,
         tuple(evaluation.scenarios),
     )
+
+
+def _unused_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> list[str]:
+    """Note on tolerances in the case that are not among the scatter."""
+    given = scatter or {}
+    found = {dotted(path): text for path, text in case.document.tolerances.items()}
+    left = [f"'{key}={text}'" for key, text in found.items() if key not in given]
+    if not left:
+        return []
+    return [f"tolerances of the case count in a design only as scatter, as {left[0]}"]
 
 
 def _refuse_repeated(*groups: Sequence[str]) -> None:

@@ -9,8 +9,9 @@ from typing import Any
 
 from viscontact.design.parameters import Choice, Space
 from viscontact.runs.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
-from viscontact.runs.sweep.sampling import Range, bounded
+from viscontact.runs.sweep.sampling import Range, range_of
 from viscontact.units.parsing import parse_any_quantity
+from viscontact.units.tolerances import read_toleranced
 
 #: Most keys that scatter: each trial takes a run for all corners of their ranges.
 MOST_SCATTERED = 3
@@ -101,13 +102,8 @@ def _scattered(
     choices = {each.key for each in space.parameters if isinstance(each, Choice)}
     found = []
     for key, bounds in given.items():
-        if not isinstance(bounds, tuple) or len(bounds) != 2:
-            raise ValueError(
-                f"scatter: {key}: must be a tuple of two bounds, as ('0.36', '0.40'), got "
-                f"{bounds!r}"
-            )
         try:
-            found.append(bounded(key, *map(str, bounds)))
+            found.append(range_of(key, _bounds(bounds, is_changed=key in space.keys)))
         except ValueError as error:
             raise ValueError(f"scatter: {key}: {error}") from None
         if key in choices:
@@ -115,6 +111,19 @@ def _scattered(
         if key in space.keys:
             _require_deviations(found[-1], own)
     return found
+
+
+def _bounds(given: Any, *, is_changed: bool) -> tuple[str, ...]:
+    """Texts of both bounds, or of a number with its tolerance, which of a parameter is all."""
+    if isinstance(given, str):
+        toleranced = read_toleranced(given) if is_changed else None
+        return (f"± {toleranced.deviation}" if toleranced else given,)
+    if not isinstance(given, tuple) or len(given) != 2:
+        raise ValueError(
+            "must be a tuple of two bounds, as ('0.36', '0.40'), or a number with its tolerance, "
+            f"as '0.38 ± 0.02', got {given!r}"
+        )
+    return tuple(map(str, given))
 
 
 def _require_deviations(found: Range, own: Mapping[str, str]) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm, qmc
 
-from viscontact.runs.sweep.sampling import Range, bounded
+from viscontact.runs.sweep.sampling import Range, range_of
 from viscontact.sensitivity.inputs import NO_INPUTS
 from viscontact.units.numbers import whole
 
@@ -114,18 +114,23 @@ def samples_of(
 
 
 def _scattered(key: str, given: Any) -> Scattered:
-    bounds = [str(each) for each in given] if isinstance(given, tuple | list) else []
-    if len(bounds) not in (2, 3) or bounds[2:] not in ([], ["log"], ["normal"]):
+    texts = [given] if isinstance(given, str) else given if isinstance(given, tuple | list) else []
+    texts = [str(each) for each in texts]
+    shape: Shape = "uniform"
+    if len(texts) > 1 and texts[-1] in ("log", "normal"):
+        shape = "log" if texts[-1] == "log" else "normal"
+        texts.pop()
+    if len(texts) not in (1, 2):
         raise ValueError(
-            f"scatter: {key}: must be two bounds, as ('9 kN', '11 kN'), and 'log' or 'normal' for "
-            f"another distribution than a uniform one, got {given!r}"
+            f"scatter: {key}: must be two bounds, as ('9 kN', '11 kN'), or a number with its "
+            "tolerance, as '10 kN ± 1 kN', and 'log' or 'normal' for another distribution than a "
+            f"uniform one, got {given!r}"
         )
     if key.partition(".")[0] in NO_INPUTS:
         raise ValueError(
             f"scatter: {key}: cells, steps and output of a case are no inputs of the contact"
         )
-    shape: Shape = "uniform" if not bounds[2:] else "log" if bounds[2] == "log" else "normal"
     try:
-        return Scattered(bounded(key, *bounds[:2], logarithmic=shape == "log"), shape)
+        return Scattered(range_of(key, texts, logarithmic=shape == "log"), shape)
     except ValueError as error:
         raise ValueError(f"scatter: {key}: {error}") from None

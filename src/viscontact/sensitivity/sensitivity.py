@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.case import Case
+from viscontact.case.errors import dotted
 from viscontact.results.netcdf import open_results
 from viscontact.runs.many import simulate_many
 from viscontact.runs.recipes import refuse_import_by_a_worker
@@ -67,8 +68,10 @@ def sensitivity(
         empty list for no derivatives.
     scatter : mapping, optional
         Inputs that scatter, by dotted key: two bounds of a uniform distribution, as
-        ``{"material.poisson_ratio": ("0.36", "0.40")}``; with ``"log"``, the logarithm is uniform;
-        with ``"normal"``, the distribution is normal and 95 % of it are between the bounds.
+        ``{"material.poisson_ratio": ("0.36", "0.40")}``, or a number with its tolerance, as
+        ``{"indenter.radius": "12 mm ± 0.02 mm"}``; with ``"log"``, the logarithm is uniform; with
+        ``"normal"``, the distribution is normal and 95 % of it are between the bounds. Numbers that
+        have a tolerance in the case scatter as well.
     samples : int, optional
         Number N of samples, rounded up to a power of two; with d inputs that scatter they take
         N (d + 2) runs. With 0 there are none.
@@ -148,12 +151,13 @@ def sensitivity(
         )
     place = None if directory is None else Path(directory)
     inputs = _inputs(own, change)
-    sampled, rounded = samples_of(scatter or {}, samples, seed)
+    wanted, toleranced = _with_tolerances(own, scatter)
+    sampled, rounded = samples_of(wanted, samples, seed)
     _refuse_repeated(fixed, sampled)
     plan, notes = planned(
         path, own, fixed, inputs, length, place, sampled, chosen=change is not None
     )
-    notes = [*rounded, *notes]
+    notes = [*(toleranced if sampled else ()), *rounded, *notes]
     return _computed(plan, outputs, at, notes, place, workers, progress)
 
 
@@ -171,6 +175,21 @@ def _inputs(case: Case, change: Sequence[str] | None) -> list[Input]:
         return [input_of(case, key) for key in keys]
     except ValueError as error:
         raise ValueError(f"change: {error}") from None
+
+
+def _with_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> tuple[Any, list[str]]:
+    """Inputs that scatter: the given ones, and numbers of the case with a tolerance; with notes."""
+    if scatter is not None and not isinstance(scatter, Mapping):
+        return scatter, []  # is refused with the samples
+    given, document = dict(scatter or {}), case.document
+    canonical = {alias: key for key, alias in document.aliases.items()}
+    found = {
+        dotted(path): text
+        for path, text in document.tolerances.items()
+        if not {dotted(path), dotted(canonical.get(path, path))} & given.keys()
+    }
+    notes = [f"{key}: scatters by its tolerance in the case, {text}" for key, text in found.items()]
+    return {**given, **found}, notes
 
 
 def _refuse_repeated(settings: Mapping[str, str], sampled: Samples | None) -> None:

@@ -32,8 +32,8 @@ Scatter = Annotated[
         "--scatter",
         metavar="KEY=LOW:HIGH",
         help="Scatter, of which the worst corner counts: values, e.g. "
-        "material.poisson_ratio=0.36:0.40, or deviations of a changed parameter, e.g. "
-        "indenter.crown_radius='-2 mm:2 mm'.",
+        "material.poisson_ratio=0.36:0.40 or '0.38 ± 0.02', or deviations of a changed parameter, "
+        "e.g. indenter.crown_radius='-2 mm:2 mm' or '± 2 mm'.",
     ),
 ]
 Constraints = Annotated[

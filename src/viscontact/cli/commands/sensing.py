@@ -34,7 +34,8 @@ def sensitivity(
             "--scatter",
             metavar="KEY=LOW:HIGH[:log|:normal]",
             help="Input that scatters between two bounds (normal: 95 % of it), e.g. "
-            "indenter.radius='4.98 mm:5.02 mm'; repeated for each.",
+            "indenter.radius='4.98 mm:5.02 mm' or '5 mm ± 0.02 mm'; repeated for each. Numbers "
+            "with a tolerance in the case scatter as well.",
         ),
     ] = None,
     samples: Annotated[

@@ -38,7 +38,7 @@ class DesignRequest:
     maximise: Sequence[str]
     at: str
     over: Sequence[str]  # KEY=A,B,...
-    scatter: Sequence[str]  # KEY=LOW:HIGH
+    scatter: Sequence[str]  # KEY=LOW:HIGH or KEY=VALUE ± TOLERANCE
     constraints: Sequence[str]
     settings: Sequence[str]
     runs: int | None
@@ -59,7 +59,7 @@ class DesignRequest:
             "maximise": self.maximise,
             "at": instant(self.at),
             "over": keys("--over", self.over, split_values),
-            "scatter": keys("--scatter", self.scatter, _parameter),
+            "scatter": keys("--scatter", self.scatter, _scatter),
             "constraints": list(self.constraints),
             "settings": keys("--set", self.settings, str),
             "runs": self.runs,
@@ -106,6 +106,12 @@ def _parameter(given: str) -> Any:
     if len(bounds) == 1 or given[:1] in "[{":
         return split_values(given)
     return bounds
+
+
+def _scatter(given: str) -> Any:
+    """Bounds as a tuple, or a number with its tolerance."""
+    bounds = tuple(part.strip() for part in given.split(":"))
+    return bounds if len(bounds) > 1 else given
 
 
 def instant(text: str) -> Any:

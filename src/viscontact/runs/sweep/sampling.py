@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from viscontact.runs.sweep.designs import Design
 from viscontact.units.parsing import parse_any_quantity, split_quantity
+from viscontact.units.tolerances import read_toleranced
 
 Method = Literal["sobol", "latin-hypercube"]
 
@@ -71,6 +72,25 @@ def bounded(key: str, low: str, high: str, *, logarithmic: bool = False) -> Rang
     if logarithmic and first <= 0:
         raise ValueError(f"a logarithmic range needs bounds above zero, got {low}")
     return Range(key, first, last, unit, logarithmic)
+
+
+def range_of(key: str, bounds: Sequence[str], *, logarithmic: bool = False) -> Range:
+    """Return the range of a key between two quantities, or of one with its tolerance.
+
+    ValueError names the fault.
+
+    >>> range_of("indenter.radius", ["12 mm ± 0.02 mm"]).value(0.0)
+    '11.98 mm'
+    """
+    if len(bounds) == 1:
+        found = read_toleranced(bounds[0])
+        if found is None:
+            raise ValueError(
+                f"must be two bounds, or a number with its tolerance, as '12 mm ± 0.02 mm', got "
+                f"{bounds[0]!r}"
+            )
+        bounds = found.low, found.high
+    return bounded(key, *bounds, logarithmic=logarithmic)
 
 
 def sample_design(

@@ -1,0 +1,70 @@
+"""Parse numbers with a tolerance, such as '12 mm ± 0.02 mm'."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+
+from viscontact.units.formatting import quoted
+from viscontact.units.parsing import parse_any_quantity, split_quantity
+
+_TOLERANCED = re.compile(r"\s*(?P<nominal>[+-]?[\d.][^±]*?)?\s*(?:±|\+/-|\+-)\s*(?P<deviation>.*)")
+#: Digits of bounds whose deviation has another unit.
+_DIGITS = 12
+
+
+@dataclass(frozen=True)
+class Toleranced:
+    """Number with a tolerance: its nominal value, the deviation and the bounds, in one unit.
+
+    >>> read_toleranced("12 mm ± 20 um")
+    Toleranced(nominal='12 mm', deviation='0.02 mm', low='11.98 mm', high='12.02 mm')
+    """
+
+    nominal: str
+    deviation: str
+    low: str
+    high: str
+
+
+def read_toleranced(text: str) -> Toleranced | None:
+    """Read a number with a tolerance, as drawings have it; None for any other text.
+
+    The tolerance may be in another unit, without one, or in percent. ValueError names the fault.
+    Without a nominal value it is zero.
+
+    >>> read_toleranced("0.38 +- 5 %").low, read_toleranced("± 20 um").low, read_toleranced("12 mm")
+    ('0.361', '-20 um', None)
+    """
+    match = _TOLERANCED.fullmatch(text)
+    if match is None:
+        return None
+    try:
+        amount, other = split_quantity(match["deviation"])
+        number, unit = split_quantity(match["nominal"] or f"0 {other}")
+        unit = unit or ("" if other == "%" else other)
+        deviation = _in_unit(Decimal(amount), other or unit, Decimal(number), unit)
+    except ValueError as error:
+        raise ValueError(f"cannot read the tolerance in {quoted(text)}: {error}") from None
+    if not deviation > 0:
+        raise ValueError(f"the tolerance in {quoted(text)} must be more than zero")
+    middle = Decimal(number)
+    low, high = (_written(each, unit) for each in (middle - deviation, middle + deviation))
+    return Toleranced(f"{number} {unit}".rstrip(), _written(deviation, unit), low, high)
+
+
+def _in_unit(deviation: Decimal, given: str, nominal: Decimal, unit: str) -> Decimal:
+    """Deviation in the unit of the nominal value; ValueError if its own unit does not fit."""
+    if given == unit:
+        return deviation
+    if given == "%":
+        return abs(nominal) * deviation / 100
+    (own, base), (one, same) = (parse_any_quantity(f"1 {each}") for each in (given, unit))
+    if base != same or base == "K":  # degrees have an offset
+        raise ValueError(f"the unit of {deviation} {given} does not fit {nominal} {unit}")
+    return deviation * Decimal(f"{own / one:.{_DIGITS}g}")
+
+
+def _written(number: Decimal, unit: str) -> str:
+    return f"{float(number):.{_DIGITS}g} {unit}".rstrip()
