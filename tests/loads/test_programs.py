@@ -23,6 +23,22 @@ def test_sentences_are_segments():
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "until the force is 10 nN",
+        "until force reaches 10 nN",
+        "until the force falls to 10 nN",
+        "until force falls below 0.01 uN",
+        "until the force rises above 10 nN",
+        "until the force is below 10 nN",
+    ],
+)
+def test_a_condition_has_several_words(text):
+    (segment,) = vc.LoadProgram(f"move at 1 um/s {text}").segments
+    assert segment.until == vc.Condition("force", 1e-8)
+
+
+@pytest.mark.parametrize(
     ("text", "why"),
     [
         ("wobble", "possible are"),

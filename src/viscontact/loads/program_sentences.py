@@ -23,7 +23,8 @@ FORMS = (
 )
 
 _CONDITION = re.compile(
-    r"(?:the\s+)?(?P<scalar>[a-z_ ]+?)\s+(?:reaches|exceeds|falls\s+(?:to|below))\s+(?P<value>.+)",
+    r"(?:the\s+)?(?P<scalar>[a-z_ ]+?)\s+"
+    r"(?:is(?:\s+above|\s+below)?|reaches|exceeds|falls\s+(?:to|below)|rises\s+(?:to|above))\s+(?P<value>.+)",
     re.IGNORECASE,
 )
 _LOST = re.compile(r"(?:the\s+)?contact\s+is\s+lost", re.IGNORECASE)
