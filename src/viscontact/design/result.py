@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
@@ -16,6 +16,7 @@ from viscontact.design.goals import Constraint, Goal, Value
 from viscontact.design.scenarios import Scenario
 from viscontact.design.trade_off import costs_of, not_dominated
 from viscontact.design.trials import Trial, goal_name
+from viscontact.design.year_of_creep import creeps_on, year_of_creep
 from viscontact.display import write_design_report
 from viscontact.errors import AccuracyWarning
 from viscontact.results.formatting import format_with_error
@@ -109,7 +110,8 @@ class DesignResult:
     def report(self, path: str | PathLike[str]) -> None:
         """Write a page of HTML: pressures before and after, gains, and all trials.
 
-        The case and the best one are computed once more, in the scenario that decides.
+        The case and the best one are computed once more, in the scenario that decides, and, if the
+        load is held and the bodies creep, up to a year.
 
         Parameters
         ----------
@@ -124,8 +126,9 @@ class DesignResult:
             If the file cannot be written.
         """
         title = f"Design of {self.case.stem}: {_listed(map(str, self.goals))}"
-        runs = self.before_and_after()
-        write_design_report(self.table, runs, path, title=title, headline=str(self))
+        words = {"title": title, "headline": str(self)}
+        runs, years = self.before_and_after(), self.over_a_year()
+        write_design_report(self.table, runs, path, years=years, **words)
 
     def before_and_after(self) -> dict[str, xr.Dataset]:
         """Results of the case and of the best one, in the scenario that decides.
@@ -135,18 +138,43 @@ class DesignResult:
         runs = {"case": self._run({})} if not self.table["message"].values[0] else {}
         return runs | {"best": self._run(self.settings)}
 
+    def over_a_year(self) -> dict[str, xr.Dataset | str]:
+        """Results of the case and of the best one up to a year, in the scenario that decides.
+
+        The reason in place of one that fails. There is none if the load is not held at the end of
+        the case, or the bodies do not creep after it. The instants of the case are followed by
+        others, a day, a week and a year among them.
+        """
+        runs = {"case": self._varied({}), "best": self._varied(self.settings)}
+        if not creeps_on(read_case(self.case, runs["best"].assignments)):
+            return {}
+        found: dict[str, xr.Dataset | str] = {}
+        for name, run in runs.items():
+            try:
+                case = read_case(self.case, run.assignments)
+            except ValueError as error:
+                found[name] = str(error).splitlines()[0]
+            else:
+                found[name] = year_of_creep(case, run.arguments)
+        return found
+
     def _run(self, settings: Mapping[str, str]) -> xr.Dataset:
+        run = self._varied(settings)
+        instants = read_case(self.case, run.assignments).instants
+        ends = dict.fromkeys((float(instants[0]), float(instants[-1])))
+        fields = f"[{', '.join(f'{time!r} s' for time in ends)}]"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
+            return replace(run, settings={**run.settings, "output.fields": fields})()
+
+    def _varied(self, settings: Mapping[str, str]) -> VariedRun:
+        """Run of some values in the scenario that decides."""
         values = self.best[f"{self.goal.scalar}_of_scenarios"].values
         number = values.argmax() if self.goal.least else values.argmin()
         scenario = self.scenarios[int(number)]
         whole = {**self.fixed, **scenario.settings(settings)}
-        texts = [f"{key}={value}" for key, value in whole.items()]
-        instants = read_case(self.case, [*texts, "output.fields=none"]).instants
-        ends = dict.fromkeys((float(instants[0]), float(instants[-1])))
-        whole["output.fields"] = f"[{', '.join(f'{time!r} s' for time in ends)}]"
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
-            return VariedRun(self.case, whole, tuple(settings), "", "", "cases")()
+        whole["output.fields"] = "none"
+        return VariedRun(self.case, whole, tuple(settings), "", "", "cases")
 
     def __str__(self) -> str:
         values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())

@@ -20,7 +20,8 @@ from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
 from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import parameters_of, trials
 from viscontact.report.blocks import drawn_figure, listed_notes, text_table
-from viscontact.results.formatting import format_percent, format_with_error
+from viscontact.report.creep_gains import gains_over_a_year, relative_change
+from viscontact.results.formatting import format_with_error
 from viscontact.results.largest_values import key_label
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity
@@ -33,11 +34,13 @@ def write_design_report(
     *,
     title: str,
     headline: str,
+    years: Mapping[str, xr.Dataset | str] | None = None,
 ) -> None:
     """Write the trials of a design, and its runs before and after, as one page of HTML.
 
-    `runs` are results with fields by their names, in the scenario that decides; `headline` is the
-    sentence of the result. OSError if the file cannot be written.
+    `runs` are results with fields by their names, in the scenario that decides, `years` such
+    results up to a year, or why there is none; `headline` is the sentence of the result. OSError if
+    the file cannot be written.
     """
     folder = files("viscontact.report")
     template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
@@ -46,13 +49,17 @@ def write_design_report(
         title=written(element("title", title)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
         scripts="",
-        body="\n".join(map(written, _chapters(table, runs, title, headline))),
+        body="\n".join(map(written, _chapters(table, runs, years or {}, title, headline))),
     )
     Path(path).write_text(page, encoding="utf-8")
 
 
 def _chapters(
-    table: xr.Dataset, runs: Mapping[str, xr.Dataset], title: str, headline: str
+    table: xr.Dataset,
+    runs: Mapping[str, xr.Dataset],
+    years: Mapping[str, xr.Dataset | str],
+    title: str,
+    headline: str,
 ) -> Iterator[Element]:
     yield element(
         "header",
@@ -62,6 +69,9 @@ def _chapters(
     )
     compared = (*_values(table), *before_and_after(runs))
     yield element("section", element("h2", "Before and after"), *compared)
+    if years:
+        gains = gains_over_a_year(years, _goals(table), str(table.attrs.get("notes", "")))
+        yield element("section", element("h2", "Gain over a year of creep"), *gains)
     if len(_goals(table)) > 1:
         yield element("section", element("h2", "Trade-off"), *_trade_off(table))
     figures = (_trials_figure(table, goal) for goal in _goals(table))
@@ -113,10 +123,7 @@ def _gain(table: xr.Dataset, name: str, best: int, suffix: str = "") -> str:
     column = f"{name}{suffix}"
     before, after = (float(table[column].values[trial]) for trial in (0, best))
     has_limit = not np.isposinf(table[error_name(column)].values[[0, best]]).any()
-    if not (np.isfinite(before) and before and has_limit):
-        return ""
-    part = after / before - 1
-    return f"{'+' if part > 0 else '−'}{format_percent(abs(part))}"
+    return relative_change(before, after) if has_limit else ""
 
 
 def _parameter(column: xr.DataArray, trial: int) -> str:

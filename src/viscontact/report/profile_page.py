@@ -15,6 +15,7 @@ from viscontact import __version__
 from viscontact.notebook.html import element, written
 from viscontact.plot.sweeps.profiles import profiles
 from viscontact.report.blocks import drawn_figure, listed_notes, text_table
+from viscontact.report.creep_gains import gains_over_a_year
 from viscontact.report.design_page import before_and_after
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
@@ -28,11 +29,13 @@ def write_profile_report(
     *,
     title: str,
     headline: str,
+    years: Mapping[str, xr.Dataset | str] | None = None,
 ) -> None:
     """Write a free profile and the named ones under the same loads as one page of HTML.
 
-    `runs` are results with fields by their names, in the scenario that decides; `headline` is the
-    sentence of the result. OSError if the file cannot be written.
+    `runs` are results with fields by their names, in the scenario that decides, `years` such
+    results up to a year, or why there is none; `headline` is the sentence of the result. OSError if
+    the file cannot be written.
     """
     folder = files("viscontact.report")
     template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
@@ -40,14 +43,18 @@ def write_profile_report(
         generator=f"viscontact {__version__}",
         title=written(element("title", title)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, _chapters(table, runs, title, headline))),
+        body="\n".join(map(written, _chapters(table, runs, years or {}, title, headline))),
         scripts="",
     )
     Path(path).write_text(page, encoding="utf-8")
 
 
 def _chapters(
-    table: xr.Dataset, runs: Mapping[str, xr.Dataset], title: str, headline: str
+    table: xr.Dataset,
+    runs: Mapping[str, xr.Dataset],
+    years: Mapping[str, xr.Dataset | str],
+    title: str,
+    headline: str,
 ) -> Iterator[Element]:
     yield element(
         "header",
@@ -58,6 +65,9 @@ def _chapters(
     drawing = drawn_figure(profiles(table), "Drop of the profiles below their highest point.")
     yield element("section", element("h2", "Profiles"), drawing, *_tables(table))
     yield element("section", element("h2", "Before and after"), *before_and_after(runs))
+    if years:
+        gains = gains_over_a_year(years, ["peak_pressure"], str(table.attrs.get("notes", "")))
+        yield element("section", element("h2", "Gain over a year of creep"), *gains)
     yield element("p", f"Made by viscontact {__version__}.", class_="faint")
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from viscontact.case import Case
 from viscontact.design.profiles.loaded_roller import LoadedRoller, case_with_table
+from viscontact.design.year_of_creep import creeps_on, year_of_creep
 from viscontact.display import write_profile_report
 from viscontact.errors import AccuracyWarning
 from viscontact.indenters.profile import Profile
@@ -108,17 +109,16 @@ class ProfileDesign:
             If the file cannot be written.
         """
         title = f"Free profile of {self.case.stem}"
-        write_profile_report(
-            self.table, self.before_and_after(), path, title=title, headline=str(self)
-        )
+        words = {"title": title, "headline": str(self)}
+        runs, years = self.before_and_after(), self.over_a_year()
+        write_profile_report(self.table, runs, path, years=years, **words)
 
     def before_and_after(self) -> dict[str, xr.Dataset]:
         """Results of the best named profile and of the free one, in the scenario that decides.
 
         Fields are kept at the first and at the last instant.
         """
-        worst = self.table["peak_pressure_of_scenarios"].sel(profile=FREE).values
-        roller = self.scenarios[int(np.argmax(worst))]
+        roller = self._deciding()
         instants = roller.case.instants
         fields = sorted({float(instants[0]), float(instants[-1])})
         found, options = {}, {"fields": fields}
@@ -127,6 +127,21 @@ class ProfileDesign:
                 warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
                 found[name] = simulate(**(roller.arguments(self.profiles[name]) | options))
         return found
+
+    def over_a_year(self) -> dict[str, xr.Dataset | str]:
+        """Results of the same profiles up to a year, as `DesignResult.over_a_year`."""
+        roller = self._deciding()
+        if not creeps_on(roller.case):
+            return {}
+        return {
+            name: year_of_creep(roller.case, roller.arguments(self.profiles[name]))
+            for name in (self.best_named, FREE)
+        }
+
+    def _deciding(self) -> LoadedRoller:
+        """Roller under the load of the scenario that decides."""
+        worst = self.table["peak_pressure_of_scenarios"].sel(profile=FREE).values
+        return self.scenarios[int(np.argmax(worst))]
 
     def __str__(self) -> str:
         best = self.best_named

@@ -61,9 +61,14 @@ class VariedRun:
 
     def __call__(self) -> xr.Dataset:
         """Simulate the run."""
+        return simulate(**self.arguments)
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Arguments of `simulate` by name."""
         case = read_case(self.case, self.assignments)
         given = signature(simulate).parameters.keys() - {"threads", "progress"}
-        return simulate(**{name: getattr(case, name) for name in given})
+        return {name: getattr(case, name) for name in given}
 
 
 def vary(

@@ -1,0 +1,82 @@
+"""Gains of a design over a week and a year of creep, as a table of its report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import xarray as xr
+
+from viscontact.notebook.html import element
+from viscontact.report.blocks import text_table
+from viscontact.results.formatting import format_percent, format_with_error
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import format_quantity
+
+#: Instants that the table states where the runs have them, by their names [s].
+INSTANTS = {
+    **{"1 h": 3600.0, "1 day": 86400.0},
+    **{"1 week": 7 * 86400.0, "1 year": 365.25 * 86400.0},
+}
+
+
+def gains_over_a_year(
+    years: Mapping[str, xr.Dataset | str], goals: Sequence[str], known: str = ""
+) -> Iterator[Element]:
+    """Yield a table of the goals over time, and what is to be known of the runs.
+
+    `years` are the results of two designs up to a year, the first one before, or why there is none;
+    `known` are warnings that the page has already.
+    """
+    runs = {name: run for name, run in years.items() if isinstance(run, xr.Dataset)}
+    for name, why in years.items():
+        if isinstance(why, str):
+            yield element("p", f"The run of the {name} stopped: {why}", class_="faint")
+    if not runs:
+        return
+    rows = [row for goal in goals for row in _rows(runs, tuple(years), goal)]
+    yield text_table(("", "time", *years, "change"), rows)
+    yield element("p", "The load is held up to a year, in the scenario that decides.")
+    after = tuple(runs.values())[-1]
+    for line in str(after.attrs.get("warnings", "")).splitlines():
+        if line not in known:
+            yield element("p", line, class_="faint")
+
+
+def _rows(
+    runs: Mapping[str, xr.Dataset], names: Sequence[str], goal: str
+) -> Iterator[tuple[str, ...]]:
+    """Rows of a goal at the first instant, and at those of `INSTANTS` that the runs have."""
+    times = next(iter(runs.values()))["time"].values
+    chosen = {format_quantity(float(times[0]), "s", 3): float(times[0])} | {
+        label: time for label, time in INSTANTS.items() if np.isclose(times, time).any()
+    }
+    for label, time in chosen.items():
+        values = {name: _value_at(run, goal, time) for name, run in runs.items()}
+        texts = (
+            format_with_error(*values[name], SCALARS[goal].units) if name in values else ""
+            for name in names
+        )
+        limited = len(values) == len(names) and not any(np.isinf(e) for _, e in values.values())
+        change = relative_change(*(values[name][0] for name in names)) if limited else ""
+        yield (SCALARS[goal].label, label, *texts, change)
+
+
+def _value_at(run: xr.Dataset, goal: str, time: float) -> tuple[float, float]:
+    """Magnitude of a goal at the instant next to a time, and its error."""
+    row = int(np.abs(run["time"].values - time).argmin())
+    return abs(float(run[goal].values[row])), float(errors_of(run, goal)[row])
+
+
+def relative_change(before: float, after: float) -> str:
+    """Relative change of a value; empty if it is not known.
+
+    >>> relative_change(400e6, 300e6), relative_change(0.0, 1.0)
+    ('−25 %', '')
+    """
+    if not (np.isfinite(before) and np.isfinite(after) and before):
+        return ""
+    part = after / before - 1
+    return f"{'+' if part > 0 else '−'}{format_percent(abs(part))}"
