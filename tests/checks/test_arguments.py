@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -84,3 +85,18 @@ def test_a_centred_force_outside_the_body_is_refused():
     reach = LoadSupport(corner, vc.Grid((8, 8), (1.0, 1.0)))
     with pytest.raises(ValueError, match="outside the hull of what can touch"):
         reach.refuse_outside((0.0, 0.0), 0.0)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_a_radius_that_looks_like_one_in_millimetres_warns() -> None:
+    rubber, load = vc.Material(vc.Elastic(1e6), 0.5), vc.step(1.0)
+    for body in (vc.Sphere(10), vc.Roller(20.0, 0.01)):
+        with pytest.warns(
+            UserWarning, match=r"lengths are in metres in Python; write 0\.0[12] for"
+        ):
+            vc.simulate(body, rubber, load, vc.Grid((32, 32), (0.2, 0.2)), [0.0], errors=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", UserWarning)
+        warnings.simplefilter("ignore", vc.AccuracyWarning)
+        grid = vc.Grid((16, 16), (0.05, 0.05))
+        vc.simulate(vc.Sphere(1.0), rubber, load, grid, [0.0], errors=False)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.checks.load_support import LoadSupport
 from viscontact.grid import Grid
+from viscontact.indenters import Indenter, Roller, Sphere
 from viscontact.loads import LoadHistory, LoadPoint, MixedHistory
 from viscontact.loads.arguments import TAIL
 from viscontact.problem.problem import Problem
@@ -18,6 +19,8 @@ from viscontact.units.formatting import format_quantity
 #: Instants at which a law is evaluated before it is used, and a fall that is not rounding or the
 #: error of a conversion.
 CREEP_SAMPLES, NOTABLE_FALL = 200, 0.01
+#: Radius from which on a sphere or a roller is larger than machine parts [m].
+LARGE_RADIUS = 2.0
 
 
 def check_times(problem: Problem) -> None:
@@ -35,6 +38,23 @@ def check_magnitudes(problem: Problem) -> None:
     for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
         if value and not 1e-30 <= value <= 1e30:
             raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
+
+
+def unusual_radius(indenter: Indenter) -> str | None:
+    """Sentence about the radius of a sphere or a roller that looks like one in mm; None without.
+
+    >>> import viscontact as vc
+    >>> unusual_radius(vc.Sphere(10))
+    'the radius of the indenter is 10 m: lengths are in metres in Python; write 0.01 for 10 mm'
+    >>> unusual_radius(vc.Sphere(10e-3))
+    """
+    radius = getattr(indenter, "radius", None)
+    if not isinstance(indenter, Sphere | Roller) or radius is None or radius < LARGE_RADIUS:
+        return None
+    return (
+        f"the radius of the indenter is {format_quantity(radius, 'm')}: lengths are in metres in "
+        f"Python; write {radius / 1000:g} for {radius:g} mm"
+    )
 
 
 def check_mixed(problem: Problem) -> None:

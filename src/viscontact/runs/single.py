@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.accuracy.coarser_runs import history_of
 from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
+from viscontact.checks.arguments import unusual_radius
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
@@ -113,6 +114,8 @@ def simulate(
     -----
     AccuracyWarning
         If the result is less accurate than expected; kept in the attribute ``warnings``.
+    UserWarning
+        If the radius of a sphere or a roller is 2 m or more, as if it were meant in millimetres.
 
     See Also
     --------
@@ -133,6 +136,8 @@ def simulate(
         motion=motion,
     )
     problem = carried_out(problem, threads)
+    if text := unusual_radius(indenter):
+        warnings.warn(text, UserWarning, stacklevel=2)
     run = prepare_run(problem, threads)
     started = clock.perf_counter()
     states: list[ContactState] = []
