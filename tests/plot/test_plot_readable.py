@@ -18,7 +18,10 @@ import viscontact as vc
 from synthetic_results import maxwell_sphere
 from viscontact import plot
 from viscontact.cli import main
+from viscontact.plot.histories.time_axis import label_log_time, set_log_time
+from viscontact.plot.layout import style
 from viscontact.plot.layout.ordered_names import ordered_values, styles_of
+from viscontact.units.formatting import readable_unit
 
 PEAK = 3e6
 SHELL_ORDER = ["F=1000N", "F=100N", "F=2kN", "F=300N"]
@@ -80,6 +83,25 @@ def test_labels_of_times_over_a_week_do_not_touch(width: plot.Width | None) -> N
         for before, after in itertools.pairwise(boxes):
             assert after.x0 - before.x1 > 2
     assert labelled >= 4  # 0, 1 min, 1 h, 1 d
+
+
+@pytest.mark.parametrize("width", [0.4, 0.9, 1.6, 5.0])
+@pytest.mark.parametrize(("first", "end"), [(36.0, 6e5), (1e-6, 2e5), (1e3, 3e8), (2e3, 2e4)])
+def test_labels_of_an_axis_of_any_width_do_not_touch(
+    width: float, first: float, end: float
+) -> None:
+    figure = Figure(figsize=(6.0, 2.0))
+    axes = figure.add_axes((0.1, 0.3, width / 6.0, 0.6))
+    style.dress(axes)
+    unit = readable_unit("s", end)
+    start, stop = unit([first, end]).tolist()
+    set_log_time(axes, start, stop)
+    axes.set_xlim(0.0, stop)
+    label_log_time(axes, unit, start, stop)
+    figure.draw_without_rendering()
+    boxes = [each.get_window_extent() for each in axes.get_xticklabels() if each.get_text()]
+    assert boxes
+    assert all(after.x0 > before.x1 + 1 for before, after in itertools.pairwise(boxes))
 
 
 def test_a_prescribed_negative_tilt_is_below_zero() -> None:

@@ -22,9 +22,8 @@ from viscontact.units.formatting import ReadableUnit, clock_ticks, format_quanti
 _STEADY, _SOON = 1e-5, 0.05
 #: Least ratio of a logarithmic axis: below a decade it has hardly any tick labels.
 _DECADE = 10.0
-#: Width of a decade in which two labels fit, and width of a panel beside its axis [inch]; largest
-#: ratio of the ends of an axis of which all ticks are labelled.
-_DECADE_WIDTH, _BESIDE, _MOST_RATIO = 0.5, 0.7, 1e5
+#: Width of a panel beside its axis, mean width of a letter, and gap between labels [inch].
+_BESIDE, _LETTER, _GAP = 0.7, 0.065, 0.07
 #: Length of a logarithmic time axis before the first step, against the rest of it.
 BEFORE_FIRST = 0.2
 
@@ -86,24 +85,45 @@ def scale_time(
 def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> str:
     """Mark s, min, h and d on a logarithmic axis over hours or days; return the axis label."""
     is_whole = axes.get_xscale() == "symlog"
-    ticks = clock_ticks(unit, first, end, close=_labelled_ratio(axes, is_whole=is_whole))
+    ticks = clock_ticks(unit, first, end)
     if not ticks:
         return unit.label("Time")
+    before = BEFORE_FIRST / (1 + BEFORE_FIRST) if is_whole else 0.0
+    width, decades = _axis_width(axes), math.log10(end / first)
+    along = {
+        place: width * (before + (1 - before) * math.log10(place / first) / decades)
+        for place in ticks
+    }
     start = {0.0: "0"} if is_whole else {}
-    labelled = start | {place: text for place, text in ticks.items() if text}
+    labelled = _apart(start | ticks, {0.0: 0.0} | along)
     axes.set_xticks(list(labelled), list(labelled.values()))
-    axes.set_xticks([place for place, text in ticks.items() if not text], minor=True)
+    axes.set_xticks([place for place in ticks if place not in labelled], minor=True)
     axes.xaxis.set_minor_formatter(NullFormatter())
     return "Time"
 
 
-def _labelled_ratio(axes: Axes, *, is_whole: bool) -> float:
-    """Ratio of the ends of an axis from which on labels of all ticks would touch."""
-    place = axes.get_subplotspec()
-    columns = 1 if place is None else place.get_gridspec().ncols
-    width = style.figure_of(axes).get_figwidth() / columns - _BESIDE
-    decades = width / _DECADE_WIDTH
-    return float(min(_MOST_RATIO, 10.0 ** (decades / (1 + BEFORE_FIRST) if is_whole else decades)))
+def _axis_width(axes: Axes) -> float:
+    """Width of an axis [inch], an estimate before the layout is known."""
+    figure, place = style.figure_of(axes), axes.get_subplotspec()
+    if place is None:
+        return float(axes.get_position().width * figure.get_figwidth())
+    return max(figure.get_figwidth() / place.get_gridspec().ncols - _BESIDE, 0.5)
+
+
+def _apart(texts: Mapping[float, str], along: Mapping[float, float]) -> dict[float, str]:
+    """Labels that do not touch, at positions along an axis [inch]; whole units come first."""
+    ranks = {place: number for number, place in enumerate(sorted(texts, reverse=True))}
+    order = sorted(
+        (place for place in texts if texts[place]),
+        key=lambda place: (place != 0, not texts[place].startswith("1 "), ranks[place]),
+    )
+    kept: dict[float, str] = {}
+    for place in order:
+        half = _LETTER * len(texts[place]) / 2
+        others = ((along[each], _LETTER * len(text) / 2) for each, text in kept.items())
+        if all(abs(along[place] - at) > half + other + _GAP for at, other in others):
+            kept[place] = texts[place]
+    return dict(sorted(kept.items()))
 
 
 def set_log_time(axes: Axes, first: float, end: float) -> None:
