@@ -102,7 +102,8 @@ def _by_gaps(
     behind, before = (gap[*_within(gap, second + by * intervals.across)] for by in (1, -1))
     both = known & np.isfinite(behind) & np.isfinite(before)
     gaps = np.array([np.where(both, behind, 0.0), np.where(both, before, 0.0), far, near])
-    behind, before, rise, base = np.cbrt(np.square(gaps))
+    # Of ratios, so that no unit of length changes the rounding.
+    behind, before, rise, base = np.cbrt(np.square(gaps / far))
     slope = (behind - before) / (2 * (rise - base))
     # Ratios that differ by rounding share a law.
     dx, dy = grid.cell_size
