@@ -556,12 +556,13 @@ def test_a_warning_that_names_its_instant_is_printed_without_it_in_front(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (folder / "creep.csv").write_text("time [s], D [1/GPa]\n1, 2\n10, 3\n", encoding="utf-8")
-    table = "material={law: table, file: creep.csv, poisson_ratio: 0.4}"
+    table = "material={law: table, file: creep.csv, poisson_ratio: 0.4, warning: the data scatter}"
     wide = ["--set", "load.force=2 kN", "--set", "grid.size=[8 mm, 8 mm]"]
     assert main(["run", "case.yaml", "--set", table, *wide]) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert "warning: at t = 0 s 100% of the load has come within less than 1 s" in printed
     assert re.search(r"warning: t = [\d.]+ s: the approach is", printed)
+    assert "warning: the data scatter" in printed  # of the whole run, so without an instant
 
 
 def test_grid_is_measured_against_the_memory_that_is_free(

@@ -67,15 +67,18 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
 
 
 def _warnings(lines: Path, axis: RunAxis, of_result: str) -> Iterator[str]:
-    """Warnings of each instant or speed with its value, then those of the whole run."""
+    """Warnings of each instant or speed with its value, then those of the whole run.
+
+    Those of the first state have no value: what holds for the whole run is warned of there, too.
+    """
     printed: set[str] = set()
     with lines.open(encoding="utf-8") as file:
-        for line in file:
+        for number, line in enumerate(file):
             state = json.loads(line)
             printed |= set(state["warnings"])
             place = axis.place(state[axis.name])
             for text in state["warnings"]:
-                yield text if place in text else f"{place}: {text}"
+                yield text if number == 0 or place in text else f"{place}: {text}"
     yield from (text for text in of_result.splitlines() if text not in printed)
 
 
