@@ -147,7 +147,7 @@ def test_quantity_and_kind_of_test_are_those_of_the_headings(tmp_path: Path) -> 
         (
             {},
             "f [Hz], E' [MPa], E'' [MPa], T [°C]\n1, 5, 2, 20\n1, 4, 2, 40\n",
-            "dma.csv has 2 sets; say which with set",
+            "; or shift all to one temperature by `viscontact fit dma.csv --yaml law.yaml`",
         ),
     ],
 )

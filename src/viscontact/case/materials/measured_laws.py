@@ -199,8 +199,11 @@ class TableLaw(FromFile):
                 raise ValueError(f"{table.source.name} has no set {self.set:g}; {_set_list(sets)}")
             return found[0]
         if len(sets) > 1:
+            name = table.source.name
             raise ValueError(
-                f"{table.source.name} has {len(sets)} sets; say which with set: {_set_list(sets)}"
+                f"{name} has {len(sets)} sets; say which with set: {_set_list(sets)}; or shift all "
+                f"to one temperature by `viscontact fit {name} --yaml law.yaml`, and give file: "
+                "law.yaml in place of law: table"
             )
         return table
 

@@ -165,6 +165,7 @@ def _in_options(path: Path, line: str) -> str:
         why = why if key[1] == "file" else f"{_option(key[1])}: {why}"
     why = _KEYS.sub(lambda match: _option(match[1]), why)
     why = why.replace("say which with set:", "say which with --set:")
+    why = why.replace(", and give file: law.yaml in place of law: table", "")
     why = why.replace("; name one of ", "; choose one with --name: ").replace("name=", "--name")
     # Only a case file can name the columns.
     why = why.replace("with columns=", "in a case file with columns: ")
