@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.indenters import Indenter
+from viscontact.laws import Elastic
 from viscontact.materials.layers import creeping_laws
 from viscontact.notebook.curves import law_drawings
 from viscontact.notebook.html import element
@@ -22,6 +23,7 @@ from viscontact.plot.materials.creep import curve_times
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times
+from viscontact.units.formatting import format_quantity
 
 #: Bodies by the section of their material.
 BODIES = {"material": "Half-space", "indenter_material": "Indenter"}
@@ -50,8 +52,26 @@ def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
             about = f"Creep compliance and relaxation modulus: {title.lower()}"
             if is_layered(ds, part):
                 yield f"{title}: layers", stack_drawing(recorded_object(ds, part, "section"))
+            if elastic := _elastic_text(ds, part):
+                yield title, element("p", elastic)
+                continue
             wide = drawn(partial(_curves, ds, part), about)
             yield title, _both(wide, partial(_small_curves, ds, part))
+
+
+def _elastic_text(ds: xr.Dataset, part: str) -> str:
+    """Sentence about a body that is all elastic, whose curves say nothing; empty if it creeps."""
+    try:
+        laws = creeping_laws(recorded_object(ds, part, "creep"))
+    except (ValueError, AttributeError):  # not recorded; the drawing says why
+        return ""
+    moduli = [
+        f"{format_quantity(law.shear_modulus, 'Pa')}{f' ({name})' if name else ''}"
+        for name, law in laws.items()
+        if isinstance(law, Elastic)
+    ]
+    together = ", ".join(moduli)
+    return f"Elastic, without creep: shear modulus {together}." if len(moduli) == len(laws) else ""
 
 
 def _indenter(ds: xr.Dataset) -> Figure:
