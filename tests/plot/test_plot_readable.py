@@ -125,6 +125,19 @@ def test_other_runs_have_no_order(names: list[str]) -> None:
     assert ordered_values(names) is None
 
 
+def test_eight_runs_are_named_in_two_rows_beside_a_long_entry_on_bands() -> None:
+    ds = maxwell_sphere()
+    ds["approach_error"] = 0.1 * ds["approach"]
+    figure = plot.compare_histories({f"force={n}N": ds for n in range(1, 9)})
+    runs, band = figure.legends
+    figure.draw_without_rendering()
+    rows = {round(text.get_window_extent().y0) for text in runs.get_texts()}
+    assert (len(runs.get_texts()), len(rows)) == (8, 2)
+    assert [text.get_text()[:4] for text in band.get_texts()] == ["band"]
+    legends = [each.get_window_extent() for each in (runs, band)]
+    assert not any(each.overlaps(axes.bbox) for each in legends for axes in figure.axes)
+
+
 def test_compare_draws_runs_in_the_order_of_the_parameter(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
@@ -37,6 +38,7 @@ from viscontact.results.stated_errors import (
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
+_Place = Literal["outside upper center", "outside upper right", "outside lower center"]
 _NAME = "history"
 
 #: Relative change, error included, below which a quantity is constant.
@@ -257,15 +259,26 @@ def _say_not_drawn(axes: Axes) -> None:
 
 
 def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[Band]) -> None:
-    """Legend of several runs, and of error bands."""
+    """Legend of several runs above the panels, and of error bands, below those of several runs."""
     entries = legend_entries(panels[0].get_lines(), names, bands)
-    if not entries:
-        return
-    columns = style.columns_that_fit(figure, [label for _, label in entries], 4)
-    style.add_height_of_legend(figure, -(-len(entries) // columns))
+    count = len(names) if len(names) > 1 else 0
+    place: _Place = "outside lower center" if count else "outside upper right"
+    if count:
+        columns = style.columns_that_fit(figure, names, 4)
+        style.add_height_of_legend(figure, -(-count // columns))
+        _add_legend(
+            figure, style.by_rows(entries[:count], columns), "outside upper center", columns
+        )
+    if entries[count:]:
+        _add_legend(figure, entries[count:], place, 1)
+
+
+def _add_legend(
+    figure: Figure, entries: Sequence[tuple[Artist, str]], place: _Place, columns: int
+) -> None:
     figure.legend(
-        *zip(*style.by_rows(entries, columns), strict=True),
-        loc="outside upper center" if len(names) > 1 else "outside upper right",
+        *zip(*entries, strict=True),
+        loc=place,
         ncols=columns,
         frameon=False,
         fontsize=style.TICK_SIZE,
