@@ -195,9 +195,12 @@ def _bar(
         by_cells = np.where(kinds.steep, model.steep.of(levels), by_cells)
     if model.of_spots is not None:
         by_cells = np.where(kinds.of_spots, model.of_spots.of(levels), by_cells)
-    # The relative error from the cells falls with their number in a growing contact.
+    # The relative error from the cells falls with their number in a growing contact; without
+    # contact, what a scalar keeps has the errors of the instants around.
     cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
-    relative = _around(cells * _over(by_cells, scale)) / cells
+    over = _over(by_cells, scale)
+    touching = history["contact_area"] > 0
+    relative = np.where(touching, _around(cells * over) / cells, _around(over))
     relative += np.nan_to_num(_over(levels.by_steps, scale))
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
     relative += run.problem.surface.splitting_error
