@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from operator import itemgetter
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -23,12 +24,12 @@ INSTANTS = {
 
 
 def gains_over_a_year(
-    years: Mapping[str, xr.Dataset | str], goals: Sequence[str], known: str = ""
+    years: Mapping[str, xr.Dataset | str], goals: Sequence[str], end: float, known: str = ""
 ) -> Iterator[Element]:
     """Yield a table of the goals over time, and what is to be known of the runs.
 
-    `years` are the results of two designs up to a year, the first one before, or why there is none;
-    `known` are warnings that the page has already.
+    `years` are the results of two designs up to a year, the first one before, or why there is none,
+    `end` is the end of the case [s]; `known` are warnings that the page has already.
     """
     runs = {name: run for name, run in years.items() if isinstance(run, xr.Dataset)}
     for name, why in years.items():
@@ -36,7 +37,7 @@ def gains_over_a_year(
             yield element("p", f"The run of the {name} stopped: {why}", class_="faint")
     if not runs:
         return
-    rows = [row for goal in goals for row in _rows(runs, tuple(years), goal)]
+    rows = [row for goal in goals for row in _rows(runs, tuple(years), goal, end)]
     yield text_table(("", "time", *years, "change"), rows)
     yield element("p", "The load is held up to a year, in the scenario that decides.")
     after = tuple(runs.values())[-1]
@@ -46,14 +47,15 @@ def gains_over_a_year(
 
 
 def _rows(
-    runs: Mapping[str, xr.Dataset], names: Sequence[str], goal: str
+    runs: Mapping[str, xr.Dataset], names: Sequence[str], goal: str, end: float
 ) -> Iterator[tuple[str, ...]]:
-    """Rows of a goal at the first instant, and at those of `INSTANTS` that the runs have."""
+    """Rows of a goal at the first instant, at the end of the case, and at those of `INSTANTS`."""
     times = next(iter(runs.values()))["time"].values
-    chosen = {format_quantity(float(times[0]), "s", 3): float(times[0])} | {
-        label: time for label, time in INSTANTS.items() if np.isclose(times, time).any()
-    }
-    for label, time in chosen.items():
+    chosen = {label: time for label, time in INSTANTS.items() if np.isclose(times, time).any()}
+    if not np.isclose(list(chosen.values()), end).any():
+        chosen[f"{format_quantity(end, 's', 3)} (end of the case)"] = end
+    chosen[format_quantity(float(times[0]), "s", 3)] = float(times[0])
+    for label, time in sorted(chosen.items(), key=itemgetter(1)):
         values = {name: _value_at(run, goal, time) for name, run in runs.items()}
         texts = (
             format_with_error(*values[name], SCALARS[goal].units) if name in values else ""

@@ -70,7 +70,8 @@ def _chapters(
     compared = (*_values(table), *before_and_after(runs))
     yield element("section", element("h2", "Before and after"), *compared)
     if years:
-        gains = gains_over_a_year(years, _goals(table), str(table.attrs.get("notes", "")))
+        end, known = float(runs["best"]["time"][-1]), str(table.attrs.get("notes", ""))
+        gains = gains_over_a_year(years, _goals(table), end, known)
         yield element("section", element("h2", "Gain over a year of creep"), *gains)
     if len(_goals(table)) > 1:
         yield element("section", element("h2", "Trade-off"), *_trade_off(table))

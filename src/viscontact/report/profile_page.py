@@ -66,7 +66,8 @@ def _chapters(
     yield element("section", element("h2", "Profiles"), drawing, *_tables(table))
     yield element("section", element("h2", "Before and after"), *before_and_after(runs))
     if years:
-        gains = gains_over_a_year(years, ["peak_pressure"], str(table.attrs.get("notes", "")))
+        end, known = float(runs["free"]["time"][-1]), str(table.attrs.get("notes", ""))
+        gains = gains_over_a_year(years, ["peak_pressure"], end, known)
         yield element("section", element("h2", "Gain over a year of creep"), *gains)
     yield element("p", f"Made by viscontact {__version__}.", class_="faint")
 
