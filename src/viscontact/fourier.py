@@ -11,8 +11,8 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 import numpy as np
+import scipy  # its transforms are imported at their first use
 from numpy.typing import NDArray
-from scipy import fft
 
 try:
     import ducc0
@@ -61,6 +61,10 @@ class Transforms(ABC):
         """Cosine transform (DCT-II) of a real field, in place."""
 
     @abstractmethod
+    def even_forward(self, field: Field, axis: int) -> Field:
+        """Cosine transform (DCT-I) of half an even real field with both of its ends, in place."""
+
+    @abstractmethod
     def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
         """Real field of a cosine transform, in place."""
 
@@ -78,29 +82,41 @@ class SciPyTransforms(Transforms):
 
     def real_forward(self, field: Field, into: Field, axis: int) -> Field:
         """See `Transforms.real_forward`."""
-        into[...] = fft.rfft(field, axis=axis, workers=self.threads)
+        into[...] = scipy.fft.rfft(field, axis=axis, workers=self.threads)
         return into
 
     def real_inverse(self, spectrum: Field, spare: Field, axis: int) -> Field:
         """See `Transforms.real_inverse`."""
         length = spare.shape[axis]
-        return np.asarray(fft.irfft(spectrum, length, axis=axis, workers=self.threads))
+        return np.asarray(scipy.fft.irfft(spectrum, length, axis=axis, workers=self.threads))
 
     def complex_forward(self, field: Field, axis: int) -> Field:
         """See `Transforms.complex_forward`."""
-        return np.asarray(fft.fft(field, axis=axis, overwrite_x=True, workers=self.threads))
+        return np.asarray(scipy.fft.fft(field, axis=axis, overwrite_x=True, workers=self.threads))
 
     def complex_inverse(self, spectrum: Field, axis: int) -> Field:
         """See `Transforms.complex_inverse`."""
-        return np.asarray(fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.threads))
+        return np.asarray(
+            scipy.fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.threads)
+        )
 
     def cosine_forward(self, field: Field, axis: int) -> Field:
         """See `Transforms.cosine_forward`."""
-        return np.asarray(fft.dct(field, 2, axis=axis, overwrite_x=True, workers=self.threads))
+        return np.asarray(
+            scipy.fft.dct(field, 2, axis=axis, overwrite_x=True, workers=self.threads)
+        )
+
+    def even_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.even_forward`."""
+        return np.asarray(
+            scipy.fft.dct(field, 1, axis=axis, overwrite_x=True, workers=self.threads)
+        )
 
     def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
         """See `Transforms.cosine_inverse`."""
-        return np.asarray(fft.idct(spectrum, 2, axis=axis, overwrite_x=True, workers=self.threads))
+        return np.asarray(
+            scipy.fft.idct(spectrum, 2, axis=axis, overwrite_x=True, workers=self.threads)
+        )
 
 
 class DuccTransforms(Transforms):
@@ -143,6 +159,11 @@ class DuccTransforms(Transforms):
         ducc0.fft.dct(field, type=2, axes=(axis,), out=field, nthreads=self.threads)
         return field
 
+    def even_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.even_forward`."""
+        ducc0.fft.dct(field, type=1, axes=(axis,), out=field, nthreads=self.threads)
+        return field
+
     def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
         """See `Transforms.cosine_inverse`."""
         ducc0.fft.dct(spectrum, type=3, axes=(axis,), inorm=2, out=spectrum, nthreads=self.threads)
@@ -180,6 +201,29 @@ def transforms_by(name: str, threads: int = 1) -> Transforms:
     if ducc0 is None:
         raise ValueError("ducc0 is not installed; install it: pip install viscontact[fast]")
     return DuccTransforms(threads)
+
+
+def fast_length(least: int) -> int:
+    """Return the smallest length, from some number on, that real transforms are fast for.
+
+    Its prime factors are 2, 3 and 5, as those of ``scipy.fft.next_fast_len``.
+
+    Examples
+    --------
+    >>> fast_length(199)
+    200
+    """
+    length = least
+    while not _has_small_factors(length):
+        length += 1
+    return length
+
+
+def _has_small_factors(number: int) -> bool:
+    for factor in (2, 3, 5):
+        while number % factor == 0:
+            number //= factor
+    return number == 1
 
 
 def as_reals(spectrum: Field) -> Field:

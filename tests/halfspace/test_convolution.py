@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+import scipy
 
-from viscontact.fourier import as_reals, transforms_by
+from viscontact.fourier import as_reals, fast_length, transforms_by
 from viscontact.halfspace import line_blocks
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient, influence_table
@@ -164,3 +165,20 @@ def test_the_preconditioner_survives_any_unit(scale):
     (field,) = fields((16, 16))
     operator = Preconditioner((16, 16), (1.0, 1.0))
     assert operator.apply(scale * field) == pytest.approx(scale * operator.apply(field), rel=1e-5)
+
+
+def test_fast_lengths_are_those_of_scipy():
+    for least in [*range(1, 2000), 4097, 12_289, 100_001]:
+        assert fast_length(least) == scipy.fft.next_fast_len(least, real=True)
+
+
+@pytest.mark.parametrize("library", ["scipy", "ducc0"])
+def test_transform_of_an_even_field_is_its_cosine_sum(library):
+    if library == "ducc0":
+        pytest.importorskip("ducc0")
+    (half,) = fields((3, 9))
+    whole = np.concatenate([half, half[:, -2:0:-1]], axis=1)  # 0, 1, ... 8, 7, ... 1
+    angles = 2 * np.pi * np.outer(np.arange(9), np.arange(16)) / 16
+    expected = whole @ np.cos(angles).T
+    found = transforms_by(library).even_forward(half.copy(), 1)
+    assert np.abs(found - expected).max() < ROUNDING * np.abs(expected).max()

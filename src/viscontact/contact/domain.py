@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from viscontact.contact.cell_fields import is_even
 from viscontact.contact.response_parts import Operator, PartOperators
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
-from viscontact.fourier import Transforms, fastest_transforms, transforms_by
+from viscontact.fourier import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_table
@@ -419,7 +418,7 @@ def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
     extent = span.stop - span.start
     margin = max(3, int(np.ceil(PATCH_MARGIN * extent)))
     wanted = extent + (1 if one_sided else 2) * margin
-    length = min(int(fft.next_fast_len(wanted, real=True)), cells)
+    length = min(fast_length(wanted), cells)
     start = 0 if one_sided else (span.start + span.stop - length) // 2
     start = min(max(start, 0), cells - length)
     return slice(start, start + length)

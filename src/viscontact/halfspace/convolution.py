@@ -89,7 +89,7 @@ class Convolution:
         self._even, self._signed = mirrored, signed
         self._number = np.dtype(np.float32 if single else np.float64)
         complex_number = np.result_type(self._number, np.complex64)
-        symbol = kernel_spectrum(coefficients, self._lengths, mirrored, first, signed)
+        symbol = kernel_spectrum(coefficients, self._lengths, mirrored, first, transforms, signed)
         self._symbol = symbol.astype(self._number if signed is None else complex_number)
         kind = self._number if mirrored[first] else complex_number
         waves = symbol.shape[first]

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
+
+from viscontact.fourier import Transforms, fast_length
 
 #: Size of the lines that are transformed at once [bytes].
 BLOCK_BYTES = 2**22
@@ -21,7 +22,7 @@ def padded_length(cells: int, *, unpadded: bool, exact: bool) -> int:
     """
     if exact:
         return cells
-    return int(scipy.fft.next_fast_len(cells if unpadded else 2 * cells - 1, real=True))
+    return fast_length(cells if unpadded else 2 * cells - 1)
 
 
 def kernel_spectrum(
@@ -29,6 +30,7 @@ def kernel_spectrum(
     lengths: Sequence[int],
     mirrored: tuple[bool, bool],
     first: int,
+    transforms: Transforms,
     signed: int | None = None,
 ) -> NDArray[Any]:
     """Transform of a kernel, real if the kernel is even along both axes.
@@ -39,7 +41,9 @@ def kernel_spectrum(
     with the middle, of which the others are the mirror image; so along a signed one if it is
     transformed `first`, otherwise all.
 
-    >>> kernel_spectrum(np.array([[4.0], [1.0]]), (3, 1), (False, False), first=1).ravel().tolist()
+    >>> from viscontact.fourier import SciPyTransforms
+    >>> kernel, transforms = np.array([[4.0], [1.0]]), SciPyTransforms()
+    >>> kernel_spectrum(kernel, (3, 1), (False, False), 1, transforms).ravel().tolist()
     [6.0, 3.0]
     """
     spectrum: NDArray[Any] = coefficients
@@ -47,17 +51,26 @@ def kernel_spectrum(
         length, entries = lengths[axis], spectrum.shape[axis]
         lines = spectrum if axis == 1 else spectrum.T
         if axis == signed:
-            offsets = _signed_offsets(length, entries)
-            transform = scipy.fft.rfft if axis == first else scipy.fft.fft
-            found = transform(lines[:, offsets], axis=1)
+            signed_lines = lines[:, _signed_offsets(length, entries)]
+            found = (
+                _of_real_lines(signed_lines, transforms)
+                if axis == first
+                else transforms.complex_forward(signed_lines.astype(complex), 1)
+            )
         else:
-            found = _of_even_lines(lines, length, mirrored=mirrored[axis])
+            found = _of_even_lines(lines, length, transforms, mirrored=mirrored[axis])
         spectrum = found if axis == 1 else found.T
     return np.ascontiguousarray(spectrum)
 
 
+def _of_real_lines(lines: NDArray[np.float64], transforms: Transforms) -> NDArray[Any]:
+    """First half of the spectra of real lines, with the middle."""
+    count, length = lines.shape
+    return transforms.real_forward(lines, np.empty((count, length // 2 + 1), complex), 1)
+
+
 def _of_even_lines(
-    lines: NDArray[np.float64], length: int, *, mirrored: bool
+    lines: NDArray[np.float64], length: int, transforms: Transforms, *, mirrored: bool
 ) -> NDArray[np.float64]:
     """Transform of lines of even kernels, a block of lines at a time."""
     offsets = _distances(length, lines.shape[1], even=mirrored)
@@ -66,9 +79,9 @@ def _of_even_lines(
     for start in range(0, lines.shape[0], most):
         block = lines[start : start + most][:, offsets]
         found[start : start + most] = (
-            scipy.fft.dct(block, type=1, axis=1)[:, :length]
+            transforms.even_forward(block, 1)[:, :length]
             if mirrored
-            else scipy.fft.rfft(block, axis=1).real
+            else _of_real_lines(block, transforms).real
         )
     return found
 

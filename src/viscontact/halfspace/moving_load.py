@@ -25,8 +25,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
 import numpy as np
+import scipy  # its special functions are imported at their first use
 from numpy.typing import NDArray
-from scipy.special import ive
 
 from viscontact.halfspace.influence import influence_coefficient
 from viscontact.units.formatting import format_quantity
@@ -230,6 +230,6 @@ def _panel_weights(ratio: NDArray[np.float64], count: int) -> NDArray[np.float64
     a = np.minimum(ratio, RELAXED_RATIO)[:, None]
     _, weights, polynomials = SHORT if count == len(SHORT[0]) else LONG
     order = np.arange(count)
-    bessel = np.sqrt(np.pi / (2 * a)) * ive(order + 0.5, a)
+    bessel = np.sqrt(np.pi / (2 * a)) * scipy.special.ive(order + 0.5, a)
     coefficients = a * (2 * order + 1) * (-1.0) ** order * bessel
     return np.asarray(np.einsum("in,jn->ij", coefficients, polynomials) * weights)

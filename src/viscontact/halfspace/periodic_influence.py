@@ -22,8 +22,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy  # its special functions are imported at their first use
 from numpy.typing import NDArray
-from scipy.special import eval_legendre
 
 from viscontact.halfspace.influence import GAUSS_NODES, GAUSS_WEIGHTS, influence_coefficient
 
@@ -104,6 +104,10 @@ def _tail(
     found = -np.log((along + r) / datum) / period
     for order, factor in MIDDLE_FACTORS:
         # d^n/dx^n (1/r) = (-1)^n n! P_n(x/r) / r^(n+1)
-        derivative = -math.factorial(order) * eval_legendre(order, along / r) / r ** (order + 1)
+        derivative = (
+            -math.factorial(order)
+            * scipy.special.eval_legendre(order, along / r)
+            / r ** (order + 1)
+        )
         found += factor * period**order * derivative
     return np.asarray(found)

@@ -17,7 +17,6 @@ from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from viscontact.fourier import (
     Transforms,
@@ -219,5 +218,5 @@ class Spectra:
         """Waves per length along an axis, |q|/(2π), in the order of its transform [1/m]."""
         if axis in self._even:
             return np.arange(cells) / (2 * cells * edge)
-        frequencies = fft.rfftfreq if axis == self._fourier[0] else fft.fftfreq
+        frequencies = np.fft.rfftfreq if axis == self._fourier[0] else np.fft.fftfreq
         return np.asarray(frequencies(cells, edge))

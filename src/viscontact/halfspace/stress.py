@@ -14,6 +14,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.fourier import fast_length
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.halfspace.stress_influence import COMPONENTS
@@ -196,7 +197,7 @@ def _along_x(
     """Stress by a convolution along the section, circular along a period, summed across it."""
     cells = len(grid.x)
     # Zero-padded where there are no periodic images.
-    padded = cells if grid.periodic[0] else scipy.fft.next_fast_len(2 * cells - 1, real=True)
+    padded = cells if grid.periodic[0] else fast_length(2 * cells - 1)
     spectra = scipy.fft.rfft(pressure, padded, axis=1)
     found = np.empty((6, len(pressure), len(depths), cells))
     for index, depth in enumerate(np.maximum(depths, SURFACE * min(grid.cell_size)).tolist()):

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from scipy import fft
-
+from viscontact.fourier import fast_length
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
 from viscontact.meshing.contact_extent import MAX_CELLS
@@ -47,7 +46,7 @@ def _fast(least: int, cell: float) -> int:
     """A number of cells that suits the transforms and keeps the cell size to the bit."""
     count = least
     while True:
-        count = int(fft.next_fast_len(count, real=True))
+        count = fast_length(count)
         if cell * count / count == cell:
             return count
         count += 1

@@ -23,8 +23,8 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft
 
+from viscontact.fourier import fast_length
 from viscontact.grid import MESH_QUANTITIES
 from viscontact.meshing.trial_mesh import PEAK, ElasticContact, MeshTrial, try_mesh
 
@@ -195,5 +195,5 @@ def _growth(before: MeshTrial, now: MeshTrial) -> float:
 def good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:
     """Numbers of cells that are multiples of four, so halves are even, and fast to transform."""
     quarters = np.maximum(2, np.ceil(np.minimum(fewest, finest) / 4)).astype(int).tolist()
-    counts = [4 * int(fft.next_fast_len(quarter, real=True)) for quarter in quarters]
+    counts = [4 * fast_length(quarter) for quarter in quarters]
     return counts[0], counts[1]

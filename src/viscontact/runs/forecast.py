@@ -7,9 +7,9 @@ import time as clock
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
 
 from viscontact.accuracy.coarser_runs import usual_coarsening
+from viscontact.fourier import fast_length
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint, MixedHistory
 from viscontact.meshing.contact_place import locate_contact
@@ -123,9 +123,9 @@ def convolution_time(grid: Grid) -> float:
     """Duration of a plain zero-padded convolution [s], the unit of work of a run."""
     cells = grid.shape[0] * grid.shape[1]
     shrink = max(1.0, math.sqrt(cells / _TIMED_CELLS))
-    shape = [fft.next_fast_len(max(4, int(2 * n / shrink)), real=True) for n in grid.shape]
+    shape = [fast_length(max(4, int(2 * n / shrink))) for n in grid.shape]
     field = np.ones(shape)
-    fft.rfft2(field)  # plans and pages
+    np.fft.rfft2(field)  # plans and pages
     started = clock.perf_counter()
-    fft.irfft2(fft.rfft2(field), s=shape)
+    np.fft.irfft2(np.fft.rfft2(field), s=shape)
     return (clock.perf_counter() - started) * shrink**2

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.rim_crossings import MARGIN
+from viscontact.fourier import fast_length
 from viscontact.grid import Grid
 from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.meshing.contact_extent import MAX_CELLS
@@ -57,7 +57,7 @@ def _longer(cells: int, size: float) -> int:
     """A number of cells that suits the transforms and keeps the cell size to the bit."""
     wanted = math.ceil(FACTOR * cells)
     while True:
-        count = int(fft.next_fast_len(wanted, real=True))
+        count = fast_length(wanted)
         # Restarts and results then have the same cells, in however many enlargements.
         if (count - cells) % 2 == 0 and size * count / count == size:
             return count
