@@ -16,7 +16,8 @@ from viscontact.case.errors import KeyPath
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.motion import AnyMotion
-from viscontact.case.quantities import POSITIVE, Quantity, alternatives
+from viscontact.case.quantities import POSITIVE, Quantity
+from viscontact.case.section_choice import alternatives
 from viscontact.units.parsing import parse_quantity
 
 _LENGTH = Quantity("length", POSITIVE)

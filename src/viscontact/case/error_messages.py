@@ -21,7 +21,7 @@ from viscontact.case.materials.layers import AnyBody, Layer
 from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.motion import AnyMotion, SpeedRange
-from viscontact.case.quantities import alternatives
+from viscontact.case.section_choice import alternatives
 from viscontact.case.sections import CaseFile
 from viscontact.case.title_block import TitleBlock
 from viscontact.case.unknown_words import meanings, nearest_word, unknown_word

@@ -22,6 +22,7 @@ from viscontact.case.quantities import (
     Speed,
     SpeedCount,
 )
+from viscontact.case.section_choice import ChosenBy
 from viscontact.loads.motion import Motion
 from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.tables import read_rows, read_table
@@ -187,4 +188,4 @@ class Steady(MotionSection):
         return SteadyMotion(speeds, self.along, self.rolling)
 
 
-AnyMotion = Annotated[Travel | Reciprocating | Steady, Field(discriminator="kind")]
+AnyMotion = Annotated[Travel | Reciprocating | Steady, ChosenBy("kind")]

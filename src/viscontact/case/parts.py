@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from os import PathLike
 from pathlib import Path
 from typing import Any, TypeVar
@@ -20,10 +21,14 @@ from viscontact.loads import LoadHistory
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 
-_SHAPES: TypeAdapter[Any] = TypeAdapter(Shapes)
-_MATERIAL: TypeAdapter[Any] = TypeAdapter(AnyBody)
-_LOAD: TypeAdapter[Any] = TypeAdapter(AnyLoad)
-_TIME: TypeAdapter[Any] = TypeAdapter(Time)
+#: Kinds of the sections that are read here.
+_KINDS: dict[str, Any] = {
+    "indenter": Shapes,
+    "material": AnyBody,
+    "indenter_material": AnyBody,
+    "load": AnyLoad,
+    "time": Time,
+}
 
 _Object = TypeVar("_Object")
 
@@ -81,9 +86,9 @@ def read_parts(text: str, path: str | PathLike[str]) -> Parts:
     data = document_of(text, Path(path), confined=True).data
     context = {"folder": str(Path(path).parent), "confined": True}
 
-    def part(key: str, kind: TypeAdapter[Any], build: Callable[[Any], _Object]) -> _Object | None:
+    def part(key: str, build: Callable[[Any], _Object]) -> _Object | None:
         try:
-            return build(kind.validate_python(data.get(key), context=context))
+            return build(_adapter(key).validate_python(data.get(key), context=context))
         except ValueError:
             return None
 
@@ -92,9 +97,15 @@ def read_parts(text: str, path: str | PathLike[str]) -> Parts:
         return history
 
     return Parts(
-        part("indenter", _SHAPES, combined),
-        part("material", _MATERIAL, lambda found: found.built),
-        part("indenter_material", _MATERIAL, lambda found: found.built),
-        part("load", _LOAD, load),
-        part("time", _TIME, lambda found: float(found.end)),
+        part("indenter", combined),
+        part("material", lambda found: found.built),
+        part("indenter_material", lambda found: found.built),
+        part("load", load),
+        part("time", lambda found: float(found.end)),
     )
+
+
+@cache
+def _adapter(key: str) -> TypeAdapter[Any]:
+    """Reader of a section, built when it is first read."""
+    return TypeAdapter(_KINDS[key])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any
 
 from pydantic import (
     BaseModel,
@@ -161,14 +161,5 @@ GridTolerance = Annotated[
 class Section(BaseModel):
     """Section of a case file: unknown keys and implicit conversions are refused."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-
-def alternatives(union: Any) -> dict[str | int, type[BaseModel]]:
-    """Sections of a discriminated union by the values of the key that distinguishes them."""
-    sections, choice, *_ = get_args(union)
-    return {
-        name: section
-        for section in get_args(sections)
-        for name in get_args(section.model_fields[choice.discriminator].annotation)
-    }
+    # Built at first use: few of the sections occur in a case.
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, defer_build=True)

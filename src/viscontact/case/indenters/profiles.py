@@ -18,8 +18,8 @@ from viscontact.case.quantities import (
     Modulus,
     Offset,
     OpenAngle,
-    alternatives,
 )
+from viscontact.case.section_choice import ChosenBy, alternatives
 from viscontact.tables import read_line
 
 Ratio = Annotated[float, Field(gt=0, le=1)]
@@ -207,7 +207,7 @@ _Profiles = Annotated[
     | FujiwaraKawase
     | Iso16281
     | TabulatedLine,
-    Field(discriminator="kind"),
+    ChosenBy("kind"),
 ]
 
 

@@ -18,6 +18,7 @@ from viscontact.case.indenters.base import Shape
 from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.profiles import AnyProfile
 from viscontact.case.quantities import Length, LengthOrInfinite, OpenAngle
+from viscontact.case.section_choice import ChosenBy
 
 
 class Sphere(Shape):
@@ -128,7 +129,7 @@ AnyShape = Annotated[
     | more_shapes.Waviness
     | more_shapes.Dimples
     | HeightMap,
-    Field(discriminator="shape"),
+    ChosenBy("shape"),
 ]
 
 

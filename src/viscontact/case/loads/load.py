@@ -18,6 +18,7 @@ from viscontact.case.quantities import (
     Force,
     Offset,
 )
+from viscontact.case.section_choice import ChosenBy
 from viscontact.loads import LoadHistory
 from viscontact.loads.history import Control
 from viscontact.units.dimensions import DIMENSIONS
@@ -95,5 +96,5 @@ class Harmonic(Load):
 
 AnyLoad = Annotated[
     Step | Ramp | Triangle | Harmonic | History | Program,
-    Field(discriminator="kind"),
+    ChosenBy("kind"),
 ]

@@ -21,6 +21,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.material import AnyMaterial, Laws, OrName, from_library
 from viscontact.case.quantities import Length, Section
+from viscontact.case.section_choice import ChosenBy
 from viscontact.materials import library
 from viscontact.materials.layers import Layer as BuiltLayer
 from viscontact.materials.layers import Layered
@@ -204,6 +205,4 @@ def spelled_out(given: Any) -> Any:
 
 
 #: A material, or a body of layers.
-AnyBody = Annotated[
-    Annotated[Laws | Layers, Field(discriminator="law")], BeforeValidator(_with_law), OrName()
-]
+AnyBody = Annotated[Annotated[Laws | Layers, ChosenBy("law")], BeforeValidator(_with_law), OrName()]

@@ -30,6 +30,7 @@ from viscontact.case.materials.spring_laws import (
     Zener,
 )
 from viscontact.case.quantities import Section
+from viscontact.case.section_choice import ChosenBy
 from viscontact.laws import Law
 from viscontact.materials import library
 from viscontact.materials.material import Material
@@ -144,14 +145,12 @@ Laws = (
     | LawFile
 )
 
-AnyMaterial = Annotated[
-    Annotated[Laws, Field(discriminator="law")], BeforeValidator(from_library), OrName()
-]
+AnyMaterial = Annotated[Annotated[Laws, ChosenBy("law")], BeforeValidator(from_library), OrName()]
 
 
 class MaterialAlone(Section):
     """Case file of which only the material is read."""
 
-    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
+    model_config = ConfigDict(extra="ignore", frozen=True, strict=True, defer_build=True)
 
     material: AnyMaterial

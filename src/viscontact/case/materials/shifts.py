@@ -11,6 +11,7 @@ from pydantic import Field
 from viscontact import laws
 from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import MolarEnergy, Temperature, TemperatureDifference
+from viscontact.case.section_choice import ChosenBy
 from viscontact.tables import read_table
 
 
@@ -66,4 +67,4 @@ class Factors(Rule):
             raise ValueError(f"shift.file: {error}") from error
 
 
-AnyShift = Annotated[Wlf | Arrhenius | Factors, Field(discriminator="kind")]
+AnyShift = Annotated[Wlf | Arrhenius | Factors, ChosenBy("kind")]
