@@ -17,7 +17,7 @@ from fuzzing.cards import cards
 from fuzzing.case_files import case_texts, cases, flow_of
 from fuzzing.tables import tables
 from fuzzing.watch import Tally, command, contents, refused_or, refuses
-from viscontact.runs.execution.checked_run import prepare
+from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.forecast import forecast
 
 #: Runs that would take longer are checked only [s].

@@ -7,6 +7,7 @@ import os
 from collections.abc import Sequence
 from contextlib import suppress
 
+from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, CommandError, say
 from viscontact.cli.terminal.streams import occupy_streams, remember_output, unwritten
@@ -47,11 +48,13 @@ def _watched(arguments: Sequence[str] | None) -> int:
 
 
 def limit_libraries() -> None:
-    """Limit the libraries of linear algebra to one thread, before NumPy is imported."""
+    """Limit linear algebra to one thread, and pydantic to itself, before they are imported."""
     # Inner products over a contact are too short for several threads: up to ten times slower on a
     # busy machine. NumPy reads these variables when it is imported.
     for library in ("OPENBLAS", "MKL", "OMP", "BLIS"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    # Pydantic would read the metadata of all installed packages to find its plugins.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
 
 
 def _exit_code(typed: list[str] | None, interruption: Interruption) -> int:
@@ -59,8 +62,10 @@ def _exit_code(typed: list[str] | None, interruption: Interruption) -> int:
         return _lacks_memory()
     try:
         # An import that is interrupted may end in any error.
-        with interruption.postponed():
-            from viscontact.cli.shell import command
+        with interruption.postponed(), quick_imports():
+            from viscontact.cli.shell import command_for
+
+            command = command_for(typed)
         return int(command(typed, prog_name="viscontact", standalone_mode=False) or 0)
     except KeyboardInterrupt:
         return _interrupted(interruption)

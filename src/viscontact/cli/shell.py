@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from functools import cache
+from typing import Annotated, Any
 
 import typer
 
@@ -19,15 +22,7 @@ from viscontact.cli.commands.serving import serve
 from viscontact.cli.commands.showing import export, report, show, verify
 from viscontact.cli.commands.sweeps import collect, status
 
-app = typer.Typer(
-    name="viscontact",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
-    context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Start with: viscontact demo",
-)
-
+#: Functions of the commands, each with an example.
 _COMMANDS = (
     (demo, "viscontact demo"),
     (example, "viscontact example roller-dogbone -o my.yaml"),
@@ -57,8 +52,7 @@ _COMMANDS = (
     (doctor, "viscontact doctor"),
     (cite, "viscontact cite --bibtex"),
 )
-for _command, _example in _COMMANDS:
-    app.command(epilog=f"Example:  {_example}")(_command)
+_NAMES = {each.__name__: (each, words) for each, words in _COMMANDS}
 
 
 def _print_version(wanted: bool) -> None:
@@ -67,7 +61,6 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def viscontact(
     version: Annotated[
         bool,
@@ -79,5 +72,40 @@ def viscontact(
     """Simulate the contact of a body with a viscoelastic half-space over time."""
 
 
-#: Click command; calling `app` would build it again each time.
-command = typer.main.get_command(app)
+def _application(commands: Iterable[tuple[Callable[..., None], str]]) -> typer.Typer:
+    """Typer application with some of the commands."""
+    application = typer.Typer(
+        name="viscontact",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode="rich",
+        context_settings={"help_option_names": ["-h", "--help"]},
+        epilog="Start with: viscontact demo",
+    )
+    application.callback()(viscontact)
+    for each, words in commands:
+        application.command(epilog=f"Example:  {words}")(each)
+    return application
+
+
+#: All commands.
+app = _application(_COMMANDS)
+
+
+def command_for(words: Sequence[str] | None) -> Any:
+    """Click command that runs some words, by default those of the process.
+
+    If they begin with the name of a command, it has that command only: to build the options of all
+    of them takes a tenth of a second.
+
+    >>> list(command_for(["show", "run"]).commands)
+    ['show']
+    """
+    first, *_ = [*(sys.argv[1:] if words is None else words), ""]
+    return _built(first if first in _NAMES else None)
+
+
+@cache
+def _built(name: str | None) -> Any:
+    """Click command with one command, or with all of them; calling `app` would build it again."""
+    return typer.main.get_command(app if name is None else _application([_NAMES[name]]))

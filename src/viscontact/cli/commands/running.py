@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.commands.drawing import Width
+from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.log import logged
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, stop
@@ -163,7 +164,7 @@ def run(
         with watched_interruption() as interruption, logged(verbose):
             # An import that is interrupted may end in any error: the request waits for its end.
             if is_single:
-                with interruption.postponed():
+                with interruption.postponed(), quick_imports():
                     from viscontact.cli.run.execution import execute
                 execute(common)
                 return
@@ -213,8 +214,9 @@ def check(
     verbose: Verbose = 0,
 ) -> None:
     """Check a case, and estimate its size, its computing time and its results."""
-    from viscontact.cli.run.check import print_forecast
-    from viscontact.runs.execution.checked_run import prepare
+    with quick_imports():
+        from viscontact.cli.run.check import print_forecast
+        from viscontact.runs.execution.prepared_case import prepare
 
     if figure is not None and not plot:
         refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 
@@ -23,8 +24,9 @@ def show(
     ] = False,
 ) -> None:
     """Print the history of a run as a table."""
-    from viscontact.cli.results.history_table import print_history
-    from viscontact.cli.results.stored import opened
+    with quick_imports():
+        from viscontact.cli.results.history_table import print_history
+        from viscontact.cli.results.stored import opened
 
     with opened(directory) as ds:
         print_history(ds, everything=everything, errors=errors)

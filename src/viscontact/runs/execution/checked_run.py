@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from viscontact.case import CaseError, read_case
 from viscontact.case.filing import case_attributes
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock_check import LockCheck
@@ -16,9 +14,10 @@ from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorded_curve import RecordedCurve
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.ending import refuse
+from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory
-from viscontact.runs.preparation import PreparedRun, prepared
+from viscontact.runs.preparation import PreparedRun
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
 from viscontact.steady.preparation import SteadySetup
@@ -64,24 +63,6 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
         else RecordedRun(directory, found.run, **about)
     )
     return CheckedRun(request, found, recorded)
-
-
-def prepare(
-    path: Path,
-    settings: Sequence[str],
-    threads: int = 1,
-    memory: float | None = None,
-    *,
-    roughly: bool = False,
-) -> PreparedRun:
-    """Read a case and check everything that can be checked before the first step.
-
-    It may need some memory [bytes]; by default what is free. `roughly` as in `prepared`.
-    """
-    try:
-        return prepared(read_case(path, settings), threads, memory, roughly=roughly)
-    except CaseError as error:
-        refuse(*error.problems)
 
 
 def directory_of(request: RunRequest) -> Path:

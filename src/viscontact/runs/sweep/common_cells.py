@@ -17,7 +17,7 @@ import numpy as np
 
 from viscontact.case import read_case
 from viscontact.runs import resources
-from viscontact.runs.execution.checked_run import prepare
+from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.sweep.designs import Design
 from viscontact.runs.sweep.extremes import extreme_rows
