@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-
-import xarray as xr
+from typing import TYPE_CHECKING
 
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS
 from viscontact.units.formatting import ReadableUnit, format_number, format_quantity, readable_unit
+
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
 
 #: Significant digits of an error that are worth printing (GUM, 7.2.6); of a number in a table;
 #: and of any number, whatever its error.
@@ -72,7 +74,7 @@ def format_with_error_in(unit: ReadableUnit, value: float, error: float) -> str:
     return f"{format_supported(number, half_width, _MOST_DIGITS)} {bar}"
 
 
-def format_scalar(ds: xr.Dataset, name: str, index: int) -> str:
+def format_scalar(ds: Result, name: str, index: int) -> str:
     """Format a scalar of a result at an instant, with its error and unit."""
     error = float(errors_of(ds, name)[index])
     return format_with_error(float(ds[name][index]), error, SCALARS[name].units)

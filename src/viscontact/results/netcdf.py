@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import xarray as xr
 
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
-from viscontact.run_files import RESULT_NAME
+from viscontact.results.stored_result import opened_file
 
 
 def save(ds: xr.Dataset, path: str | Path) -> None:
@@ -62,22 +63,4 @@ def open_results(path: str | Path) -> xr.Dataset:
     ...         stored.force.dims
     ('time',)
     """
-    file = Path(path)
-    # Absolute: else "~", a blank in front or "file:" mean something of their own to the reader.
-    file = (file / RESULT_NAME if file.is_dir() else file).absolute()
-    if not file.is_file():
-        raise FileNotFoundError(f"no result at {path}")
-    while True:
-        before = _marks(file)
-        try:
-            return xr.open_dataset(file, engine="netcdf4")
-        except (OSError, ValueError) as error:
-            # A running run may have replaced the file at this very moment.
-            if _marks(file) == before:
-                raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
-
-
-def _marks(file: Path) -> tuple[int, int]:
-    """Identity of a file's content: device, inode, size and time of change."""
-    found = file.stat()
-    return found.st_ino, found.st_mtime_ns
+    return opened_file(path, partial(xr.open_dataset, engine="netcdf4"))

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any, Literal
 
 from viscontact.grid import Grid
 from viscontact.results.descriptions import STORED_CLASSES, parse_case, rebuild
 from viscontact.units.axis_flags import AxisFlags
 
+if TYPE_CHECKING:
+    import xarray as xr
 
-def case_of(ds: xr.Dataset) -> dict[str, Any]:
+    from viscontact.results.stored_result import Result
+
+
+def case_of(ds: Result) -> dict[str, Any]:
     """The case that a result keeps, not to be changed; empty where it keeps none."""
     try:
         return parse_case(str(ds.attrs.get("case", "")))
@@ -19,7 +22,7 @@ def case_of(ds: xr.Dataset) -> dict[str, Any]:
         return {}
 
 
-def is_layered(results: xr.Dataset, part: str = "material") -> bool:
+def is_layered(results: Result, part: str = "material") -> bool:
     """True if a body of a result, the pressed one or the half-space, has layers."""
     return (case_of(results).get(part) or {}).get("type") == "Layered"
 
@@ -27,6 +30,7 @@ def is_layered(results: xr.Dataset, part: str = "material") -> bool:
 def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float:
     """Poisson's ratio [-] of a half-space that a result belongs to.
 
+    >>> import xarray as xr
     >>> ball = {"case": '{"indenter_material": null}'}
     >>> recorded_poisson_ratio(xr.Dataset(attrs=ball), "indenter_material")
     Traceback (most recent call last):
@@ -47,7 +51,7 @@ def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float
     raise ValueError("the result does not contain Poisson's ratio; give poisson_ratio=")
 
 
-def recorded_grid(results: xr.Dataset) -> Grid:
+def recorded_grid(results: Result) -> Grid:
     """Grid of a result: shape, size and centre from its coordinates, periodic as in its case.
 
     The length of a single cell, which coordinates do not show, is that of the case.
@@ -63,9 +67,10 @@ def recorded_grid(results: xr.Dataset) -> Grid:
     return Grid((x.size, y.size), (along, across), periodic, centre=centre)
 
 
-def across_period(results: xr.Dataset) -> Literal["x", "y"] | None:
+def across_period(results: Result) -> Literal["x", "y"] | None:
     """Axis across the only one along which a result's grid is periodic, None if there is no such.
 
+    >>> import xarray as xr
     >>> across_period(xr.Dataset(attrs={"case": '{"grid": {"periodic": [true, false]}}'}))
     'y'
     """
@@ -73,23 +78,24 @@ def across_period(results: xr.Dataset) -> Literal["x", "y"] | None:
     return None if periodic[0] == periodic[1] else "y" if periodic[0] else "x"
 
 
-def prescribes_approach(ds: xr.Dataset) -> bool:
+def prescribes_approach(ds: Result) -> bool:
     """True if the load of a run prescribes the approach, so that the force is computed."""
     load = case_of(ds).get("load") or {}
     kind = STORED_CLASSES.get(load.get("type", ""))
     return bool(load.get("control", getattr(kind, "control", "force")) == "approach")
 
 
-def has_mixed_control(ds: xr.Dataset) -> bool:
+def has_mixed_control(ds: Result) -> bool:
     """True if the load of a run prescribes the force on some segments, the approach on others."""
     load = case_of(ds).get("load") or {}
     kind = STORED_CLASSES.get(load.get("type", ""))
     return getattr(kind, "control", "") == "mixed"
 
 
-def is_prescribed(ds: xr.Dataset, name: str) -> bool:
+def is_prescribed(ds: Result, name: str) -> bool:
     """True if the load of a run prescribes a scalar, so that it has no error.
 
+    >>> import xarray as xr
     >>> case = '{"load": {"type": "ForceHistory", "tilt_x": [0.0], "tilt_y": null}}'
     >>> ds = xr.Dataset(attrs={"case": case})
     >>> [is_prescribed(ds, name) for name in ("force", "approach", "tilt_x", "tilt_y")]

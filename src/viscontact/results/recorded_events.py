@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray as xr
+
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
 
 
 class RecordedEvent(NamedTuple):
@@ -15,9 +17,10 @@ class RecordedEvent(NamedTuple):
     text: str  # instant, condition and error, in words
 
 
-def recorded_events(ds: xr.Dataset) -> list[RecordedEvent]:
+def recorded_events(ds: Result) -> list[RecordedEvent]:
     """Return the events of a result in their order; none for other loads than programs.
 
+    >>> import xarray as xr
     >>> about = {"events": "218 ms: force reaches 50 mN", "event_times": 0.218}
     >>> recorded_events(xr.Dataset(attrs=about))
     [RecordedEvent(time=0.218, text='218 ms: force reaches 50 mN')]

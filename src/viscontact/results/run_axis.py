@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.units.formatting import format_quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from viscontact.results.stored_result import Result
 
 
 @dataclass(frozen=True)
@@ -27,7 +31,7 @@ class RunAxis:
     row: str  # name of a state in sentences
     symbol: str  # before a value
 
-    def values(self, results: xr.Dataset) -> NDArray[np.float64]:
+    def values(self, results: Result) -> NDArray[np.float64]:
         """Instants [s] or speeds [m/s] of a result."""
         return np.asarray(results[self.name].values, dtype=np.float64)
 
@@ -44,11 +48,12 @@ TIME = RunAxis("time", "s", "instant", "t = ")
 SPEED = RunAxis("speed", "m/s", "speed", "")
 
 
-def run_axis(results: xr.Dataset) -> RunAxis:
+def run_axis(results: Result) -> RunAxis:
     """Return the axis of a result.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> run_axis(xr.Dataset({"force": ("speed", [1.0])})).row
     'speed'
     """
@@ -60,6 +65,7 @@ def in_order(results: xr.Dataset) -> xr.Dataset:
 
     Examples
     --------
+    >>> import xarray as xr
     >>> fast_first = xr.Dataset({"force": ("speed", [1.0, 2.0])}, {"speed": [3.0, 0.5]})
     >>> in_order(fast_first)["force"].values.tolist()
     [2.0, 1.0]
@@ -76,6 +82,7 @@ def require_time(results: xr.Dataset, figure: str) -> None:
 
     Examples
     --------
+    >>> import xarray as xr
     >>> require_time(xr.Dataset({"force": ("speed", [1.0])}), "history")
     Traceback (most recent call last):
     ...
@@ -96,6 +103,7 @@ def law_times(results: xr.Dataset) -> NDArray[np.float64]:
 
     Examples
     --------
+    >>> import xarray as xr
     >>> passed = {"contact_width": ("speed", [0.02, 0.01])}
     >>> law_times(xr.Dataset(passed, {"speed": [1.0, 2.0]}, {"along": "y"})).tolist()
     [0.005, 0.02]

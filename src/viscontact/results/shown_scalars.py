@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 
 from viscontact.results.recorded_case import across_period, recorded_grid
 from viscontact.results.variables import SCALARS, Place, shown_in
+
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
 
 #: Length of the contact over its width from which the line load is of use, as for rollers.
 LONG = 3.0
@@ -18,13 +22,14 @@ OF_LONG_CONTACTS = ("peak_line_load",)
 WITH_DATUM = ("approach", "work", "loss_per_cycle", "dissipation", "heat")
 
 
-def is_long(ds: xr.Dataset) -> bool:
+def is_long(ds: Result) -> bool:
     """Test for a contact that is at least three widths long along x when it is largest.
 
     One that continues through the only period of a grid has no end.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> sizes = {"contact_area": [0.0, 5.0], "contact_length": [0.0, 6.0]}
     >>> run = xr.Dataset({name: ("time", each) for name, each in sizes.items()})
     >>> [is_long(run.assign(contact_width=("time", [0.0, width]))) for width in (1.0, 3.0)]
@@ -37,18 +42,19 @@ def is_long(ds: xr.Dataset) -> bool:
     return length >= LONG * width > 0
 
 
-def is_shown(ds: xr.Dataset, name: str) -> bool:
+def is_shown(ds: Result, name: str) -> bool:
     """Test for a scalar that a result has and that is of use for it."""
     if name not in ds or (name in WITH_DATUM and lacks_datum(ds)):
         return False
     return name not in OF_LONG_CONTACTS or is_long(ds)
 
 
-def lacks_datum(ds: xr.Dataset) -> bool:
+def lacks_datum(ds: Result) -> bool:
     """Test for a line contact, whose approach has no datum.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> [lacks_datum(xr.Dataset({"approach": ("time", [one])})) for one in (np.nan, 1e-6)]
     [True, False]
     """
@@ -56,11 +62,11 @@ def lacks_datum(ds: xr.Dataset) -> bool:
     return bool(approach.size and np.isnan(approach).all())
 
 
-def shown_scalars(ds: xr.Dataset, place: Place) -> list[str]:
+def shown_scalars(ds: Result, place: Place) -> list[str]:
     """Names of the scalars of a result that are shown in a place, in its order."""
     return [name for name in shown_in(place, ds) if is_shown(ds, name)]
 
 
-def shown_labels(ds: xr.Dataset, place: Place) -> dict[str, str]:
+def shown_labels(ds: Result, place: Place) -> dict[str, str]:
     """Labels of the scalars of a result that are shown in a place, by their names."""
     return {name: SCALARS[name].label for name in shown_scalars(ds, place)}

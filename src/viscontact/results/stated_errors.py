@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
+
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
 
 #: In place of its curve over time.
 NOT_DRAWN = "not drawn: smaller cells give more"
@@ -26,13 +29,14 @@ _ROUNDING_RESISTANCE = 1e-9
 _USUAL_STRAIN = 1e-3
 
 
-def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
+def stated_error(results: Result, name: str) -> NDArray[np.float64] | None:
     """Half widths of the error bars of a scalar over time, in its unit; None if none are stated.
 
     NaN where the error is not known, inf where the value depends on the mesh.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> run = xr.Dataset({"approach": ("time", [1e-5]), "approach_error": ("time", [1e-7])})
     >>> stated_error(run, "approach"), stated_error(run, "force")
     (array([1.e-07]), None)
@@ -41,17 +45,18 @@ def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
     return np.asarray(results[error].values, dtype=np.float64) if error in results else None
 
 
-def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:
+def errors_of(ds: Result, name: str) -> NDArray[np.float64]:
     """Errors of a scalar over time, NaN at all instants if the result states none."""
     error = stated_error(ds, name)
     return np.full(ds.sizes[run_axis(ds).name], np.nan) if error is None else error
 
 
-def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
+def mesh_dependent(results: Result, name: str) -> NDArray[np.bool_]:
     """Instants at which a scalar depends on the mesh, as booleans.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> run = xr.Dataset({"force": ("time", [1.0, 2.0]), "force_error": ("time", [0.0, np.inf])})
     >>> mesh_dependent(run, "force").tolist()
     [False, True]
@@ -64,13 +69,14 @@ def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
     )
 
 
-def drawn_values(results: xr.Dataset, name: str) -> NDArray[np.float64]:
+def drawn_values(results: Result, name: str) -> NDArray[np.float64]:
     """Values of a scalar for a curve over time: NaN where it depends on the mesh.
 
     All are NaN if only zeros, as without contact, would remain.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> peak = {"p": ("time", [0.0, 2.0, 3.0]), "p_error": ("time", [0.0, np.inf, 0.1])}
     >>> drawn_values(xr.Dataset(peak), "p"), drawn_values(xr.Dataset(peak).isel(time=[0, 1]), "p")
     (array([ 0., nan,  3.]), array([nan, nan]))
@@ -81,7 +87,7 @@ def drawn_values(results: xr.Dataset, name: str) -> NDArray[np.float64]:
     return drawn if not marked.any() or np.any(drawn > 0) else np.full(values.shape, np.nan)
 
 
-def lacks_curve(results: xr.Dataset, name: str) -> bool:
+def lacks_curve(results: Result, name: str) -> bool:
     """Test for a scalar whose values all depend on the mesh, or are zero without contact."""
     marked = mesh_dependent(results, name)
     return bool(marked.any() and np.isnan(drawn_values(results, name)).all())
@@ -97,11 +103,12 @@ class LargestError:
     place: float  # first instant [s] or speed [m/s] of this error; NaN if unknown
 
 
-def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
+def largest_error(ds: Result, name: str) -> LargestError | None:
     """Return the largest error bar of a scalar.
 
     Examples
     --------
+    >>> import xarray as xr
     >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
     >>> largest_error(xr.Dataset(force, {"time": [0.0, 1.0]}), "force")
     LargestError(half_width=0.1, part=0.025, unknown=1, place=0.0)
@@ -120,7 +127,7 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
     return LargestError(half_width, part, unknown, float(ds[run_axis(ds).name][at]))
 
 
-def is_rounding(ds: xr.Dataset, name: str) -> bool:
+def is_rounding(ds: Result, name: str) -> bool:
     """Test for a scalar that is zero throughout, or of rounding size.
 
     Tilts and eccentricities under a centred load are, and the resistance across the motion.
@@ -131,7 +138,7 @@ def is_rounding(ds: xr.Dataset, name: str) -> bool:
     return largest == 0.0 or largest <= _rounding_of_motion(ds, name)
 
 
-def _rounding_of_motion(ds: xr.Dataset, name: str) -> float:
+def _rounding_of_motion(ds: Result, name: str) -> float:
     """Largest rounding of a scalar of the motion, in its unit; 0 for other scalars."""
     if name.startswith("resistance"):
         return _ROUNDING_RESISTANCE * _largest(ds["force"].values)
@@ -143,7 +150,7 @@ def _rounding_of_motion(ds: xr.Dataset, name: str) -> float:
     return 0.0
 
 
-def is_centred(ds: xr.Dataset, name: str) -> bool:
+def is_centred(ds: Result, name: str) -> bool:
     """Test for a tilt or an eccentricity of rounding size, as a centred load leaves."""
     if name.startswith("tilt"):
         length = ds["contact_length"].values

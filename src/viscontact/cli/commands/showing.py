@@ -26,10 +26,10 @@ def show(
     """Print the history of a run as a table."""
     with quick_imports():
         from viscontact.cli.results.history_table import print_history
-        from viscontact.cli.results.stored import opened
+        from viscontact.cli.results.stored import opened_history
 
-    with opened(directory) as ds:
-        print_history(ds, everything=everything, errors=errors)
+    with opened_history(directory) as found:
+        print_history(found, directory, everything=everything, errors=errors)
 
 
 def export(
@@ -50,7 +50,7 @@ def export(
     ] = None,
 ) -> None:
     """Write the history of a run as CSV or XLSX, in SI units."""
-    from viscontact.cli.results.history_table import write_table
+    from viscontact.cli.results.history_file import write_table
     from viscontact.cli.results.stored import opened
 
     if output is not None and output.suffix.lower() in (".nc", ".xls", ".ods"):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from viscontact.results.formatting import format_bound
 from viscontact.results.run_axis import run_axis
@@ -15,11 +15,14 @@ from viscontact.results.stated_errors import (
 )
 from viscontact.results.variables import MESH_DEPENDENT, error_name
 
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
+
 #: First words of the description of an exact hereditary integral, which needs no line.
 _EXACT = "recursion, exact"
 
 
-def accuracy_lines(ds: xr.Dataset) -> Iterator[str]:
+def accuracy_lines(ds: Result) -> Iterator[str]:
     """Yield lines about errors of the time integration, the layers and the law."""
     memory = str(ds.attrs.get("memory", ""))
     inversion_error = float(ds.attrs.get("inversion_error", 0.0))
@@ -37,7 +40,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[str]:
         )
 
 
-def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
+def mesh_lines(ds: Result, names: Iterable[str]) -> Iterator[str]:
     """Yield the meaning of the mark ``>``, where a scalar has it."""
     found = {name: largest_error(ds, name) for name in names}
     marked = [name for name, each in found.items() if each and np.isposinf(each.half_width)]
@@ -47,7 +50,7 @@ def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
         yield f"> {listed} {verb}: {WHY_MESH_DEPENDENT}"
 
 
-def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
+def unknown_lines(ds: Result, names: Sequence[str]) -> Iterator[str]:
     """Yield a line about scalars whose errors are unknown at some instants."""
     axis = run_axis(ds)
     count = ds.sizes[axis.name]
@@ -63,12 +66,12 @@ def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
         yield f"error not known: {', '.join(unknown)} {axis.row}s"
 
 
-def knows_errors(ds: xr.Dataset, names: Iterable[str]) -> bool:
+def knows_errors(ds: Result, names: Iterable[str]) -> bool:
     """Return whether the error of any of these scalars is known at any instant."""
     found = (largest_error(ds, name) for name in names)
     return any(each is not None and not np.isnan(each.half_width) for each in found)
 
 
-def has_errors(ds: xr.Dataset) -> bool:
+def has_errors(ds: Result) -> bool:
     """Return whether a result states errors of its scalars."""
     return any(error_name(str(name)) in ds for name in ds.data_vars)

@@ -1,16 +1,13 @@
-"""History of a run as a table and as CSV."""
+"""History of a run as a table."""
 
 from __future__ import annotations
 
-import io
-import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from rich.box import SIMPLE, SIMPLE_HEAD
 from rich.console import Console
@@ -25,24 +22,21 @@ from viscontact.cli.results.accuracy import (
     unknown_lines,
 )
 from viscontact.cli.results.stored import early_end
-from viscontact.cli.results.verdict_lines import verdict_lines
 from viscontact.cli.terminal.messages import refuse
-from viscontact.results.contact_spots import last_spots
 from viscontact.results.formatting import format_error, format_percent, format_supported
-from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import SPEED, TIME, run_axis
+from viscontact.results.single_spot import ends_in_one_spot
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
-from viscontact.results.variables import AXES, SCALARS, Place, shown_in
-from viscontact.tables.workbook import write_csv_or_workbook
+from viscontact.results.stored_result import StoredResult
+from viscontact.results.variables import ALLOWABLE, AXES, SCALARS, Place, shown_in
 from viscontact.units.formatting import (
     format_number,
     format_quantity,
     readable_unit,
     without_trailing_zeros,
 )
-from viscontact.units.parsing import parse_quantity
 
 _ROWS = 20
 _FRICTION = "friction_coefficient"
@@ -51,7 +45,9 @@ _FRICTION = "friction_coefficient"
 _GAP, _TO_SPARE = 2, 8
 
 
-def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
+def print_history(
+    ds: StoredResult, directory: Path, *, everything: bool = False, errors: bool = False
+) -> None:
     """Print scalars over time or speed in readable units, with their errors if requested."""
     if errors and not has_errors(ds):
         refuse("--errors: the result states none; it is older, or was run with errors: false")
@@ -69,19 +65,37 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
         console.print(f"{len(rows)} of {count} {axis.row}s; --all shows every one")
     for line in _footers(ds, shown, errors=errors):
         console.print(line, highlight=False)
-    if spots := last_spots(ds):
-        console.print(spots.text, highlight=False, soft_wrap=True)
+    if not ends_in_one_spot(ds):
+        _print_spots(console, directory)
     for event in recorded_events(ds):
         console.print(f"event at {event.text}", highlight=False, soft_wrap=True)
-    for line in verdict_lines(ds):
-        console.print(line, highlight=False)
+    if ALLOWABLE in ds.attrs:
+        _print_verdicts(console, directory)
     if ended := early_end(ds):
         console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)
     for line in str(ds.attrs.get("warnings", "")).splitlines():
         console.print(f"[yellow]warning:[/] {line}")
 
 
-def _shown(ds: xr.Dataset) -> list[str]:
+def _print_spots(console: Console, directory: Path) -> None:
+    from viscontact.results.contact_spots import last_spots
+    from viscontact.results.netcdf import open_results
+
+    with open_results(directory) as ds:
+        if spots := last_spots(ds):
+            console.print(spots.text, highlight=False, soft_wrap=True)
+
+
+def _print_verdicts(console: Console, directory: Path) -> None:
+    from viscontact.cli.results.verdict_lines import verdict_lines
+    from viscontact.results.netcdf import open_results
+
+    with open_results(directory) as ds:
+        for line in verdict_lines(ds):
+            console.print(line, highlight=False)
+
+
+def _shown(ds: StoredResult) -> list[str]:
     """Scalars of the table; over speed with the friction, and without a constant force."""
     shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
     if run_axis(ds) is TIME:
@@ -91,36 +105,7 @@ def _shown(ds: xr.Dataset) -> list[str]:
     return [*friction, *(name for name in shown if name not in left_out)]
 
 
-def write_table(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ()) -> None:
-    """Write all scalars in SI units, one row per instant or speed, and the pressure at points.
-
-    As CSV, or as a workbook where the name of the file ends in ``.xlsx``.
-    """
-    written = io.StringIO()
-    try:
-        write_history(ds, written, [_point(text) for text in points])
-    except ValueError as error:
-        refuse(f"--point: {error}")
-    if output is None:
-        sys.stdout.write(written.getvalue())
-        return
-    try:
-        with output.open("wb") as file:
-            write_csv_or_workbook(file, written.getvalue(), output)
-    except (OSError, ValueError) as error:
-        refuse(f"{output}: cannot be written: {error}")
-
-
-def _point(text: str) -> tuple[float, float]:
-    """Read a point, ``X,Y`` with units; ValueError names the fault."""
-    parts = text.split(",")
-    if len(parts) != 2:
-        raise ValueError(f"write X,Y with units, as '1 mm,0 mm', got {text!r}")
-    x, y = (parse_quantity(part, "length") for part in parts)
-    return x, y
-
-
-def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:
+def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[str]:
     """Lines about the loss per cycle and about errors."""
     if run_axis(ds) is SPEED and not prescribes_approach(ds):
         yield f"force: {format_quantity(float(ds['force'][0]), 'N')} at each speed"
@@ -147,12 +132,12 @@ def _spread(count: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, count - 1, min(_ROWS, count)).round().astype(int))
 
 
-def _loss_error(ds: xr.Dataset) -> str:
+def _loss_error(ds: StoredResult) -> str:
     found = largest_error(ds, "loss_per_cycle")
     return f", within {format_percent(found.part)}" if found and np.isfinite(found.part) else ""
 
 
-def _largest(ds: xr.Dataset, name: str) -> float:
+def _largest(ds: StoredResult, name: str) -> float:
     return float(np.nanmax(np.abs(ds[name].values), initial=0.0))
 
 
@@ -172,7 +157,7 @@ class _Column:
 
 
 def _columns(
-    ds: xr.Dataset, names: list[str], rows: NDArray[np.int_], *, errors: bool
+    ds: StoredResult, names: list[str], rows: NDArray[np.int_], *, errors: bool
 ) -> list[_Column]:
     columns, axis = [], run_axis(ds)
     for name in names:
@@ -187,7 +172,7 @@ def _columns(
     return columns
 
 
-def _table(ds: xr.Dataset, columns: list[_Column], *, narrow: bool) -> Table:
+def _table(ds: StoredResult, columns: list[_Column], *, narrow: bool) -> Table:
     stated = any(column.foot not in ("", format_error(np.nan)) for column in columns[1:])
     # Narrow enough for nine columns on eighty characters.
     table = Table(
@@ -207,7 +192,7 @@ def _table(ds: xr.Dataset, columns: list[_Column], *, narrow: bool) -> Table:
 
 
 def _cells(
-    ds: xr.Dataset, name: str, rows: NDArray[np.int_], factor: float, *, errors: bool
+    ds: StoredResult, name: str, rows: NDArray[np.int_], factor: float, *, errors: bool
 ) -> list[str]:
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
     if name in AXES:

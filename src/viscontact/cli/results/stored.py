@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-
-import xarray as xr
+from typing import TYPE_CHECKING, TypeVar
 
 from viscontact.cli.terminal.messages import refuse
-from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import case_of
 from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.stored_result import Result, StoredResult, stored_result
 from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
 from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
@@ -20,12 +19,32 @@ from viscontact.runs.directory.progress_log import progress_made
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
 
+if TYPE_CHECKING:
+    import xarray as xr
+
+_Result = TypeVar("_Result", bound=Result)
+
 
 @contextmanager
 def opened(path: Path) -> Iterator[xr.Dataset]:
     """Open the result of a run, or refuse it with a message."""
+    from viscontact.results.netcdf import open_results  # xarray takes half a second to import
+
+    with _checked(path, open_results) as ds:
+        yield ds
+
+
+@contextmanager
+def opened_history(path: Path) -> Iterator[StoredResult]:
+    """Open the result of a run without xarray, or refuse it with the same messages."""
+    with _checked(path, stored_result) as found:
+        yield found
+
+
+@contextmanager
+def _checked(path: Path, open_file: Callable[[Path], _Result]) -> Iterator[_Result]:
     try:
-        ds = open_results(path)
+        ds = open_file(path)
     except FileNotFoundError:
         if (path / MANIFEST_NAME).is_file():
             refuse(
@@ -36,21 +55,26 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
     except (OSError, ValueError) as error:
         refuse(_unreadable(path, error))
     with ds:
-        axis = run_axis(ds)
-        required = [name for name in REQUIRED if name in scalars_of(moving=False, over=axis.name)]
-        missing = [name for name in (axis.name, *required) if name not in ds]
-        if missing:
-            refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
-        stored = [name for name in (axis.name, *SCALARS) if name in ds]
-        strange = [name for name in stored if ds[name].dims != (axis.name,)]
-        if strange:
-            refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over {axis.name}")
-        if not ds.sizes[axis.name]:
-            refuse(f"{path}: the run was stopped before its first {axis.row} was complete")
+        _require_history(path, ds)
         yield ds
 
 
-def early_end(ds: xr.Dataset) -> str:
+def _require_history(path: Path, ds: Result) -> None:
+    """Refuse a file that is not a result, and a result without rows."""
+    axis = run_axis(ds)
+    required = [name for name in REQUIRED if name in scalars_of(moving=False, over=axis.name)]
+    missing = [name for name in (axis.name, *required) if name not in ds]
+    if missing:
+        refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
+    stored = [name for name in (axis.name, *SCALARS) if name in ds]
+    strange = [name for name in stored if ds[name].dims != (axis.name,)]
+    if strange:
+        refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over {axis.name}")
+    if not ds.sizes[axis.name]:
+        refuse(f"{path}: the run was stopped before its first {axis.row} was complete")
+
+
+def early_end(ds: Result) -> str:
     """Message about a run that ended early; empty for a complete one."""
     try:
         made = _made(ds)
@@ -65,7 +89,7 @@ def early_end(ds: xr.Dataset) -> str:
     return f"the run stopped at {made}{'' if failed or directory is None else _remedy(directory)}"
 
 
-def _made(ds: xr.Dataset) -> str:
+def _made(ds: Result) -> str:
     """Progress of a run that ended early; empty for a complete one."""
     case = case_of(ds)
     if run_axis(ds) is SPEED:
@@ -77,7 +101,7 @@ def _made(ds: xr.Dataset) -> str:
     return progress_made(ds.sizes["time"], reached, times, case.get("adaptive"))
 
 
-def _run_directory(ds: xr.Dataset) -> Path | None:
+def _run_directory(ds: Result) -> Path | None:
     """Directory of an incomplete run; None if it cannot be resumed."""
     source = ds.encoding.get("source")
     directory = Path(str(source)).parent

@@ -1,0 +1,41 @@
+"""Contacts that are obviously a single spot, without SciPy."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.results.stored_result import StoredResult
+
+
+def ends_in_one_spot(stored: StoredResult) -> bool:
+    """True if the last stored contact is obviously one spot, or if there is no stored contact."""
+    if "pressure" not in stored or "gap" not in stored:
+        return True
+    pressure = stored["pressure"]
+    for row in reversed(range(stored.sizes[pressure.dims[0]])):
+        contact = pressure[row] > 0
+        if contact.any():
+            return is_one_spot(contact)
+    return True
+
+
+def is_one_spot(contact: NDArray[np.bool_]) -> bool:
+    """True if each line of a region is one piece, and next to that of the next line.
+
+    Such a region is a single spot; another one may be.
+
+    >>> is_one_spot(np.array([[True, True, False], [False, True, True]]))
+    True
+    >>> is_one_spot(np.array([[True, False, True]]))
+    False
+    """
+    lines = np.flatnonzero(contact.any(axis=1))
+    if not lines.size or lines.size != lines[-1] - lines[0] + 1:
+        return False
+    inside = contact[lines]
+    first = inside.argmax(axis=1)
+    last = inside.shape[1] - 1 - inside[:, ::-1].argmax(axis=1)
+    is_whole = inside.sum(axis=1) == last - first + 1
+    overlap = np.minimum(last[1:], last[:-1]) >= np.maximum(first[1:], first[:-1])
+    return bool(is_whole.all() and overlap.all())

@@ -1,0 +1,117 @@
+"""Result file read without xarray, whose import takes longer than to print a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, Union
+
+import netCDF4
+import numpy as np
+
+from viscontact.run_files import RESULT_NAME
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_Opened = TypeVar("_Opened")
+
+
+class StoredVariable:
+    """Variable of a result file, with the attributes of an xarray.DataArray that tables use."""
+
+    def __init__(self, variable: netCDF4.Variable[Any]) -> None:
+        self._variable = variable
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the axes."""
+        return self._variable.dimensions
+
+    @property
+    def values(self) -> Any:
+        """All values, in the unit of the file."""
+        return self[...]
+
+    def __getitem__(self, key: Any) -> Any:
+        """Return some of the values."""
+        return np.asarray(self._variable[key])
+
+
+class StoredResult:
+    """Result file, with the attributes of an xarray.Dataset that tables use.
+
+    Examples
+    --------
+    >>> import tempfile, xarray
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     xarray.Dataset({"force": ("time", [1.0, 2.0])}).to_netcdf(Path(folder) / "result.nc")
+    ...     with stored_result(folder) as found:
+    ...         found.sizes, found["force"].values.tolist()
+    ({'time': 2}, [1.0, 2.0])
+    """
+
+    def __init__(self, file: Path) -> None:
+        self._file = netCDF4.Dataset(file)
+        self._file.set_auto_mask(False)
+        self.encoding = {"source": str(file)}
+        self.attrs = {name: self._file.getncattr(name) for name in self._file.ncattrs()}
+        self.sizes = {name: len(axis) for name, axis in self._file.dimensions.items()}
+        #: Variables other than coordinates.
+        self.data_vars = [name for name in self._file.variables if name not in self.sizes]
+
+    @property
+    def dims(self) -> dict[str, int]:
+        """Lengths of the axes."""
+        return self.sizes
+
+    def __contains__(self, name: object) -> bool:
+        """Return whether there is a variable of some name."""
+        return name in self._file.variables
+
+    def __getitem__(self, name: str) -> StoredVariable:
+        """Return a variable."""
+        return StoredVariable(self._file.variables[name])
+
+    def __enter__(self) -> Self:
+        """Return the result itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Close the file."""
+        self._file.close()
+
+
+#: A result for functions that read scalars and attributes only.
+Result: TypeAlias = Union["xr.Dataset", StoredResult]
+
+
+def stored_result(path: str | Path) -> StoredResult:
+    """Open the result in a run directory or a file; errors are those of `open_results`."""
+    return opened_file(path, StoredResult)
+
+
+def opened_file(path: str | Path, open_file: Callable[[Path], _Opened]) -> _Opened:
+    """Open the result in a run directory or a file, which a run may replace meanwhile.
+
+    FileNotFoundError if there is none, ValueError if it cannot be read.
+    """
+    file = Path(path)
+    # Absolute: else "~", a blank in front or "file:" mean something of their own to the reader.
+    file = (file / RESULT_NAME if file.is_dir() else file).absolute()
+    if not file.is_file():
+        raise FileNotFoundError(f"no result at {path}")
+    while True:
+        before = _marks(file)
+        try:
+            return open_file(file)
+        except (OSError, ValueError) as error:
+            # A running run may have replaced the file at this very moment.
+            if _marks(file) == before:
+                raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
+
+
+def _marks(file: Path) -> tuple[int, int]:
+    """Identity of a file's content: inode and time of change."""
+    found = file.stat()
+    return found.st_ino, found.st_mtime_ns
