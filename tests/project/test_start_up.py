@@ -4,17 +4,49 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 import viscontact
+import viscontact as vc
+from viscontact.cli.shell import command_for
 
-CASE = Path(viscontact.__file__).parent / "examples" / "roller-dogbone-e05.yaml"
+EXAMPLES = Path(viscontact.__file__).parent / "examples"
+CASE = EXAMPLES / "roller-dogbone-e05.yaml"
 # Not pydantic, which newer versions of Typer read options with.
 HEAVY = ("numpy", "scipy", "xarray", "netCDF4", "pint", "matplotlib")
 # a third of a second together, on a machine of 2026
 SLOW_PARTS = ("scipy.interpolate", "scipy.optimize", "scipy.special", "scipy.ndimage", "xarray")
+# Where ducc0 is installed, SciPy's transforms are not used; they import its special functions.
+TRANSFORMS = ("scipy.fft",) if find_spec("ducc0") else ()
+COMPUTES = (
+    *(SLOW_PARTS if TRANSFORMS else ("xarray",)),
+    *TRANSFORMS,
+    "pandas",
+    "pint",
+    "matplotlib",
+)
+
+FIRST_STEP = """
+from viscontact.cli import main
+from viscontact.simulation.stepper import Stepper
+
+class FirstStep(BaseException):
+    pass
+
+def stop(*_):
+    raise FirstStep
+
+Stepper.trial = stop
+try:
+    main(["run", {case!r}, "-o", {directory!r}])
+except FirstStep:
+    pass
+else:
+    raise AssertionError("the run has made no step")
+"""
 
 
 @pytest.mark.parametrize(
@@ -27,7 +59,14 @@ SLOW_PARTS = ("scipy.interpolate", "scipy.optimize", "scipy.special", "scipy.ndi
             f"from viscontact.case import read_case; read_case({str(CASE)!r})",
             (*SLOW_PARTS, "pint"),
         ),
-        (f"from viscontact.cli import main; main(['check', {str(CASE)!r}])", ("xarray", "pint")),
+        (
+            "from viscontact.cli import main; main(['example'])",
+            HEAVY,
+        ),
+        (
+            f"from viscontact.cli import main; main(['check', {str(CASE)!r}])",
+            (*COMPUTES, "netCDF4"),
+        ),
         (
             "import viscontact as vc; vc.simulate",
             ("scipy.interpolate", "scipy.optimize", "pint", "rich"),
@@ -35,6 +74,34 @@ SLOW_PARTS = ("scipy.interpolate", "scipy.optimize", "scipy.special", "scipy.ndi
     ],
 )
 def test_start_imports_nothing_it_does_not_need(code: str, unwanted: tuple[str, ...]) -> None:
+    assert imported(code, unwanted) == ""
+
+
+def imported(code: str, unwanted: tuple[str, ...]) -> str:
+    """Modules, of unwanted ones, that a process of its own has imported after some code."""
     run = f"{code}\nimport sys\nsys.stderr.write(' '.join(set({unwanted}) & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True, check=True)
-    assert done.stderr == ""
+    return done.stderr
+
+
+def test_first_step_of_a_run_imports_nothing_that_its_end_needs(tmp_path: Path) -> None:
+    code = FIRST_STEP.format(case=str(CASE), directory=str(tmp_path / "run"))
+    assert imported(code, COMPUTES) == ""
+
+
+def test_table_of_a_result_is_shown_without_xarray(tmp_path: Path) -> None:
+    steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
+    grid = vc.Grid((32, 32), (0.6e-3, 0.6e-3))
+    ds = vc.simulate(vc.Sphere(0.01), steel, vc.step(100.0), grid, [0.0, 1.0])
+    vc.save(ds, tmp_path / "run.nc")
+    code = (
+        f"from viscontact.cli import main; assert main(['show', {str(tmp_path / 'run.nc')!r}]) == 0"
+    )
+    assert imported(code, (*SLOW_PARTS, "scipy.fft", "pandas", "dask", "pint", "matplotlib")) == ""
+
+
+@pytest.mark.parametrize("command", ["show", "run"])
+def test_options_of_one_command_only_are_built(command: str) -> None:
+    assert list(command_for([command, "--help"]).commands) == [command]
+    assert len(command_for(["--help"]).commands) > 15
+    assert len(command_for(["shwo"]).commands) > 15
