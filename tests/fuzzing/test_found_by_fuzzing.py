@@ -261,7 +261,7 @@ def test_run_that_needs_more_memory_than_is_free_is_refused(
         "steps: 3", "steps: 900"
     )
     (tmp_path / "case.yaml").write_text(case.replace("[16, 16]", "[64, 64]"), encoding="utf-8")
-    monkeypatch.setattr(preparation, "available_memory", lambda: 2e8)
+    monkeypatch.setattr(preparation, "available_memory", lambda: 1.55e8)
     assert main(["check", str(tmp_path / "case.yaml")]) == 2
     assert "GB of memory" in capsys.readouterr().err
 
