@@ -165,7 +165,7 @@ def test_coarser_runs_keep_the_few_times_between_which_the_run_takes_steps() -> 
 
 def test_bar_holds_an_error_of_the_first_step_at_times_that_coarser_runs_leave_out() -> None:
     """All runs but the third take the same first step: trapezoids of a quarter have 5/32 of it."""
-    run, history, results = solved(vc.Zener(1e6, 2e5, 2e4), steps=24)
+    run, history, results = solved(vc.Zener(1e6, 1e6, 1e5), steps=24)
     kept = [len(each.scalars["time"]) for each in results]
     assert [each.divides_steps for each in results] == [False, False, True]
     assert kept[0] < kept[1] < len(history["time"])

@@ -49,8 +49,9 @@ STEP_RATIOS = ((32, (4, 8)), (FEW_STEPS, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 STEPS_BETWEEN = 2
 
 #: Estimated time error of the pressure up to which it serves where the two coarser runs do not show
-#: what the steps add, and the same of a moving body, whose losses depend on the steps.
-SMALL_TIME_ERROR, SMALL_MOVING_TIME_ERROR = 3e-2, 3e-3
+#: what the steps add; and the same where the load jumps, as the error of the first step behind a
+#: jump may be larger, and of a moving body, whose losses depend on the steps.
+SMALL_TIME_ERROR, SMALL_WITH_JUMPS = 3e-2, 3e-3
 
 #: Relative creep within the first step of a moving body behind a jump from which this is divided.
 LITTLE_CREEP = 0.1
@@ -92,7 +93,9 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     divides = creeping and (few or not _has_small_time_error(run, history))
     step_ratios = _step_ratios(len(own))
     across = float(history["cells_across"].max(initial=0.0))
-    spacings = _spacings(across, parities=_parities(run))
+    # The rims of a strip lie alike among the cells all along it: their errors do not cancel.
+    wanted = _cell_ratios(across if run.grid.has_datum else 0.0)
+    spacings = _spacings(across, wanted, parities=_parities(run))
     if run.problem.motion is not None and (whole := whole_cell_ratios(across)):
         spacings = tuple((by, parity) for (by, _), (_, parity) in zip(whole, spacings, strict=True))
         step_ratios = (whole[0][1], whole[1][1])
@@ -133,7 +136,8 @@ def _has_small_time_error(run: RunSetup, history: History) -> bool:
     times, peak, error = history["time"], history["peak_pressure"], history["time_error"]
     begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
     begins &= times[:-1] > 0
-    small = SMALL_TIME_ERROR if run.problem.motion is None else SMALL_MOVING_TIME_ERROR
+    jumps = run.problem.motion is not None or run.problem.history.jumps.size > 0
+    small = SMALL_WITH_JUMPS if jumps else SMALL_TIME_ERROR
     return bool(np.nanmax(error) <= small and (error[1:][begins] > 0).all())
 
 
@@ -211,9 +215,10 @@ def _parities(run: RunSetup) -> tuple[bool, bool]:
     return True, bool(np.isfinite(run.open_gap).all())
 
 
-def _spacings(across: float, *, parities: tuple[bool, bool]) -> tuple[tuple[float, bool], ...]:
+def _spacings(
+    across: float, wanted: tuple[float, float], *, parities: tuple[bool, bool]
+) -> tuple[tuple[float, bool], ...]:
     """Ratios of cells, closer to 1 if the run has few cells across its contact, and parities."""
-    wanted = _cell_ratios(across)
     coarsest = wanted[-1]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)

@@ -206,7 +206,7 @@ def _bar(
     if not kinds.divided:
         # What is prescribed does not differ between the grids.
         differs = between_known(by_cells) > run.problem.solver_error * scale
-        estimated = model.of_time_error * history["time_error"] * own
+        estimated = model.of_time_error * moving_maximum(history["time_error"]) * own
         by_steps = np.fmax(by_steps, np.where(differs, estimated, 0.0))
     relative += np.nan_to_num(_over(by_steps, scale))
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
