@@ -59,6 +59,7 @@ def test_a_run_without_mirror_images_takes_no_more_than_predicted(
     # The most arrays of the grid's size: nothing is halved, and all fields are written.
     sizes = "[1280, 1280]", 3, "load.eccentricity_y=0.01 mm"
     assert main(["check", str(CASE), *settings_of(*sizes)]) == 0
-    forecast = re.search(r"([\d.]+) GB", capsys.readouterr().out)
+    forecast = re.search(r"about ([\d.]+) MB of", capsys.readouterr().out)
     assert forecast is not None
-    assert 0.7e9 * float(forecast[1]) < peak_of(tmp_path, *sizes) < 1.01e9 * float(forecast[1])
+    # Where the contact covers little of the grid, the search needs less.
+    assert 0.8e6 * float(forecast[1]) < peak_of(tmp_path, *sizes) < 1.01e6 * float(forecast[1])
