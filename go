@@ -129,7 +129,6 @@ BENCHMARKS = {
     "storing": "storing.py",
     "steady": "steady.py",
     "layers": "layers.py",
-    "error-bars": "error_bars.py",
 }
 
 TASKS = {

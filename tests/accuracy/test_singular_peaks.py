@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.accuracy.coarser_results import history_of
-from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
+from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.singular_peaks import SINGULAR, peak_bars, singular_warnings
 from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_results import CoarserResult, History
+from viscontact.accuracy.coarser_runs import CoarserResult, History
 
 Array = NDArray[np.float64]
 
@@ -105,11 +105,10 @@ def peak_drops(times: Array, results: list[CoarserResult]) -> Array:
 
 def aligned(name: str, times: Array, result: CoarserResult) -> Array:
     """A coarser run's scalar at the run's times, NaN where it has none."""
-    theirs = result.scalars["time"]
-    if not theirs.size:
-        return np.full(len(times), np.nan)
-    places = np.minimum(np.searchsorted(theirs, times), len(theirs) - 1)
-    return np.where(theirs[places] == times, result.scalars[name][places], np.nan)
+    values, theirs = np.full(len(times), np.nan), result.scalars["time"]
+    shared, known = np.isin(times, theirs), np.isin(theirs, times)
+    values[shared] = result.scalars[name][known]
+    return values
 
 
 def _interpolated(times: Array, values: Array) -> Array:
@@ -124,8 +123,7 @@ WINDOW_STEPS = 3
 
 def _windows(values: NDArray[Any], reach: int) -> Array:
     """Values at the times around each, NaN beyond the ends."""
-    padded = np.full(len(values) + 2 * reach, np.nan)
-    padded[reach : len(values) + reach] = values
+    padded = np.pad(np.asarray(values, dtype=float), reach, constant_values=np.nan)
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
 
 

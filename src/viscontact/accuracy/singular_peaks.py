@@ -14,8 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_results import CoarserResult, History
-from viscontact.accuracy.coarser_runs import MIN_ACROSS
+from viscontact.accuracy.coarser_runs import MIN_ACROSS, CoarserResult, History
 from viscontact.accuracy.levels import (
     RefinementLevels,
     aligned,
