@@ -211,10 +211,10 @@ def test_too_little_memory_warns_where_the_array_is_written_and_refuses_where_it
     for module in ("runs.preparation", "runs.sweep.common_cells", "cli.many.jobs"):
         monkeypatch.setattr(f"viscontact.{module}.available_memory", lambda: 1e8)
     assert main([*WORDS[:-1], "-o", "out", "--array", "a.sbatch"]) == 0
-    warning = "a run needs about 0.220 GB of memory, this machine has 0.100 GB free"
+    warning = "a run needs about 0.150 GB of memory, this machine has 0.100 GB free"
     assert f"warning: {warning}; the machine" in capsys.readouterr().err
     assert main(["run", "--task", "0", "out"]) == 2
-    assert "need about 0.220 GB of memory, 0.100 GB are free" in capsys.readouterr().err
+    assert "need about 0.150 GB of memory, 0.100 GB are free" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
