@@ -81,7 +81,8 @@ def test_motion_along_y_is_motion_along_x_of_the_turned_body():
     body, turned = vc.Paraboloid(RADIUS, 3.0), vc.Paraboloid(3.0, RADIUS)
     x, y = steady(0.1, body=body), steady(0.1, body=turned, along="y")
     assert float(y.resistance_y[0]) == pytest.approx(float(x.resistance_x[0]), rel=1e-9)
-    assert float(y.contact_width[0]) == pytest.approx(float(x.contact_length[0]), rel=1e-9)
+    # Both are solved to 1e-6, and the search in single precision rounds along other axes.
+    assert float(y.contact_width[0]) == pytest.approx(float(x.contact_length[0]), rel=1e-7)
     assert float(y.dissipation[0]) == pytest.approx(0.1 * float(x.resistance_x[0]), rel=1e-9)
     assert abs(float(y.resistance_x[0])) < 1e-12
 
