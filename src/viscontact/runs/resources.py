@@ -29,7 +29,7 @@ ARRAYS_OF_CURVE, ARRAYS_OF_STATE = 60.0, 4.0
 
 #: Fields that take as much memory as the tables and operators of a further term of layers.
 #: In steady motion, which keeps no history, arrays.
-FIELDS_OF_TERM, ARRAYS_OF_MOVING_TERM = 7, 10.0
+FIELDS_OF_TERM, ARRAYS_OF_MOVING_TERM = 7, 6.0
 
 #: Memory of the time and the scalars of a step [bytes], measured.
 BYTES_PER_STEP = 2000.0
