@@ -159,6 +159,18 @@ class ContactState:
         """True if a motion is prescribed."""
         return self.position_x is not None
 
+    def with_own_fields(self) -> ContactState:
+        """Return the same state, whose fields are no parts of larger arrays of the run.
+
+        To be kept: pressure and displacement of a state that a march has just yielded may lie
+        beside other fields, which it would keep as well.
+        """
+        pressure, gap, displacement = (
+            each if each.base is None else each.copy()
+            for each in (self.pressure, self.gap, self.displacement)
+        )
+        return replace(self, pressure=pressure, gap=gap, displacement=displacement)
+
     def without_fields(self) -> ContactState:
         """Return the same state with empty fields, to save memory in long runs."""
         nothing, no_line = np.empty((0, 0)), np.empty(0)

@@ -146,7 +146,7 @@ def simulate(
     try:
         for state in march_run(run, report):
             kept = keeps_all or state.time in keep
-            states.append(state if kept else state.without_fields())
+            states.append(state.with_own_fields() if kept else state.without_fields())
     except (ConvergenceError, DomainError) as stop:
         if states:
             bars = unknown_bars(history_of(states)) if errors else None

@@ -157,7 +157,9 @@ def steady(
 
     try:
         for state in curve:
-            states.append(state if state.speed in kept else state.without_fields())
+            states.append(
+                state.with_own_fields() if state.speed in kept else state.without_fields()
+            )
             for text in state.warnings:
                 warnings.warn(text, AccuracyWarning, stacklevel=2)
             if report is not None:
