@@ -28,7 +28,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.domain import Patch
+from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Moments, RigidPlane, added, balance
 from viscontact.contact.winkler import project_onto_balance

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.cell_fields import is_even
+from viscontact.contact.patch import Patch, PatchOperators
 from viscontact.contact.response_parts import Operator, PartOperators
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fast_length, fastest_transforms, transforms_by
@@ -38,60 +37,6 @@ MIN_CELLS = 32
 
 #: A patch of more than this part of the grid saves no time.
 MAX_PATCH_SHARE = 0.8
-
-
-class PatchOperators:
-    """Operators of the search on a block of cells, made when they are first used."""
-
-    def __init__(
-        self, convolution: Callable[[], Operator], preconditioner: Callable[[], Preconditioner]
-    ) -> None:
-        self._convolution, self._preconditioner = convolution, preconditioner
-
-    @cached_property
-    def convolution(self) -> Operator:
-        """Pressure to unit displacement, in single precision."""
-        return self._convolution()
-
-    @cached_property
-    def preconditioner(self) -> Preconditioner:
-        """Approximate inverse of the convolution."""
-        return self._preconditioner()
-
-
-@dataclass(frozen=True, eq=False)
-class Patch:
-    """Rectangular block of cells with its operators."""
-
-    rows: slice  # position in the fields of the domain
-    columns: slice
-    cell_area: float  # [m²]
-    arm: float  # longer edge, which scales moments to forces [m]
-    operators: PatchOperators
-    plane: RigidPlane  # rigid motions over the patch
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Numbers of rows and columns."""
-        return self.rows.stop - self.rows.start, self.columns.stop - self.columns.start
-
-    @property
-    def convolution(self) -> Operator:
-        """Pressure to unit displacement, in single precision."""
-        return self.operators.convolution
-
-    @property
-    def preconditioner(self) -> Preconditioner:
-        """Approximate inverse of the convolution."""
-        return self.operators.preconditioner
-
-    def cut(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The patch's part of a field."""
-        return field[self.rows, self.columns]
-
-    def holds(self, rows: slice, columns: slice) -> bool:
-        """True if a block of cells lies within the patch."""
-        return _within(rows, self.rows) and _within(columns, self.columns)
 
 
 class ContactDomain:
@@ -427,11 +372,6 @@ def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
 def _guarded(span: slice) -> slice:
     """Slice with one more line on both sides."""
     return slice(max(span.start - 1, 0), span.stop + 1)
-
-
-def _within(inner: slice, outer: slice) -> bool:
-    """True if a slice lies within another."""
-    return bool(outer.start <= inner.start and inner.stop <= outer.stop)
 
 
 def _size(rows: slice, columns: slice) -> int:

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.conjugate_gradients import BoundedCG, contact_residual
-from viscontact.contact.domain import ContactDomain, Patch
+from viscontact.contact.domain import ContactDomain
+from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.winkler import winkler_contact
 

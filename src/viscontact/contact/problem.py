@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.domain import Patch
+from viscontact.contact.patch import Patch
 from viscontact.contact.rigid_balance import Constraints
 
 

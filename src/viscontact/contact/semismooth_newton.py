@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.conjugate_gradients import ContactResidual, contact_residual
-from viscontact.contact.domain import Patch
 from viscontact.contact.moving_domain import MovingDomain
+from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import restore_balance
 from viscontact.contact.winkler import project_onto_balance
