@@ -14,6 +14,7 @@ import argparse
 import math
 from collections.abc import Callable, Iterator
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from cases import PMMA, Case, roller
@@ -71,23 +72,18 @@ def rows() -> Iterator[tuple[str, Case]]:
 GROWTHS = {"cells": cells, "large": large, "steps": steps, "terms": terms, "rows": rows}
 
 
-def convolutions_counted(case: Case) -> Callable[[], int]:
-    """Count convolutions on the computed cells, or on a patch of at least a quarter of them."""
-    plain, count = Convolution.apply, 0
-    least = case.grid.shape[0] * case.grid.shape[1] / 2 / 4  # one half of the roller is computed
+def convolutions(case: Case, run: Callable[[], None]) -> tuple[int, float]:
+    """Convolutions of a run on at least a quarter of its computed cells, and its time [s]."""
+    plain, sizes = Convolution.apply, list[int]()
 
     def counted(self: Convolution, *args: Any, **options: Any) -> Any:
-        nonlocal count
-        count += self.shape[0] * self.shape[1] >= least
+        sizes.append(self.shape[0] * self.shape[1])
         return plain(self, *args, **options)
 
-    Convolution.apply = counted  # type: ignore[method-assign]
-
-    def found() -> int:
-        Convolution.apply = plain  # type: ignore[method-assign]
-        return count
-
-    return found
+    with patch.object(Convolution, "apply", counted):
+        seconds = seconds_of(run)
+    least = case.grid.shape[0] * case.grid.shape[1] / 2 / 4  # one half of the roller is computed
+    return sum(size >= least for size in sizes), seconds
 
 
 def cost(case: Case, repeats: int) -> str:
@@ -102,14 +98,13 @@ def cost(case: Case, repeats: int) -> str:
         for _ in case.march(TOLERANCE):
             pass
 
-    found = convolutions_counted(case)
-    seconds = seconds_of(run)
+    count, seconds = convolutions(case, run)
     steps = len(case.times) - 1
-    each = found() / steps
     if not is_large:
         seconds = min([seconds, *(seconds_of(run) for _ in range(repeats - 1))])
     per_step = seconds / steps
-    return f"{seconds:8.2f} s {per_step * 1e3:9.2f} ms {per_step / reference:14.2f} {each:20.2f}"
+    cost = f"{seconds:8.2f} s {per_step * 1e3:9.2f} ms {per_step / reference:14.2f}"
+    return f"{cost} {count / steps:20.2f}"
 
 
 def main() -> None:

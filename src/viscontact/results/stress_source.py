@@ -1,4 +1,4 @@
-"""What the stresses of a result follow from: a body, and the pressures on its surface."""
+"""Source of the stresses of a result: a body, and the pressures on its surface."""
 
 from __future__ import annotations
 
