@@ -265,7 +265,7 @@ def balance(
     cell_area: float,
     arm: float,
 ) -> bool:
-    """Do the same in the pressure's memory; return whether it was possible."""
+    """Balance a pressure as `restore_balance` does, in its own memory; False if it cannot be."""
     target = constraints.targets / cell_area
 
     def cut(block: RigidPlane) -> tuple[NDArray[np.float64], Moments]:

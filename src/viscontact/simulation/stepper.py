@@ -157,16 +157,16 @@ class Stepper:
         position = self._run.position_at(step.time)
         self._domain.move_axis(position)
         open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
-        past = response.past()
+        past, displacement = response.past()
         problem = ContactProblem(  # step 2: the history widens the gap
-            open_gap + past.displacement,
+            open_gap + displacement,
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
         known = self._reference_history(step)
         if self._run.problem.motion is None:
-            guess = self._reference_guess(predict(known, step.time, drive), response, past.first)
+            guess = self._reference_guess(predict(known, step.time, drive), response, past)
         else:
             moved = predict(self._moved(known, step), step.time, point.level)
             guess = None if moved is None else self._moved_guess(moved, problem)
@@ -268,7 +268,7 @@ class Stepper:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
-            untouched = not response.past().displacement.any()
+            untouched = not response.past()[1].any()
             return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):

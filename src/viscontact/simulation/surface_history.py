@@ -31,14 +31,6 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class SurfacePast:
-    """What earlier steps have left at the end of a step."""
-
-    first: Array  # ∫ J_1 dp [-] and ∫ J_1 dq_1 [m] of the first term, shape (2, nx, ny)
-    displacement: Array  # of all terms [m]
-
-
-@dataclass(frozen=True, eq=False)
 class SurfaceStep:
     """Displacement at the end of a step, as a function of the new pressure."""
 
@@ -50,13 +42,17 @@ class SurfaceStep:
         """Response of the first term."""
         return self.terms[0]
 
-    def past(self) -> SurfacePast:
-        """Displacement from all earlier steps, computed anew."""
+    def past(self) -> tuple[Array, Array]:
+        """What earlier steps have left, computed anew.
+
+        ∫ J_1 dp [-] and ∫ J_1 dq_1 [m] of the first term, shape (2, nx, ny), and the displacement
+        of all terms [m].
+        """
         first = self.first.history
         displacement: Array = first[1]
         for term in self.terms[1:]:
             displacement = displacement + term.history[1]
-        return SurfacePast(first, displacement)
+        return first, displacement
 
     @property
     def weights(self) -> tuple[float, ...]:

@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team
+from viscontact.halfspace.line_blocks import Team, blocks_of
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.time_integration.hereditary_integral import (
@@ -25,9 +25,6 @@ from viscontact.time_integration.hereditary_integral import (
 )
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
-
-#: Numbers of a field that are worked on at once.
-PART = 2**15
 
 
 class InternalVariables(HereditaryIntegral):
@@ -110,7 +107,7 @@ class InternalVariables(HereditaryIntegral):
                 for weights, each in values:
                     here += weights[index] * each[part]
 
-        self._team.each(add, _parts(value))
+        self._team.each(add, blocks_of(value.size, value.itemsize))
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
@@ -181,18 +178,13 @@ class InternalVariables(HereditaryIntegral):
             if has_trend and self._trend is not None:
                 here += step.trend.sum() * _flat(self._trend.mean)[part]
 
-        self._team.each(add, _parts(history))
+        self._team.each(add, blocks_of(history.size, history.itemsize))
         return history
 
 
 def _flat(field: NDArray[np.float64]) -> NDArray[np.float64]:
     """Numbers of a contiguous field in one row, in the same memory."""
     return field.reshape(-1)
-
-
-def _parts(field: NDArray[np.float64]) -> list[slice]:
-    """Parts of a field in one row that stay in the processor's cache."""
-    return [slice(first, first + PART) for first in range(0, field.size, PART)]
 
 
 @dataclass(frozen=True, eq=False)
