@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -11,6 +12,7 @@ import pytest
 
 import viscontact
 import viscontact as vc
+from viscontact.cli import main
 from viscontact.cli.shell import command_for
 
 EXAMPLES = Path(viscontact.__file__).parent / "examples"
@@ -87,6 +89,21 @@ def imported(code: str, unwanted: tuple[str, ...]) -> str:
 def test_first_step_of_a_run_imports_nothing_that_its_end_needs(tmp_path: Path) -> None:
     code = FIRST_STEP.format(case=str(CASE), directory=str(tmp_path / "run"))
     assert imported(code, COMPUTES) == ""
+
+
+def test_collections_of_a_command_leave_out_what_was_imported() -> None:
+    code = (
+        "import gc, sys; from viscontact.cli import main; sys.argv[1:] = ['example']; main()\n"
+        "sys.stderr.write(f'{gc.isenabled()} {gc.get_freeze_count() > 10_000}')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr == "True True"
+
+
+def test_program_that_calls_a_command_collects_garbage_as_before() -> None:
+    assert main(["example"]) == 0
+    assert gc.isenabled()
+    assert gc.get_freeze_count() == 0
 
 
 def test_table_of_a_result_is_shown_without_xarray(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import os
 from collections.abc import Sequence
@@ -37,6 +38,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:  # before or after the command
         say("interrupted")
         return INTERRUPTED
+    finally:
+        if arguments is not None:  # the program that asked goes on: it collects what it had frozen
+            gc.unfreeze()
 
 
 def _watched(arguments: Sequence[str] | None) -> int:
