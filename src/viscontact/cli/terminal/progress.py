@@ -7,9 +7,6 @@ import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
 from viscontact.cli.terminal.messages import say
 from viscontact.simulation.state_generator import Progress as Report
 from viscontact.state import ContactState
@@ -25,7 +22,10 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
     if quiet:
         yield lambda state, done, total: None
     elif sys.stderr.isatty():
-        bar = _bar()
+        # Rich takes time to import, and plain lines do not need it.
+        from viscontact.cli.terminal.bars import run_bar
+
+        bar = run_bar()
         task = bar.add_task("", total=total, completed=done, row="", details="")
         bar.start()
         try:
@@ -46,12 +46,9 @@ def counted(unit: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], 
     if quiet or not sys.stderr.isatty():
         yield lambda done, total: None
         return
-    bar = Progress(
-        *(TextColumn(unit), MofNCompleteColumn(), BarColumn(bar_width=16)),
-        *(TimeRemainingColumn(), TextColumn("left")),
-        console=Console(stderr=True),
-        transient=True,
-    )
+    from viscontact.cli.terminal.bars import counting_bar
+
+    bar = counting_bar(unit)
     task = bar.add_task("", total=None)
     bar.start()
     try:
@@ -59,17 +56,6 @@ def counted(unit: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], 
     finally:
         with suppress(OSError):  # a closed terminal
             bar.stop()
-
-
-def _bar() -> Progress:
-    return Progress(
-        TextColumn("{task.fields[row]}"),
-        MofNCompleteColumn(),
-        BarColumn(bar_width=16),  # fixed, so that the rest does not jump
-        TimeRemainingColumn(),
-        TextColumn("left, {task.fields[details]}"),
-        console=Console(stderr=True),
-    )
 
 
 class _PlainLines:
