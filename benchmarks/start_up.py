@@ -28,10 +28,15 @@ EXAMPLES = Path(viscontact.__file__).parent / "examples"
 CASE = EXAMPLES / "roller-dogbone-e05.yaml"
 READ = f"from viscontact.case import read_case; read_case({str(CASE)!r})"
 
+# NumPy and the others are imported as the command does it: without threads of linear algebra, which
+# take a tenth of a second of CPU time, and without collections.
 FIRST_STEP = """
-import os, sys
-from viscontact.cli import main
-from viscontact.simulation.stepper import Stepper
+import os
+from viscontact.cli.entry import limit_libraries, main
+from viscontact.cli.quick_imports import quick_imports
+limit_libraries()
+with quick_imports():
+    from viscontact.simulation.stepper import Stepper
 Stepper.trial = lambda *_: os._exit(0)
 main()
 """
