@@ -16,8 +16,9 @@ from verification.pressing import over_time
 
 TOLERANCE = 1e-9
 
-#: Ten times the tolerance, and a hundred where a run is fed what another has found.
-BOUND, REPLAYED = 10 * TOLERANCE, 100 * TOLERANCE
+#: Thirty times the tolerance, which is one of the gap: pressure at the rim differs by more, the
+#: more the more cells lie across the contact. A hundred where a run is fed what another has found.
+BOUND, REPLAYED = 30 * TOLERANCE, 100 * TOLERANCE
 
 PUNCH, UNDER_PUNCH = vc.FlatPunch(1.0), vc.Grid((12, 12), (2.4, 2.4))
 BALL, UNDER_BALL = vc.Paraboloid(1.0, 1.0), vc.Grid((20, 20), (0.5, 0.5))

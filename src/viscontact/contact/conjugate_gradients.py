@@ -2,7 +2,8 @@
 
 The method follows Polonsky & Keer (1999), Wear 231, 206, and differs from it in:
 
-1. The residual is preconditioned by an approximate inverse of the half-space operator.
+1. The residual is preconditioned by an approximate inverse of the half-space operator, corrected
+   at the rim of the contact.
 2. Directions are conjugated by Polak & Ribiere's formula, with a negative factor set to zero; they
    are not reset when the contact set changes.
 3. The displacement is updated along the direction instead of convolved again.
@@ -31,6 +32,7 @@ from numpy.typing import NDArray
 from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Moments, RigidPlane, added, balance
+from viscontact.contact.rim_stiffness import RimStiffness
 from viscontact.contact.winkler import project_onto_balance
 
 #: Iterations without a new least residual after which the search counts as stagnant.
@@ -39,9 +41,9 @@ STAGNATION_ITERATIONS = 40
 #: Relative imbalance below which a guess counts as balanced.
 BALANCE_TOLERANCE = 1e-12
 
-#: First step length, in 1/compliance. Below 1, as the preconditioner, a spectral inverse,
-#: overestimates the stiffness where only some cells carry pressure.
-INITIAL_STEP_LENGTH = 0.4
+#: First step length, in 1/compliance. Below 1, as the preconditioner still overestimates the
+#: stiffness where only some cells carry pressure.
+INITIAL_STEP_LENGTH = 0.8
 
 #: Length of a trial step, in expected lengths. A shorter step only loses the remaining way; a
 #: longer one cuts off too many cells.
@@ -117,6 +119,7 @@ class BoundedCG:
         self._residual, self._next_residual = np.zeros(shape), np.empty(shape)
         self._direction, self._spare = np.zeros(shape), np.empty(shape)
         self._change = np.empty(shape)  # unit displacement of a step
+        self._rim_stiffness = RimStiffness(patch)
         self._slope = 0.0
         self._length = INITIAL_STEP_LENGTH / problem.compliance
         self.stagnated = not (self._is_feasible() or self._project_to_feasible())
@@ -144,7 +147,11 @@ class BoundedCG:
         inverse = checked.inverse_gram
         if any(self.patch.plane.each(self._release)):
             inverse = self.patch.plane.inverse_gram(active, self.problem.constraints.free)
+        changed = not np.array_equal(active, self._active)
+        if changed:
+            self._rim_stiffness.follow(active, self._active, self._spare)
         found = self.patch.preconditioner.apply(residual, into=self._spare)
+        self._rim_stiffness.correct(found, residual)
         # Step 3: project.
         self._project(found, active, inverse)
         # Step 4: conjugate; beta = max(<z, r - r_old> / <z_old, r_old>, 0) (Polak & Ribiere).
@@ -152,7 +159,7 @@ class BoundedCG:
         if self._slope > 0:
             change = slope - _inner(self.patch.plane, found, self._residual)
             factor = max(change / self._slope, 0.0)
-            if not np.array_equal(active, self._active):
+            if changed:
                 self._project(self._direction, active, inverse)
         self._conjugate(found, factor)
         self._direction, self._spare = found, self._direction

@@ -219,7 +219,9 @@ class ContactDomain:
             grid.cell_area,
             _arm(shape, grid),
             PatchOperators(
-                lambda: self._operator(shape, single=True), lambda: self._preconditioner(shape)
+                shape,
+                lambda: self._operator(shape, single=True),
+                lambda: self._preconditioner(shape),
             ),
             self._plane(rows, columns),
         )

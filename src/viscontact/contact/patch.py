@@ -18,8 +18,12 @@ class PatchOperators:
     """Operators of the search on a block of cells, made when they are first used."""
 
     def __init__(
-        self, convolution: Callable[[], Operator], preconditioner: Callable[[], Preconditioner]
+        self,
+        shape: tuple[int, int],
+        convolution: Callable[[], Operator],
+        preconditioner: Callable[[], Preconditioner],
     ) -> None:
+        self._shape = shape
         self._convolution, self._preconditioner = convolution, preconditioner
 
     @cached_property
@@ -31,6 +35,20 @@ class PatchOperators:
     def preconditioner(self) -> Preconditioner:
         """Approximate inverse of the convolution."""
         return self._preconditioner()
+
+    @cached_property
+    def near_stiffness(self) -> dict[tuple[int, int], np.float32]:
+        """Stiffness between a cell and those around it, by their offsets [1/m]."""
+        rows, columns = (count // 2 for count in self._shape)
+        one = np.zeros(self._shape)
+        one[rows, columns] = 1.0
+        found = self.preconditioner.stiffness_of(one).astype(np.float32)
+        around = ((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1))
+        return {
+            (down, right): found[rows + down, columns + right]
+            for down, right in around
+            if 0 <= rows + down < self._shape[0] and 0 <= columns + right < self._shape[1]
+        }
 
 
 @dataclass(frozen=True, eq=False)

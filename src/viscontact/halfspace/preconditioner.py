@@ -39,7 +39,7 @@ class Preconditioner:
         workspace: Workspace | None = None,
     ) -> None:
         self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms, workspace)
-        self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
+        self._least = self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
         if response is not HALF_SPACE:
             self._set_ratios(response.ratio(self.waves))
 
@@ -68,7 +68,9 @@ class Preconditioner:
         """Divide |q|/2 by L, whose logarithm is linear in that of the wave number."""
         # Of a sum of several terms, rounding may be negative where nothing is left.
         known = np.log(np.maximum(np.abs(ratios), np.finfo(float).tiny))
-        symbol = self._spectra.half_wave_numbers / np.exp(self._interpolated(known))
+        half = self._spectra.half_wave_numbers
+        self._least = (half / np.exp(known.max())).astype(np.float32)
+        symbol = half / np.exp(self._interpolated(known))
         # The mean of a block is a wave of about the longest length in it, not of none.
         symbol[0, 0] = min([*symbol[0, 1:2], *symbol[1:2, 0]])
         self._symbol = symbol.astype(np.float32)
@@ -83,6 +85,15 @@ class Preconditioner:
     ) -> NDArray[np.float64]:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
         return self._spectra.filtered(displacement, self._symbol, into)
+
+    def stiffness_of(
+        self, cells: NDArray[Any], into: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
+        """Stiffness of a half-space where some cells are displaced by 1, the others by 0 [1/m].
+
+        Of the stiffest half-space that is nowhere stiffer than the surface.
+        """
+        return self._spectra.filtered(cells, self._least, into)
 
 
 class MovingPreconditioner(Preconditioner):
