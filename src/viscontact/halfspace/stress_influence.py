@@ -9,6 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+#: Least square of a distance that is divided by [m²].
+_TINY = float(np.finfo(np.float64).tiny)
+
 #: The components of a stress tensor, in the order in which they are stacked.
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
@@ -33,7 +36,7 @@ def stress_coefficients(
         σxx = (2ν V_z - (1 - 2ν) χ_xx - z V_xx)/2π,    σzz = (V_z - z V_zz)/2π,
         σxz = -z V_xz/2π,                              σxy = -((1 - 2ν) χ_xy + z V_xy)/2π,
 
-    and likewise with y for x. The sums r + x and r + y are formed without cancellation.
+    and likewise with y for x.
 
     References
     ----------
@@ -48,40 +51,37 @@ def stress_coefficients(
     >>> stress_coefficients(edges, edges, 0.0, 0.5)[:3].ravel().round(9).tolist()
     [-1.0, -1.0, -1.0]
     """
-    corners = _corner_terms(x_edges[:, None], y_edges[None, :], depth, poisson_ratio)
-    return np.diff(np.diff(corners, axis=1), axis=2) / (2 * np.pi)
+    found = np.empty((6, len(x_edges) - 1, len(y_edges) - 1))
+    terms = _corner_terms(x_edges[:, None], y_edges[None, :], depth, poisson_ratio)
+    for corners, into in zip(terms, found, strict=True):
+        across = corners[:, 1:] - corners[:, :-1]
+        np.subtract(across[1:], across[:-1], out=into)
+    found *= 1 / (2 * np.pi)
+    return found
 
 
 def _corner_terms(
     x: NDArray[np.float64], y: NDArray[np.float64], z: float, poisson_ratio: float
-) -> NDArray[np.float64]:
-    """Corner terms of all components; a cell's stress is their double difference."""
-    incompressible, rest = 2 * poisson_ratio, 1 - 2 * poisson_ratio
-    r = np.sqrt(x * x + y * y + z * z)
-    to_x, to_y = _sum_with_root(x, y, z, r), _sum_with_root(y, x, z, r)
-    v_z = -np.arctan2(x * y, z * r)
-    v_xx, v_yy, v_xy = x / (r * to_y), y / (r * to_x), 1 / r
-    chi_xx = _angle(y, x) - _angle(z * y, x * r)
-    chi_yy = _angle(x, y) - _angle(z * x, y * r)
-    return np.stack(
-        [
-            incompressible * v_z - rest * chi_xx - z * v_xx,
-            incompressible * v_z - rest * chi_yy - z * v_yy,
-            v_z + z * (v_xx + v_yy),
-            -z * z / (r * to_x),
-            -z * z / (r * to_y),
-            -rest * np.log(z + r) - z * v_xy,
-        ]
-    )
+) -> tuple[NDArray[np.float64], ...]:
+    """Corner terms of all components; a cell's stress is their double difference.
 
-
-def _sum_with_root(
-    along: NDArray[np.float64], across: NDArray[np.float64], z: float, r: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Sum r + along; where along < 0, as (across² + z²) / (r - along), without cancellation."""
-    return np.where(along >= 0, r + along, (across * across + z * z) / (r + np.abs(along)))
-
-
-def _angle(opposite: NDArray[np.float64], adjacent: NDArray[np.float64]) -> NDArray[np.float64]:
-    """arctan(opposite/adjacent), between -π/2 and π/2."""
-    return np.arctan2(opposite * np.sign(adjacent), np.abs(adjacent))
+    Without what depends on x or on y alone, such as y/(y² + z²) in σyz, which the differences
+    remove: each term is even or odd in either. Of χ_xx, χ_yy and V_z, whose sum is 0 there, two
+    take an arctangent; the two of χ_xx are one.
+    """
+    rest = 1 - 2 * poisson_ratio
+    xx, yy, xy = x * x, y * y, x * y
+    far = xx + yy
+    r = np.sqrt(far + z * z)
+    over_x, over_y = (z / np.maximum(each + z * z, _TINY) for each in (xx, yy))
+    v_z = -np.arctan2(xy, z * r)
+    xy_r = xy / r
+    bent_x, bent_y = -over_x * xy_r, -over_y * xy_r  # z V_xx, z V_yy
+    sigma_xx, sigma_yy, sigma_xy = v_z - bent_x, v_z - bent_y, -z / r
+    if rest:
+        chi_xx = np.arctan2(xy * far / (r + z), xx * r + z * yy)
+        sigma_xx -= rest * (v_z + chi_xx)
+        sigma_yy += rest * chi_xx
+        sigma_xy -= rest * np.log(z + r)
+    shear_yz, shear_xz = z * over_y * (x / r), z * over_x * (y / r)
+    return sigma_xx, sigma_yy, v_z + bent_x + bent_y, shear_yz, shear_xz, sigma_xy
