@@ -7,15 +7,75 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy
 from scipy import integrate
 
 from viscontact.grid import Grid
+from viscontact.halfspace import stress
 from viscontact.halfspace.stress import Stress, stress_on_section
+from viscontact.halfspace.stress_influence import stress_coefficients
 
 
 def ball_pressure(grid: Grid) -> np.ndarray:
     """Hertz's pressure over a circle of radius 1, with peak 1."""
     return np.sqrt(np.maximum(0, 1 - grid.x[:, None] ** 2 - grid.y[None, :] ** 2))
+
+
+def direct_sum(pressure: np.ndarray, grid: Grid, depth: float, y: float) -> np.ndarray:
+    """Stresses on a section by Love's closed form, cell by cell."""
+    (dx, dy), half = grid.cell_size, np.array([0.5, -0.5])
+    found = np.zeros((6, grid.shape[0]))
+    for place, x in enumerate(grid.x):
+        for i, j in zip(*np.nonzero(pressure), strict=True):
+            edges = x - grid.x[i] + half * dx, y - grid.y[j] + half * dy
+            found[:, place] += pressure[i, j] * stress_coefficients(*edges, depth, 0.3)[:, 0, 0]
+    return found
+
+
+@pytest.mark.parametrize("line", [3.0, 3.5, 3.2, 0.0, 12.0, -1.0])
+@pytest.mark.parametrize(
+    "loaded", [(slice(None),) * 2, (slice(2, 5), slice(1, 6)), (slice(0),) * 2]
+)
+def test_section_is_the_direct_sum_over_cells(line: float, loaded: tuple[slice, slice]) -> None:
+    """Through a line of cells, an edge and neither, where the lines are symmetric and where not."""
+    grid = Grid((9, 8), (1.8, 2.0), centre=(0.3, -0.1))
+    pressure = np.zeros((2, *grid.shape))
+    pressure[(slice(None), *loaded)] = np.random.default_rng(7).uniform(
+        0.5, 1, (2, *pressure[(0, *loaded)].shape)
+    )
+    y = float(grid.y[0] + line * grid.cell_size[1])
+    found = stress_on_section(pressure, grid, [0.02, 0.7], 0.3, y=y).components
+    for place, field in enumerate(pressure):
+        for row, depth in enumerate((0.02, 0.7)):
+            exact = direct_sum(field, grid, depth, y)
+            assert found[:, place, row] == pytest.approx(exact, abs=1e-14)
+
+
+def test_lines_on_either_side_of_a_section_are_added_before_they_are_transformed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """At each depth, one transform of each of four pairs of components for half of the lines."""
+    lengths = []
+    original = scipy.fft.rfft
+
+    def counted(field: np.ndarray, *given: object, **named: object) -> np.ndarray:
+        lengths.append(field[0].size if named.get("axis") == 0 else 0)
+        return original(field, *given, **named)
+
+    monkeypatch.setattr(scipy.fft, "rfft", counted)
+    grid = Grid((41, 41), (2.2, 2.2))
+    loaded = int(ball_pressure(grid).any(axis=0).sum())
+    ball(41, np.array([0.1, 0.2, 0.3]))
+    assert sum(lengths) == 3 * 4 * (loaded + 1) // 2
+
+
+def test_progress_of_a_section_counts_its_depths(monkeypatch: pytest.MonkeyPatch) -> None:
+    grid = Grid((8, 8), (1.0, 1.0))
+    fields = np.ones((3, 8, 8))
+    said: list[tuple[int, int]] = []
+    monkeypatch.setattr(stress, "TOGETHER", 2 * 64 * 64)  # bytes of two fields
+    stress_on_section(fields, grid, [0.1, 0.2], 0.3, progress=lambda *each: said.append(each))
+    assert said == [(1, 4), (2, 4), (3, 4), (4, 4)]
 
 
 def ball(cells: int, depths: np.ndarray, poisson_ratio: float = 0.3) -> Stress:

@@ -23,6 +23,7 @@ the ray's angle.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -83,11 +84,16 @@ class LayeredStress(StressResponse):
         assert self.stack.base is not None  # depths in a rigid one are refused
         return self.stack.base.poisson_ratio
 
-    def waves(self, wave_number: Array, depth: float) -> WaveStresses:
-        """Stresses of waves at a depth."""
-        found = stack_waves(self.stack, wave_number.ravel()).stresses(depth)
-        parts = (found.along, found.across, found.normal, found.shear)
-        return WaveStresses(*(np.reshape(part, wave_number.shape) for part in parts))
+    def waves(self, wave_number: Array) -> Callable[[float], WaveStresses]:
+        """Stresses of waves over the depth."""
+        waves = stack_waves(self.stack, wave_number.ravel())
+
+        def at(depth: float) -> WaveStresses:
+            found = waves.stresses(depth)
+            parts = (found.along, found.across, found.normal, found.shear)
+            return WaveStresses(*(np.reshape(part, wave_number.shape) for part in parts))
+
+        return at
 
     def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
@@ -113,7 +119,7 @@ class LayeredStress(StressResponse):
         amplitudes = np.stack([found.along, found.across, found.normal, found.shear])
         if layer_at(self.stack, depth) == 0:
             own = HalfSpaceStress(self.stack.layers[0].poisson_ratio)
-            free = own.waves(q / self._length, depth)
+            free = own.waves(q / self._length)(depth)
             parts = (free.along, free.across, free.normal, free.shear)
             amplitudes = amplitudes - np.stack([part * free.decay for part in parts])
         return _transformed(amplitudes, count, q, hankel)
@@ -127,7 +133,7 @@ class _Table:
     difference: Any
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)
 def _hankel(count: int) -> tuple[NDArray[Any], tuple[NDArray[Any], NDArray[Any]]]:
     """Wave numbers on the ray, and H0 and H1 with the weights of its integral; (r, q)."""
     r = np.sinh(STEP * np.arange(0.5, count))

@@ -11,6 +11,9 @@ The terms in h allow for the end of the strip, which is sharp instead of blurred
 for differences in place of derivatives in the Euler-Maclaurin formula.
 All terms are finite, unlike the displacement of such a row (`periodic_influence`).
 
+Over a period, the sum of all images but the cell itself is an analytic function of the place, which
+polynomials interpolate to rounding: it is evaluated at few points.
+
 References
 ----------
 M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), eq. 25.4.2.
@@ -18,13 +21,24 @@ M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), eq. 25.4
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from viscontact.halfspace.stress_response import StressResponse
 
+Array = NDArray[np.float64]
+
 #: Images on either side that are summed one by one.
 IMAGES = 4
+
+#: Points of a polynomial over a length, along x of twice the distance to the next image, along y of
+#: this distance: the error falls by 2 + sqrt(3) with each, or by 2 + sqrt(5).
+POINTS = 27
 
 #: Length of a strip without end, in the largest of the other lengths.
 ENDLESS = 1e10
@@ -37,12 +51,14 @@ def periodic_stress_coefficients(
     y_edges: NDArray[np.float64],
     depth: float,
     response: StressResponse,
+    places: int | None = None,
 ) -> NDArray[np.float64]:
     """Stress per unit pressure on cells that repeat along x with a period of `cells` edges [-].
 
-    At points at x = first, first + edge, ... from a cell's centre [m], within half a period or so.
-    Components xx, yy, zz, yz, xz, xy, shape (6, cells, ny); the other arguments are those of
-    `stress_coefficients`, and the body.
+    At points at x = first, first + edge, ... from a cell's centre [m], within half a period or so;
+    as many as `places`, a period if it is None. Components xx, yy, zz, yz, xz, xy, shape
+    (6, places, ny); the other arguments are those of `stress_coefficients`, and the body. The edges
+    along y are equally spaced.
 
     Under the middle of a strip of half width a, at the depth a, σyy is the stress across,
     -(1/π) (π/2 - 1) p (Johnson 1985, eqs. 2.32):
@@ -53,23 +69,93 @@ def periodic_stress_coefficients(
     >>> round(float(stress[1, 0, 0] * np.pi), 6)
     -0.570796
     """
+    count = cells if places is None else places
 
-    def at(x_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at(x_edges: Array, across: Array) -> Array:
         # The edges rise along x, so that the first difference has the other sign.
-        return -response.coefficients(x_edges, y_edges, depth)
+        return -response.coefficients(x_edges, across, depth)
 
-    period, places = cells * edge, np.arange(cells, dtype=np.float64) * edge + first
+    # 1. The cell itself.
+    x_edges = first + (np.arange(count + 1, dtype=np.float64) - 0.5) * edge
+    found = at(x_edges, y_edges)
+    # 2. The others, whose sum is smooth: at some points, and between them by polynomials.
+    clearance = cells * edge - float(np.abs(x_edges).max())
+    x, y = _sampled(x_edges, 2 * clearance), _sampled(y_edges, clearance)
+    return np.asarray(found + x.weights @ _beyond(at, x, y, edge, cells, depth) @ y.weights.T)
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Cells that stand for all of a row."""
+
+    edges: Array  # [m]
+    cells: NDArray[np.int_]  # which of the intervals between the edges are cells
+    weights: Array  # of the values at these cells, for all, shape (all, samples)
+
+    @property
+    def centres(self) -> Array:
+        """Middles of the cells [m]."""
+        return np.asarray(self.edges[self.cells] + self.edges[self.cells + 1]) / 2
+
+
+def _beyond(
+    at: Callable[[Array, Array], Array],
+    x: _Samples,
+    y: _Samples,
+    edge: float,
+    cells: int,
+    depth: float,
+) -> Array:
+    """Stresses of all images but the cell itself, shape (6, samples along x, along y)."""
+    period = cells * edge
+    images = np.arange(-IMAGES - 2, IMAGES + 3, dtype=np.float64)
+    weights, others = _weights(1 / cells), images != 0
     # 1. The images nearby, and those that the correction takes.
-    images = 2 * IMAGES + 5
-    steps = np.arange(images * cells + 1, dtype=np.float64) - (IMAGES + 2) * cells - 0.5
-    near = at(first + steps * edge).reshape(6, images, cells, -1)
-    found = np.einsum("cmxy,m->cxy", near, _weights(1 / cells))
+    shifted = np.add.outer(images[others] * period, x.edges)
+    places = np.add.outer(np.arange(len(shifted)) * x.edges.size, x.cells)
+    near = at(shifted.ravel(), y.edges)[:, :, y.cells][:, places]
+    found = np.einsum("cmxy,m->cxy", near, weights[others])
     # 2. The strips beyond, from each place on.
     begin = (IMAGES + 0.5) * period
-    endless = ENDLESS * max(period, depth, float(np.abs(y_edges).max()))
-    after = at(np.append(places + begin, endless))[:, ::-1].cumsum(axis=1)[:, ::-1]
-    before = at(np.append(-endless, places - begin)).cumsum(axis=1)
-    return np.asarray(found + (after + before) / cells)
+    endless = ENDLESS * max(period, depth, float(np.abs(y.edges).max()))
+    far = np.full(x.cells.size, endless)
+    for lower, upper in ((x.centres + begin, far), (-far, x.centres - begin)):
+        strips = at(np.stack([lower, upper], axis=1).ravel(), y.edges)
+        found += strips[:, ::2, y.cells] / cells
+    return np.asarray(found)
+
+
+def _sampled(edges: Array, length: float) -> _Samples:
+    """Chebyshev's points of parts of a length [m], as cells, or all cells if these are few.
+
+    J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46 (2004) 501, eqs. 4.2 and 5.4.
+    """
+    count = edges.size - 1
+    parts = math.ceil(abs(float(edges[-1] - edges[0])) / length) if length > 0 else count
+    if count <= parts * POINTS:
+        return _Samples(edges, np.arange(count), np.eye(count))
+    centres, half = (edges[:-1] + edges[1:]) / 2, (edges[1] - edges[0]) / 2
+    points, blocks = [], []
+    for part in np.array_split(centres, parts):
+        middle, reach = (part[0] + part[-1]) / 2, (part[-1] - part[0]) / 2
+        points.append(middle + reach * np.cos(np.pi * np.arange(POINTS) / (POINTS - 1)))
+        blocks.append(_barycentric(part, points[-1]))
+    pairs = np.add.outer(np.concatenate(points), [-half, half]).ravel()
+    weights = scipy.linalg.block_diag(*blocks)
+    return _Samples(pairs, 2 * np.arange(weights.shape[1]), weights)
+
+
+def _barycentric(places: Array, points: Array) -> Array:
+    """Weights of values at Chebyshev's points, for the polynomial at some places."""
+    signs = (-1.0) ** np.arange(points.size)
+    signs[[0, -1]] /= 2
+    distances = np.subtract.outer(places, points)
+    exact = distances == 0
+    terms = signs / np.where(exact, 1.0, distances)
+    weights = terms / terms.sum(axis=1, keepdims=True)
+    at_points = exact.any(axis=1)
+    weights[at_points] = exact[at_points]
+    return np.asarray(weights)
 
 
 def _weights(part: float) -> NDArray[np.float64]:

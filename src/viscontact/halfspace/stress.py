@@ -8,24 +8,20 @@ correspondence principle).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.fourier import fast_length
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.halfspace.stress_influence import COMPONENTS
+from viscontact.halfspace.stress_lines import EXCHANGED, SURFACE, Progress, along_lines, part_of
 from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
+from viscontact.halfspace.stress_waves import waves_on_plane, waves_on_section
 
-#: Depth, as a part of a cell's edge, at which the surface is evaluated: only on the surface itself
-#: the stress jumps with the pressure from cell to cell; just below, it takes the mean value.
-SURFACE = 1e-6
-
-#: Places of the components after an exchange of x and y.
-EXCHANGED = [1, 0, 2, 4, 3, 5]
+#: Most memory of the transforms of fields whose stresses are computed together [bytes].
+TOGETHER = 100e6
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +70,7 @@ def stress_on_section(
     *,
     x: float | None = None,
     y: float | None = None,
+    progress: Progress | None = None,
 ) -> Stress:
     """Stress on a vertical plane of given x or y [m]; at the y of the grid's middle if neither is.
 
@@ -89,6 +86,8 @@ def stress_on_section(
         Poisson's ratio of a half-space [-], or a body of layers.
     x, y : float, optional
         Position of the plane [m]; the other coordinate runs over the grid's cell centres.
+    progress : callable, optional
+        Called as ``progress(done, total)`` after each depth.
 
     Returns
     -------
@@ -104,11 +103,12 @@ def stress_on_section(
     Notes
     -----
     Each line of cells acts on the section as a convolution with Love's closed form
-    (`stress_influence`, of layers `layered_stress`), by zero-padded fast Fourier transforms; exact
-    for pressure that is constant within cells. On a grid that is periodic along one axis the images
-    of a cell are summed (`periodic_stress`). On one that is periodic along both, each wave of the
-    pressure has its own stresses (Johnson 1985, Contact Mechanics, section 13.2, turned to its
-    direction), and the mean pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
+    (`stress_influence`, of layers `layered_stress`), by zero-padded fast Fourier transforms
+    (`stress_lines`); exact for pressure that is constant within cells. On a grid that is periodic
+    along one axis the images of a cell are summed (`periodic_stress`). On one that is periodic
+    along both, each wave of the pressure has its own stresses (`stress_waves`): Johnson 1985,
+    Contact Mechanics, section 13.2, turned to its direction; and the mean pressure causes no strain
+    along the surface: σxx = σyy = ν/(1 - ν) σzz.
 
     Examples
     --------
@@ -124,17 +124,20 @@ def stress_on_section(
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
         turned = pressure.swapaxes(-1, -2)
-        stress = stress_on_section(turned, _turned(grid), below, response, y=x)
+        stress = stress_on_section(turned, _turned(grid), below, response, y=x, progress=progress)
         # x and y are exchanged on the turned grid.
         return Stress(stress.components[EXCHANGED])
     y = grid.centre[1] if y is None else y
     fields = pressure.reshape(-1, *grid.shape)
-    if all(grid.periodic):
-        found = np.stack([_below_period(each, grid, below, response, y) for each in fields], 1)
-    else:
-        lines = np.flatnonzero(fields.any(axis=(0, 1)))
-        loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
-        found = _along_x(fields[:, :, loaded], grid, loaded, below, response, y)
+    compute = waves_on_section if all(grid.periodic) else along_lines
+    # Influence coefficients are the same for all fields: compute many of them together.
+    count = max(1, int(TOGETHER / (64 * fields[0].size)))
+    parts = [fields[begin : begin + count] for begin in range(0, len(fields), count)]
+    found = np.empty((6, len(fields), below.size, grid.shape[0]))
+    for index, part in enumerate(parts):
+        found[:, index * count : index * count + len(part)] = compute(
+            part, grid, below, response, y, part_of(progress, index, len(parts))
+        )
     return Stress(found.reshape(6, *pressure.shape[:-2], *found.shape[2:]))
 
 
@@ -153,11 +156,8 @@ def stress_on_plane(
     response = _response(body)
     below = float(_checked([depth], response)[0])
     if all(grid.periodic):
-        fields = pressure.reshape(-1, *grid.shape)
-        found = np.stack(
-            [_waves_at(scipy.fft.fft2(own), grid, below, response) for own in fields], 1
-        )
-        return Stress(scipy.fft.ifft2(found).real.reshape(6, *pressure.shape))
+        found = waves_on_plane(pressure.reshape(-1, *grid.shape), grid, below, response)
+        return Stress(found.reshape(6, *pressure.shape))
     if grid.periodic[1]:
         turned = stress_on_plane(pressure.swapaxes(-1, -2), _turned(grid), below, response)
         return Stress(turned.components[EXCHANGED].swapaxes(-1, -2))
@@ -184,113 +184,6 @@ def _turned(grid: Grid) -> Grid:
     """Grid with x and y exchanged."""
     periodic = (grid.periodic[1], grid.periodic[0])
     return Grid(grid.shape[::-1], grid.size[::-1], periodic, centre=grid.centre[::-1])
-
-
-def _along_x(
-    pressure: NDArray[np.float64],
-    grid: Grid,
-    loaded: slice,
-    depths: NDArray[np.float64],
-    response: StressResponse,
-    y: float,
-) -> NDArray[np.float64]:
-    """Stress by a convolution along the section, circular along a period, summed across it."""
-    cells = len(grid.x)
-    # Zero-padded where there are no periodic images.
-    padded = cells if grid.periodic[0] else fast_length(2 * cells - 1)
-    spectra = scipy.fft.rfft(pressure, padded, axis=1)
-    found = np.empty((6, len(pressure), len(depths), cells))
-    for index, depth in enumerate(np.maximum(depths, SURFACE * min(grid.cell_size)).tolist()):
-        if grid.periodic[0]:
-            wrapped = _along_period(grid, loaded, depth, response, y)
-        else:
-            kernel = _of_offsets(grid, loaded, depth, response, y)
-            wrapped = np.zeros((6, padded, kernel.shape[2]))
-            wrapped[:, :cells] = kernel[:, cells - 1 :]
-            wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
-        transformed = scipy.fft.rfft(wrapped, axis=1)
-        for place, spectrum in enumerate(spectra):
-            # Multiply along x, sum over the loaded lines of cells along y.
-            product = np.einsum("cky,ky->ck", transformed, spectrum)
-            found[:, place, index] = scipy.fft.irfft(product, padded, axis=1)[:, :cells]
-    return found
-
-
-def _along_period(
-    grid: Grid, loaded: slice, depth: float, response: StressResponse, y: float
-) -> NDArray[np.float64]:
-    """Influence of the loaded lines at offsets along a period, the negative ones at the end."""
-    cells, (dx, dy) = len(grid.x), grid.cell_size
-    y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
-    first = -(cells // 2) * dx
-    kernel = periodic_stress_coefficients(first, cells, dx, y_edges, depth, response)
-    return np.asarray(scipy.fft.ifftshift(kernel, axes=1))
-
-
-def _of_offsets(
-    grid: Grid, loaded: slice, depth: float, response: StressResponse, y: float
-) -> NDArray[np.float64]:
-    """Influence of the loaded lines at all offsets along x, ascending; shape (6, 2 nx - 1, lines).
-
-    With their images, if the grid is periodic across the section.
-    """
-    (cells, lines), (dx, dy) = grid.shape, grid.cell_size
-    x_edges = (np.arange(-cells + 1, cells + 1, dtype=np.float64) - 0.5) * dx
-    if not grid.periodic[1]:
-        y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
-        # The edges rise along x, so that the first difference has the other sign.
-        return -response.coefficients(x_edges, y_edges, depth)
-    # Distances from the lines to the section, within half a period.
-    beyond = (y - grid.y[0]) % dy
-    first = beyond - (lines // 2) * dy
-    turned = -periodic_stress_coefficients(first, lines, dy, x_edges, depth, response)
-    places = np.rint((y - beyond - grid.y[loaded]) / dy).astype(int) + lines // 2
-    return turned[EXCHANGED].swapaxes(1, 2)[:, :, places % lines]
-
-
-def _below_period(
-    pressure: NDArray[np.float64],
-    grid: Grid,
-    depths: NDArray[np.float64],
-    response: StressResponse,
-    y: float,
-) -> NDArray[np.float64]:
-    """Stress of each wave: waves along the section by a transform, waves across it by a sum."""
-    across = 2 * np.pi * scipy.fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
-    spectrum = scipy.fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
-    found = np.empty((6, len(depths), grid.shape[0]))
-    for index, depth in enumerate(depths.tolist()):
-        components = _waves_at(spectrum, grid, depth, response)
-        found[:, index] = scipy.fft.ifft(components.sum(axis=2), axis=1).real
-    return found
-
-
-def _waves_at(
-    spectrum: NDArray[Any], grid: Grid, depth: float, response: StressResponse
-) -> NDArray[Any]:
-    """Fourier coefficients of all components at a depth, from those of the pressure."""
-    along = 2 * np.pi * scipy.fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
-    across = 2 * np.pi * scipy.fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
-    q = np.hypot(along, across)
-    q[0, 0] = 1.0  # the mean has no direction; it is set below
-    east, north = along / q, across / q
-    own = response.waves(q, depth)
-    waves = spectrum * own.decay
-    ahead, aside = own.along * waves, own.across * waves
-    components = np.stack(
-        [
-            east**2 * ahead + north**2 * aside,
-            north**2 * ahead + east**2 * aside,
-            own.normal * waves,
-            -1j * north * own.shear * waves,
-            -1j * east * own.shear * waves,
-            east * north * (ahead - aside),
-        ]
-    )
-    nu = response.poisson_ratio_at(depth)
-    lateral = nu / (1 - nu)
-    components[:, 0, 0] = -spectrum[0, 0] * np.array([lateral, lateral, 1.0, 0.0, 0.0, 0.0])
-    return components
 
 
 def _response(body: float | StressResponse) -> StressResponse:

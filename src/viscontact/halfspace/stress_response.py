@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,8 +23,8 @@ class StressResponse(ABC):
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
 
     @abstractmethod
-    def waves(self, wave_number: Array, depth: float) -> WaveStresses:
-        """Stresses under a wave of pressure, of wave numbers > 0 [1/m], at a depth [m]."""
+    def waves(self, wave_number: Array) -> Callable[[float], WaveStresses]:
+        """Stresses over the depth [m] under a wave of pressure, of wave numbers > 0 [1/m]."""
 
     @abstractmethod
     def poisson_ratio_at(self, depth: float) -> float:
@@ -34,7 +35,7 @@ class StressResponse(ABC):
 class HalfSpaceStress(StressResponse):
     """Stresses in a half-space: they depend on its Poisson's ratio only.
 
-    >>> found = HalfSpaceStress(0.3).waves(np.array([1.0]), 0.0)
+    >>> found = HalfSpaceStress(0.3).waves(np.array([1.0]))(0.0)
     >>> found.along.tolist(), found.normal.tolist()
     ([-1.0], [-1.0])
     """
@@ -45,11 +46,14 @@ class HalfSpaceStress(StressResponse):
         """Love's closed form [-]."""
         return stress_coefficients(x_edges, y_edges, depth, self.poisson_ratio)
 
-    def waves(self, wave_number: Array, depth: float) -> WaveStresses:
+    def waves(self, wave_number: Array) -> Callable[[float], WaveStresses]:
         """Johnson 1985, section 13.2: each wave decays as exp(-q z)."""
-        qz = wave_number * depth
-        decay = np.exp(-wave_number * depth)
-        return WaveStresses(-(1 - qz), -2 * self.poisson_ratio, -(1 + qz), -qz, decay)
+
+        def at(depth: float) -> WaveStresses:
+            qz = wave_number * depth
+            return WaveStresses(-(1 - qz), -2 * self.poisson_ratio, -(1 + qz), -qz, np.exp(-qz))
+
+        return at
 
     def poisson_ratio_at(self, depth: float) -> float:
         """That of the half-space."""

@@ -16,6 +16,7 @@ from viscontact.halfspace.elastic_stack import ElasticStack
 from viscontact.halfspace.layered_stress import LayeredStress
 from viscontact.halfspace.stack_waves import interface_depths
 from viscontact.halfspace.stress import Stress, stress_on_plane, stress_on_section
+from viscontact.halfspace.stress_lines import Progress, part_of
 from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
 from viscontact.materials.layers import Layered
 from viscontact.problem.series_body import ANY_TIMES, span_of
@@ -83,20 +84,25 @@ class StressSource:
         return ("time", self.stored[list(places)], self.results[pressure.dims[0]].attrs)
 
     def on_section(
-        self, places: Sequence[int], depths: ArrayLike, x: float | None, y: float | None
+        self,
+        places: Sequence[int],
+        depths: ArrayLike,
+        x: float | None,
+        y: float | None,
+        progress: Progress | None = None,
     ) -> Stress:
         """Stresses on a vertical plane at stored instants by index; (instants, nz, nx or ny)."""
-        pressures = self._pressures(places)
-        if self.stack is None:
-            # One by one, each with its own loaded cells: a long run loads few of them at first.
-            each = [
-                stress_on_section(field, self.grid, depths, self.responses[0], x=x, y=y).components
-                for field in pressures[0]
-            ]
-            return Stress(np.stack(each, axis=1))
+        bodies = len(self.responses)
         return self._summed(
-            stress_on_section(fields, self.grid, depths, body, x=x, y=y)
-            for fields, body in zip(pressures, self.responses, strict=True)
+            stress_on_section(
+                *(fields, self.grid, depths, body),
+                x=x,
+                y=y,
+                progress=part_of(progress, index, bodies),
+            )
+            for index, (fields, body) in enumerate(
+                zip(self._pressures(places), self.responses, strict=True)
+            )
         )
 
     def on_plane(self, places: Sequence[int], depth: float) -> Stress:
