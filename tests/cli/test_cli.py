@@ -28,6 +28,7 @@ from viscontact.cli.results import figures
 from viscontact.cli.run import execution
 from viscontact.cli.terminal import progress
 from viscontact.errors import ConvergenceError
+from viscontact.halfspace.stress_response import HalfSpaceStress
 from viscontact.problem.problem import Problem
 from viscontact.results.formatting import format_percent
 from viscontact.runs import resources
@@ -666,6 +667,33 @@ def test_plot_draws_a_figure_into_the_run_or_a_given_file(finished: Path, tmp_pa
     times = ["--time", "0 s", "--time", "5 s"]
     assert main(["plot", str(finished / "result.nc"), "pressure-map", *times, "-o", str(file)]) == 0
     assert "<svg" in file.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("figure", ["stress-section", "von-mises"])
+def test_figure_of_stresses_counts_their_depths_on_a_terminal(
+    figure: str, finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    assert main(["plot", str(finished), figure, "-o", str(tmp_path / "stress.png")]) == 0
+    assert "depth" in terminal.getvalue()
+
+
+def test_interrupted_figure_of_stresses_ends_quietly_and_leaves_no_file(
+    finished: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def interrupted(*given: object) -> np.ndarray:
+        signal.raise_signal(signal.SIGINT)
+        raise AssertionError("not interrupted")
+
+    monkeypatch.setattr(HalfSpaceStress, "coefficients", interrupted)
+    file = tmp_path / "stress.png"
+    assert main(["plot", str(finished), "stress-section", "-o", str(file)]) == 130
+    assert not file.exists()
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_quantity
 
 #: Most cells of a grid below which stresses are computed for a report: some seconds.
-MOST_CELLS = 100_000
+MOST_CELLS = 500_000
 
 
 def stress_chapter(ds: xr.Dataset) -> Iterator[Element]:

@@ -279,7 +279,11 @@ def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> Non
 def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
     """Draw and write a figure, and print the name of its file."""
     try:
-        plot.save_figure(draw_it(results, **options), file)
+        with ExitStack() as stack:
+            if "progress" in signature(draw_it).parameters:  # stresses of many cells take long
+                options["progress"] = stack.enter_context(counted("depth"))
+            figure = draw_it(results, **options)
+        plot.save_figure(figure, file)
     except (ValueError, OSError) as error:
         refuse(f"{file}: {error}")
     print(file)

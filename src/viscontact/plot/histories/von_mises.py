@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.halfspace.stress_lines import Progress, part_of
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
@@ -28,7 +29,11 @@ _MARKED = 40
 
 
 def von_mises_history(
-    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    progress: Progress | None = None,
 ) -> Figure:
     """Draw the largest von Mises stress and its depth over time.
 
@@ -40,6 +45,8 @@ def von_mises_history(
         Instants [s]; by default all that are stored.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
+    progress : callable, optional
+        Called as ``progress(done, total)`` after each depth of the sections.
 
     Returns
     -------
@@ -61,11 +68,15 @@ def von_mises_history(
     >>> [axes.get_ylabel() for axes in von_mises_history(ds).axes]
     ['Von Mises stress [kPa]', 'Depth [µm]']
     """
-    return compare_von_mises({"": results}, times=times, width=width)
+    return compare_von_mises({"": results}, times=times, width=width, progress=progress)
 
 
 def compare_von_mises(
-    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+    runs: Mapping[str, xr.Dataset],
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    progress: Progress | None = None,
 ) -> Figure:
     """Overlay the largest von Mises stresses of several runs, and their depths.
 
@@ -77,6 +88,8 @@ def compare_von_mises(
         Instants [s]; by default all that are stored.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
+    progress : callable, optional
+        Called as ``progress(done, total)`` after each depth of the sections.
 
     Returns
     -------
@@ -103,7 +116,10 @@ def compare_von_mises(
     ['Von Mises stress [kPa]', 'Depth [µm]']
     """
     require_runs(runs, _NAME)
-    stresses = [_curve(run, times) for run in runs.values()]
+    stresses = [
+        _curve(run, times, part_of(progress, index, len(runs)))
+        for index, run in enumerate(runs.values())
+    ]
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = list(figure.subplots(2, 1, sharex=True))
     time = readable_unit("s", *(history.instants for history in stresses))
@@ -142,10 +158,12 @@ class _StressHistory:
 _DRAWN = (("stress", "Pa", "Von Mises stress"), ("depth", "m", "Depth"))
 
 
-def _curve(results: xr.Dataset, times: ArrayLike | None) -> _StressHistory:
+def _curve(
+    results: xr.Dataset, times: ArrayLike | None, progress: Progress | None
+) -> _StressHistory:
     require_time(results, _NAME)
     chosen = field_times(results, _NAME) if times is None else times
     snapshots = take_snapshots(results, chosen, _NAME)
-    sections = stress_sections(stress_source(results), snapshots)
+    sections = stress_sections(stress_source(results), snapshots, progress)
     stress, depth, _ = np.array([section.largest for section in sections]).T
     return _StressHistory(np.array([section.time for section in sections]), stress, depth)

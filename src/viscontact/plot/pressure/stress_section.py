@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.halfspace.stress_lines import Progress, part_of
 from viscontact.plot.layout import style
 from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
@@ -76,7 +77,11 @@ class Section:
 
 
 def stress_section(
-    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    progress: Progress | None = None,
 ) -> Figure:
     """Draw contours of von Mises stress below the contact, one panel per instant.
 
@@ -89,6 +94,8 @@ def stress_section(
         last.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
+    progress : callable, optional
+        Called as ``progress(done, total)`` after each depth of the sections.
 
     Returns
     -------
@@ -120,7 +127,11 @@ def stress_section(
     widths = [_half_width(snapshot) for snapshot in touching]
     alike = max(widths) <= _GROWN * min(widths)
     each = [touching] if alike else [[snapshot] for snapshot in touching]
-    sections = [section for part in each for section in stress_sections(source, part)]
+    sections = [
+        section
+        for index, part in enumerate(each)
+        for section in stress_sections(source, part, part_of(progress, index, len(each)))
+    ]
     length = readable_unit("m", *(section.depths[-1] for section in sections))
     stress = readable_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
@@ -156,11 +167,18 @@ def stress_section(
     return figure
 
 
-def stress_sections(source: StressSource, snapshots: list[Snapshot]) -> list[Section]:
-    """Sections at the given instants with contact, all to one depth."""
+def stress_sections(
+    source: StressSource, snapshots: list[Snapshot], progress: Progress | None = None
+) -> list[Section]:
+    """Sections at the given instants with contact, all to one depth.
+
+    Below small spots they are computed again to smaller depths, and `progress` begins again.
+    """
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
-    sections = _sections_down_to(source, touching, source.depths(_DEEP * half_width))
+    sections = _sections_down_to(
+        source, touching, source.depths(_DEEP * half_width), progress=progress
+    )
     while True:
         deepest = float(sections[0].depths[-1])  # a rigid base may limit it
         reach = max(section.reach for section in sections)
@@ -168,7 +186,8 @@ def stress_sections(source: StressSource, snapshots: list[Snapshot]) -> list[Sec
             return sections
         # Compute anew: the depths are too far apart for the spots.
         depths = source.depths(max(reach, deepest / 9))
-        sections = _sections_down_to(source, touching, depths, _DEPTHS_ASIDE * float(depths[-1]))
+        aside = _DEPTHS_ASIDE * float(depths[-1])
+        sections = _sections_down_to(source, touching, depths, aside, progress)
 
 
 def _sections_down_to(
@@ -176,6 +195,7 @@ def _sections_down_to(
     touching: list[Snapshot],
     depths: NDArray[np.float64],
     aside: float = np.inf,
+    progress: Progress | None = None,
 ) -> list[Section]:
     """Sections to some depths [m] and to each side of the largest pressure [m]."""
     half_width = max(_half_width(snapshot) for snapshot in touching)
@@ -184,10 +204,11 @@ def _sections_down_to(
     for index, snapshot in enumerate(touching):
         planes.setdefault(_plane(snapshot), []).append(index)
     found: dict[int, Section] = {}
-    for (x, y), members in planes.items():
+    for number, ((x, y), members) in enumerate(planes.items()):
         own = [touching[index] for index in members]
         places = [int(np.flatnonzero(source.stored == each.time)[0]) for each in own]
-        stresses = source.on_section(places, depths, x, y).von_mises
+        part = part_of(progress, number, len(planes))
+        stresses = source.on_section(places, depths, x, y, part).von_mises
         for index, snapshot, stress in zip(members, own, stresses, strict=True):
             found[index] = _section(source, snapshot, half_width, depths, stress, aside)
     return [found[index] for index in range(len(touching))]
