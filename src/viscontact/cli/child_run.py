@@ -14,6 +14,7 @@ import signal
 import sys
 import threading
 from contextlib import suppress
+from typing import NoReturn
 
 from viscontact.cli.entry import has_memory, limit_libraries, main
 from viscontact.cli.terminal.interruption import watched_interruption
@@ -60,5 +61,13 @@ def _stop_at_end_of_input() -> None:
     signal.raise_signal(signal.SIGTERM)
 
 
+def _end(code: int) -> NoReturn:
+    """End the process at once: to tear down all that was imported takes a fifth of a second."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(code)
+
+
 if __name__ == "__main__":
-    sys.exit(run_of_parent())
+    _end(run_of_parent())
