@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import json
 import os
 import subprocess
 import sys
@@ -15,6 +17,9 @@ import xarray as xr
 from fastapi.testclient import TestClient
 
 from viscontact.cli import main
+from viscontact.web import calculator
+from viscontact.web.runs import queue
+from viscontact.web.workspace.folder import Folder
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
 
 
@@ -92,6 +97,45 @@ def test_a_run_in_the_process_that_waited_is_cancelled_as_any_other(client: Test
     client.post(f"/api/runs/{run}/cancel")
     last: dict[str, Any] = followed(client, run)[-1]
     assert (last["state"], last["resumable"]) == ("cancelled", True)
+
+
+@pytest.mark.slow
+def test_no_process_is_started_beside_the_first_seconds_of_a_run(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its start would take a processor from a run whose user waits."""
+    monkeypatch.setattr(queue, "_UNDISTURBED", 1e9)
+    waiting = spare()
+    run = begun(client, LONG_CASE)
+    until(lambda: status(client, run)["step"] > 8)
+    assert [each.pid for each in processes()] == [waiting.pid]
+    monkeypatch.setattr(queue, "_UNDISTURBED", 0.0)
+    until(lambda: len(processes()) == 2)
+    client.post(f"/api/runs/{run}/cancel")
+
+
+def test_the_end_of_a_run_is_told_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(calculator, "EVENT_INTERVAL", 1e6)
+    with asking(tmp_path / "page") as client:
+        told = followed(client, begun(client, quality="coarse"))
+    assert [each["stage"] for each in told][-1] == "over"
+
+
+def test_the_last_event_is_that_of_the_end_also_if_the_run_ends_while_another_is_sent(
+    tmp_path: Path,
+) -> None:
+    page = calculator.Calculator(Folder(tmp_path / "page"), at_once=0)  # every run waits
+    run = page.queue.add(*page.cases.new_run(CASE, "coarse"))
+
+    async def told() -> list[str]:
+        states = []
+        async for event in page.events(run):
+            states.append(json.loads(event.removeprefix("data:"))["state"])
+            if not run.is_over:
+                run.set_state("cancelled")
+        return states
+
+    assert asyncio.run(told()) == ["waiting", "cancelled"]
 
 
 # A parent that has ended, also within the line.

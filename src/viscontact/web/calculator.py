@@ -22,8 +22,8 @@ from viscontact.web.workspace.problems import RequestError
 
 T = TypeVar("T")
 
-#: Time between two checks of the runs, and between two events of one run [s].
-POLL_INTERVAL, EVENT_INTERVAL = 0.1, 0.2
+#: Time between two checks of the runs, the same while none is active, and between two events [s].
+POLL_INTERVAL, IDLE_INTERVAL, EVENT_INTERVAL = 0.03, 0.1, 0.2
 #: Number of events without a change after which a line is sent, to keep the connection open.
 _QUIET = 75
 #: Status code for a client that has closed the connection.
@@ -76,16 +76,22 @@ class Calculator:
         """Yield the status of a run as events, at once and at each change, until it is over."""
         before, quiet = "", 0
         while True:
+            # Both may change while the status is on its way.
+            stage, is_last = run.stage, run.is_over
             status = json.dumps(await self.status(run), allow_nan=False, ensure_ascii=False)
             quiet = 0 if status != before else quiet + 1
             if status != before:
                 yield f"data: {status}\n\n"
             elif quiet % _QUIET == 0:
                 yield ": keep-alive\n\n"
-            if run.is_over:
+            if is_last:
                 return
             before = status
-            await asyncio.sleep(EVENT_INTERVAL)
+            # The values of a run, and its end, are told as soon as they are known.
+            for _ in range(round(EVENT_INTERVAL / POLL_INTERVAL)):
+                await asyncio.sleep(POLL_INTERVAL)
+                if run.stage != stage:
+                    break
 
     async def poll_runs(self) -> None:
         """Start and check runs until cancelled."""
@@ -93,4 +99,4 @@ class Calculator:
             if self.is_to_end:
                 self.queue.end()
             self.queue.poll()
-            await asyncio.sleep(POLL_INTERVAL)
+            await asyncio.sleep(POLL_INTERVAL if self.queue.is_at_work else IDLE_INTERVAL)

@@ -14,7 +14,7 @@ import uvicorn
 
 from viscontact.runs.directory.lock import locked
 from viscontact.web.app import new_app
-from viscontact.web.calculator import POLL_INTERVAL, Calculator
+from viscontact.web.calculator import IDLE_INTERVAL, Calculator
 from viscontact.web.runs.queue import usual_at_once
 from viscontact.web.workspace.folder import Folder, usual_folder
 
@@ -88,11 +88,11 @@ def _run(
     thread.start()
     try:
         while not server.started and thread.is_alive():
-            clock.sleep(POLL_INTERVAL)
+            clock.sleep(IDLE_INTERVAL)
         if server.started:
             on_start()
         while thread.is_alive() and not is_to_stop():
-            clock.sleep(POLL_INTERVAL)
+            clock.sleep(IDLE_INTERVAL)
     finally:
         calculator.is_to_end = True
         server.should_exit = True

@@ -11,6 +11,10 @@ from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.problems import RequestError
 
+#: Time at the beginning of a run, for which its user waits, without the start of a process for the
+#: next one, which takes a second of a processor [s].
+_UNDISTURBED = 5.0
+
 #: Least number of runs at the same time, so that a coarse answer need not wait for a long run.
 _LEAST_AT_ONCE = 2
 
@@ -30,6 +34,11 @@ class RunQueue:
         self._runs = {name: ManagedRun(folder, name, entry) for name, entry in folder.runs()}
         for run in self._runs.values():
             run.restore_state()
+
+    @property
+    def is_at_work(self) -> bool:
+        """True if a run is waiting or being computed."""
+        return any(not run.is_over for run in self._runs.values())
 
     @property
     def runs(self) -> list[ManagedRun]:
@@ -91,8 +100,8 @@ class RunQueue:
     def _has_room(self) -> bool:
         """True if a further run could begin, and none is held up by the start of a process."""
         active = [run for run in self._runs.values() if run.is_at_work]
-        is_starting = any(run.is_starting for run in active)
-        return not self.is_closing and len(active) < self.at_once and not is_starting
+        is_held_up = any(run.is_starting or run.seconds_at_work < _UNDISTURBED for run in active)
+        return not self.is_closing and len(active) < self.at_once and not is_held_up
 
     def _remove(self, run: ManagedRun) -> None:
         """Remove a run, unless its files cannot be removed."""

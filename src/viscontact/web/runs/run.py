@@ -36,6 +36,7 @@ class ManagedRun:
         self._pace: tuple[float, float] | None = None
         self._marched: float | None = None
         self._since, self._before = 0.0, 0
+        self._started_at = 0.0
         self.course = Course(self._job(Standing.STOPPED))
 
     @property
@@ -64,6 +65,16 @@ class ManagedRun:
         return self._child is not None and self.course.instants == self._before
 
     @property
+    def seconds_at_work(self) -> float:
+        """Time since its process was started [s]."""
+        return clock.monotonic() - self._started_at
+
+    @property
+    def stage(self) -> str:
+        """Where it is on its way: it waits, marches, estimates errors, or is over."""
+        return "errors" if self.is_estimating else self.entry.state
+
+    @property
     def is_resumable(self) -> bool:
         """True if the run stopped early and can be continued."""
         if self.entry.state in ("cancelled", "interrupted"):
@@ -87,7 +98,7 @@ class ManagedRun:
             self.set_state("failed", f"the run cannot be started: {error}")
             return
         self.course = self._child.course
-        self._before = self.course.instants
+        self._before, self._started_at = self.course.instants, clock.monotonic()
         self.set_state("running")
 
     def poll(self) -> None:
