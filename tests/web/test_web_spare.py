@@ -17,7 +17,8 @@ import xarray as xr
 from fastapi.testclient import TestClient
 
 from viscontact.cli import main
-from viscontact.web import calculator
+from viscontact.errors import AccuracyWarning
+from viscontact.web import calculator, first_use
 from viscontact.web.runs import queue
 from viscontact.web.workspace.folder import Folder
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
@@ -136,6 +137,25 @@ def test_the_last_event_is_that_of_the_end_also_if_the_run_ends_while_another_is
         return states
 
     assert asyncio.run(told()) == ["waiting", "cancelled"]
+
+
+def test_a_server_uses_what_an_answer_needs_before_the_first_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, recwarn: pytest.WarningsRecorder
+) -> None:
+    used: list[bool] = []
+
+    def noted() -> None:
+        first_use.use_first()
+        used.append(True)
+
+    monkeypatch.setattr(calculator, "_FIRST_USE", 0.0)
+    monkeypatch.setattr(calculator, "use_first", noted)
+    with asking(tmp_path / "page", keeps_spare=True):
+        until(lambda: bool(used))
+    with asking(tmp_path / "other"):
+        pass
+    assert used == [True]
+    assert not [str(each.message) for each in recwarn if each.category is AccuracyWarning]
 
 
 # A parent that has ended, also within the line.

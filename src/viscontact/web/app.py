@@ -46,11 +46,14 @@ def new_app(calculator: Calculator) -> ASGIApp:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        polling = asyncio.create_task(calculator.poll_runs())
+        tasks = [
+            asyncio.create_task(each()) for each in (calculator.poll_runs, calculator.use_first)
+        ]
         yield
-        polling.cancel()
-        with suppress(asyncio.CancelledError):
-            await polling
+        for task in tasks:
+            task.cancel()
+            with suppress(asyncio.CancelledError):
+                await task
         await run_in_threadpool(calculator.queue.close)
 
     # No documentation pages, as they would load scripts from other sites.

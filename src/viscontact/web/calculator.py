@@ -14,6 +14,7 @@ from starlette.requests import Request
 
 from viscontact import __version__
 from viscontact.web.cases.case_reader import CaseReader
+from viscontact.web.first_use import use_first
 from viscontact.web.runs.queue import RunQueue
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.runs.status import result_summary, status_of
@@ -24,6 +25,8 @@ T = TypeVar("T")
 
 #: Time between two checks of the runs, the same while none is active, and between two events [s].
 POLL_INTERVAL, IDLE_INTERVAL, EVENT_INTERVAL = 0.03, 0.1, 0.2
+#: Time from the start of the server to its first use of what an answer needs [s].
+_FIRST_USE = 1.0
 #: Number of events without a change after which a line is sent, to keep the connection open.
 _QUIET = 75
 #: Status code for a client that has closed the connection.
@@ -36,7 +39,7 @@ class Calculator:
     def __init__(self, folder: Folder, at_once: int, *, keeps_spare: bool = False) -> None:
         self.folder, self.cases = folder, CaseReader(folder)
         self.queue = RunQueue(folder, at_once, keeps_spare=keeps_spare)
-        self.is_to_end = False
+        self.is_to_end, self._is_awaited = False, keeps_spare
         self._turn = asyncio.Lock()
         # Summaries of results; an entry is dropped with its run.
         self._summaries: WeakKeyDictionary[ManagedRun, tuple[str, dict[str, Any]]] = (
@@ -92,6 +95,13 @@ class Calculator:
                 await asyncio.sleep(POLL_INTERVAL)
                 if run.stage != stage:
                     break
+
+    async def use_first(self) -> None:
+        """Make the first answer as fast as later ones, where the next run has a process waiting."""
+        await asyncio.sleep(_FIRST_USE)
+        if self._is_awaited and not self.queue.is_at_work:
+            with suppress(Exception):  # the answer itself will say what is wrong
+                await self.do(use_first)
 
     async def poll_runs(self) -> None:
         """Start and check runs until cancelled."""
