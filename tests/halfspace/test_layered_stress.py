@@ -34,6 +34,19 @@ def test_equal_layers_under_cells_of_any_size_are_loves_half_space(nu, edge):
         assert body.coefficients(x, y, depth) == pytest.approx(wanted, abs=1e-11)
 
 
+@pytest.mark.parametrize("stack", [COATED, ON_RIGID])
+@pytest.mark.parametrize("depth", [1e-6, 0.2, 0.4, 0.45])
+def test_small_cells_in_a_row_have_the_stresses_of_single_ones(stack, depth):
+    """Most of the row is interpolated, single cells are not. Measured: 2e-15."""
+    body, edge = LayeredStress(stack), 0.004
+    x, y = ((np.arange(count, -1.0, -1) - 0.3) * edge for count in (220, 130))
+    row = body.coefficients(x, y, depth)
+    for i in (0, 1, 100, 219):
+        for j in (0, 64, 129):
+            one = body.coefficients(x[i : i + 2], y[j : j + 2], depth)[:, 0, 0]
+            assert row[:, i, j] == pytest.approx(one, abs=1e-13)
+
+
 @pytest.mark.parametrize("periodic", [(True, False), (True, True)])
 def test_equal_layers_are_a_half_space_on_every_grid(periodic):
     grid = Grid((9, 6), (2.0, 1.7), periodic, centre=(0.1, 0.2))

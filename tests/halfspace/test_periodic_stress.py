@@ -128,7 +128,7 @@ def test_images_between_points_are_those_of_single_places(
 ) -> None:
     """All places are interpolated, single ones are not. Measured: 2e-16, on layers 2e-14."""
     cells, edge = 120, 0.01
-    y_edges = (np.arange(90) - 0.3) * 0.04
+    y_edges = (np.arange(90) - 0.3) * 0.006
     first = -cells // 2 * edge
     whole = periodic_stress_coefficients(first, cells, edge, y_edges, depth, body)
     for place in (0, 7, 60, 119):

@@ -14,6 +14,8 @@ each corner (x, y) of a rectangle contributes to the double difference over its 
 
     I_F(x, y) = x ∫_0^y A_F(r')/r' dy',    r'² = x² + y'².
 
+The correction of small cells is interpolated from that of some of them (`sampled_cells`).
+
 With y' = s sinh t, s² = x² + h², the integrands are analytic in a strip of half width π/2,
 whatever the sizes of cells and layers, and Gauss's rule converges at a known rate. A_F and C are
 integrated along a ray of complex wave numbers, as in `smooth_kernel`. The Hankel function H1 has a
@@ -33,6 +35,7 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.halfspace.elastic_stack import ElasticStack
+from viscontact.halfspace.sampled_cells import SampledCells, sampled_cells
 from viscontact.halfspace.smooth_kernel import DEGREE, LONGEST_WAVE, MIRRORED, STEP, extended
 from viscontact.halfspace.stack_waves import StackWaves, WaveStresses, layer_at, stack_waves
 from viscontact.halfspace.stress_influence import stress_coefficients
@@ -97,9 +100,11 @@ class LayeredStress(StressResponse):
 
     def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
-        x, y = np.asarray(x_edges) / self._length, np.asarray(y_edges) / self._length
-        table = self._table(depth, float(np.hypot(np.abs(x).max(), np.abs(y).max())))
-        found = np.diff(np.diff(_corner_terms(table, x, y), axis=1), axis=2)
+        x, y = (_sampled(np.asarray(edges) / self._length) for edges in (x_edges, y_edges))
+        table = self._table(depth, float(np.hypot(np.abs(x.edges).max(), np.abs(y.edges).max())))
+        corners = _corner_terms(table, x.edges, y.edges)
+        sampled = np.diff(np.diff(corners, axis=1)[:, x.cells], axis=2)[:, :, y.cells]
+        found = x.at_all(y.at_all(sampled, axis=2), axis=1)
         if layer_at(self.stack, depth) == 0:
             nu = self.stack.layers[0].poisson_ratio
             found += stress_coefficients(x_edges, y_edges, depth, nu)
@@ -173,6 +178,13 @@ def _transformed(
         for each, sign in ((values, 1), (slope, -1))
     )
     return _Table(transforms, rate.antiderivative())
+
+
+def _sampled(edges: Array) -> SampledCells:
+    """Cells that stand for a row, as the correction is analytic to a distance of one length."""
+    widths = np.diff(edges)
+    is_even = np.allclose(widths, widths[0], rtol=1e-6, atol=0.0)
+    return sampled_cells(edges, 1.0 if is_even else 0.0)
 
 
 def _corner_terms(table: _Table, x: Array, y: Array) -> Array:

@@ -21,24 +21,18 @@ M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), eq. 25.4
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
+from viscontact.halfspace.sampled_cells import SampledCells, sampled_cells
 from viscontact.halfspace.stress_response import StressResponse
 
 Array = NDArray[np.float64]
 
 #: Images on either side that are summed one by one.
 IMAGES = 4
-
-#: Points of a polynomial over a length, along x of twice the distance to the next image, along y of
-#: this distance: the error falls by 2 + sqrt(3) with each, or by 2 + sqrt(5).
-POINTS = 27
 
 #: Length of a strip without end, in the largest of the other lengths.
 ENDLESS = 1e10
@@ -80,28 +74,15 @@ def periodic_stress_coefficients(
     found = at(x_edges, y_edges)
     # 2. The others, whose sum is smooth: at some points, and between them by polynomials.
     clearance = cells * edge - float(np.abs(x_edges).max())
-    x, y = _sampled(x_edges, 2 * clearance), _sampled(y_edges, clearance)
-    return np.asarray(found + x.weights @ _beyond(at, x, y, edge, cells, depth) @ y.weights.T)
-
-
-@dataclass(frozen=True, eq=False)
-class _Samples:
-    """Cells that stand for all of a row."""
-
-    edges: Array  # [m]
-    cells: NDArray[np.int_]  # which of the intervals between the edges are cells
-    weights: Array  # of the values at these cells, for all, shape (all, samples)
-
-    @property
-    def centres(self) -> Array:
-        """Middles of the cells [m]."""
-        return np.asarray(self.edges[self.cells] + self.edges[self.cells + 1]) / 2
+    x, y = sampled_cells(x_edges, 2 * clearance), sampled_cells(y_edges, clearance)
+    beyond = _beyond(at, x, y, edge, cells, depth)
+    return found + x.at_all(y.at_all(beyond, axis=2), axis=1)
 
 
 def _beyond(
     at: Callable[[Array, Array], Array],
-    x: _Samples,
-    y: _Samples,
+    x: SampledCells,
+    y: SampledCells,
     edge: float,
     cells: int,
     depth: float,
@@ -123,39 +104,6 @@ def _beyond(
         strips = at(np.stack([lower, upper], axis=1).ravel(), y.edges)
         found += strips[:, ::2, y.cells] / cells
     return np.asarray(found)
-
-
-def _sampled(edges: Array, length: float) -> _Samples:
-    """Chebyshev's points of parts of a length [m], as cells, or all cells if these are few.
-
-    J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46 (2004) 501, eqs. 4.2 and 5.4.
-    """
-    count = edges.size - 1
-    parts = math.ceil(abs(float(edges[-1] - edges[0])) / length) if length > 0 else count
-    if count <= parts * POINTS:
-        return _Samples(edges, np.arange(count), np.eye(count))
-    centres, half = (edges[:-1] + edges[1:]) / 2, (edges[1] - edges[0]) / 2
-    points, blocks = [], []
-    for part in np.array_split(centres, parts):
-        middle, reach = (part[0] + part[-1]) / 2, (part[-1] - part[0]) / 2
-        points.append(middle + reach * np.cos(np.pi * np.arange(POINTS) / (POINTS - 1)))
-        blocks.append(_barycentric(part, points[-1]))
-    pairs = np.add.outer(np.concatenate(points), [-half, half]).ravel()
-    weights = scipy.linalg.block_diag(*blocks)
-    return _Samples(pairs, 2 * np.arange(weights.shape[1]), weights)
-
-
-def _barycentric(places: Array, points: Array) -> Array:
-    """Weights of values at Chebyshev's points, for the polynomial at some places."""
-    signs = (-1.0) ** np.arange(points.size)
-    signs[[0, -1]] /= 2
-    distances = np.subtract.outer(places, points)
-    exact = distances == 0
-    terms = signs / np.where(exact, 1.0, distances)
-    weights = terms / terms.sum(axis=1, keepdims=True)
-    at_points = exact.any(axis=1)
-    weights[at_points] = exact[at_points]
-    return np.asarray(weights)
 
 
 def _weights(part: float) -> NDArray[np.float64]:
