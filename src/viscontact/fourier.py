@@ -237,19 +237,6 @@ def as_reals(spectrum: Field) -> Field:
     return spectrum.view(spectrum.real.dtype).reshape(*spectrum.shape, 2)
 
 
-def order_of(field: NDArray[np.float64], number: np.dtype[Any]) -> float:
-    """Return the factor to divide a field by before it is stored as a kind of number.
-
-    In single precision, with its few exponents, that is its largest value; else 1.
-
-    Examples
-    --------
-    >>> order_of(np.array([1e-99, -4e-99]), np.dtype(np.float32))
-    4e-99
-    """
-    return 1.0 if number == field.dtype else largest_of(field) or 1.0
-
-
 def largest_of(field: NDArray[np.float64]) -> float:
     """Return the largest absolute value of a field.
 

@@ -255,7 +255,11 @@ class BoundedCG:
         """
         # Exact line search on the segment from the iterate to the projected pressure.
         plane, step = self.patch.plane, self._spare
-        step -= self.iterate.pressure
+
+        def subtract(block: RigidPlane) -> None:
+            step[block.rows] -= self.iterate.pressure[block.rows]
+
+        plane.each(subtract)
         change = self._unit_displacement_of(step)
         curvature = self.problem.compliance * _inner(plane, step, change)
         best = -_inner(plane, self._residual, step) / curvature if curvature > 0 else 0.0

@@ -258,7 +258,7 @@ class ContactDomain:
         self, response: SurfaceResponse, shape: tuple[int, int]
     ) -> Preconditioner:
         options: Any = {"mirrored": self.mirrored, "workspace": self._workspace}
-        options["transforms"] = self._transforms
+        options |= {"transforms": self._transforms, "team": self.team}
         return Preconditioner(shape, self.grid.cell_size, response=response, **options)
 
     def _plane(self, rows: slice, columns: slice) -> RigidPlane:
@@ -287,7 +287,7 @@ class ContactDomain:
             return PeriodicConvolution(shape, cell_size, response, single=single, **options)
         nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
         if not coefficients.size:
-            coefficients = influence_table((nx, ny), self.grid.cell_size)
+            coefficients = influence_table((nx, ny), self.grid.cell_size, self.team)
         # Whole grids are convolved a few times a step only: their memory comes from the system
         # then, since the search, which has none of it, needs the most.
         if not single and shape == self.shape:

@@ -137,7 +137,7 @@ class Convolution:
         return result
 
     def _order_of(self, pressure: NDArray[np.float64]) -> float:
-        """Factor to divide the pressure by, as of `order_of`, by the threads."""
+        """Factor to divide the pressure by: in single precision its largest value, else 1."""
         if self._number == pressure.dtype:
             return 1.0
         parts = [_cut(pressure, self._second, lines) for lines in self._lines]

@@ -23,6 +23,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.halfspace.line_blocks import Team, blocks_of
+
 #: Beyond this many cell edges the difference of four corner terms cancels, by a factor of about
 #: (distance/edge)², while the 4 x 4 Gauss rule is exact to rounding.
 FAR = 20.0
@@ -51,16 +53,25 @@ def influence_coefficient(
     return result / np.pi
 
 
-def influence_table(shape: tuple[int, int], cell_size: tuple[float, float]) -> NDArray[np.float64]:
+def influence_table(
+    shape: tuple[int, int], cell_size: tuple[float, float], team: Team | None = None
+) -> NDArray[np.float64]:
     """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
 
-    All other offsets follow by symmetry; the table of a smaller block is its leading part.
+    All other offsets follow by symmetry; the table of a smaller block is its leading part. The
+    rows are shared out among the threads of a team.
 
     >>> influence_table((2, 2), (1.0, 1.0)).round(3).tolist()
     [[1.122, 0.33], [0.33, 0.231]]
     """
     x, y = (np.arange(cells) * cell for cells, cell in zip(shape, cell_size, strict=True))
-    return influence_coefficient(x[:, None], y[None, :], cell_size)
+    table = np.empty(shape)
+
+    def compute(rows: slice) -> None:
+        table[rows] = influence_coefficient(x[rows, None], y[None, :], cell_size)
+
+    (team or Team()).each(compute, blocks_of(shape[0], y.nbytes))
+    return table
 
 
 def _closed_form(

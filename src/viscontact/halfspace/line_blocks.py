@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 #: Size of the lines that are worked on at once [bytes].
-BLOCK_BYTES = 2**19
+BLOCK_BYTES = 2**21
 
 #: Start of each array in a workspace, for vector instructions [bytes].
 ALIGNMENT = 64
@@ -25,11 +25,11 @@ _Found = TypeVar("_Found")
 
 
 class Team:
-    """Threads that share blocks out among themselves; with one, the caller works alone.
+    """Threads that share blocks out among themselves, the caller's being one of them.
 
     Examples
     --------
-    >>> Team(2).each(lambda block: block.start, blocks_of(5, 2**18))
+    >>> Team(2).each(lambda block: block.start, blocks_of(5, 2**20))
     [0, 2, 4]
     """
 
@@ -38,13 +38,20 @@ class Team:
 
     @cached_property
     def _pool(self) -> ThreadPoolExecutor:
-        return ThreadPoolExecutor(self.threads)
+        return ThreadPoolExecutor(self.threads - 1)
 
     def each(self, work: Callable[[_Block], _Found], blocks: Sequence[_Block]) -> list[_Found]:
         """Work on all blocks, and return what that gives, in their order."""
-        if self.threads == 1 or len(blocks) == 1:
+        shares = min(self.threads, len(blocks))
+
+        def share(first: int) -> list[_Found]:
+            return [work(block) for block in blocks[first::shares]]
+
+        if shares <= 1:
             return [work(block) for block in blocks]
-        return list(self._pool.map(work, blocks))
+        others = [self._pool.submit(share, first) for first in range(1, shares)]
+        found = [share(0), *(other.result() for other in others)]
+        return [found[place % shares][place // shares] for place in range(len(blocks))]
 
 
 class Workspace:
@@ -75,7 +82,7 @@ def blocks_of(lines: int, bytes_per_line: int) -> list[slice]:
 
     Examples
     --------
-    >>> blocks_of(5, 2**18)
+    >>> blocks_of(5, 2**20)
     [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
     """
     most = max(1, BLOCK_BYTES // max(1, bytes_per_line))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.fourier import Transforms
-from viscontact.halfspace.line_blocks import Workspace
+from viscontact.halfspace.line_blocks import Team, Workspace
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.spectral import Spectra
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
@@ -37,8 +37,9 @@ class Preconditioner:
         mirrored: tuple[bool, bool] = (False, False),
         transforms: Transforms | None = None,
         workspace: Workspace | None = None,
+        team: Team | None = None,
     ) -> None:
-        self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms, workspace)
+        self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms, workspace, team)
         self._least = self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
         if response is not HALF_SPACE:
             self._set_ratios(response.ratio(self.waves))

@@ -22,10 +22,10 @@ from viscontact.fourier import (
     Transforms,
     fastest_transforms,
     fill_of_order,
-    order_of,
+    largest_of,
     transforms_by,
 )
-from viscontact.halfspace.line_blocks import Workspace
+from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Factor of waves by their wave numbers along the motion [1/m].
@@ -146,6 +146,7 @@ class Spectra:
         number: type,
         transforms: Transforms | None,
         workspace: Workspace | None = None,
+        team: Team | None = None,
     ) -> None:
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._even = [axis for axis in (0, 1) if mirrored[axis]]
@@ -155,7 +156,7 @@ class Spectra:
         #: Signed wave numbers along x and y, in the order of the transform [1/m].
         self.wave_numbers = 2 * np.pi * waves[0], 2 * np.pi * waves[1]
         self._shape, self._number = shape, np.dtype(number)
-        self._workspace = workspace or Workspace()
+        self._workspace, self._team = workspace or Workspace(), team or Team()
 
     @property
     def half_wave_numbers(self) -> NDArray[np.float64]:
@@ -170,15 +171,26 @@ class Spectra:
         into: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Field whose spectrum is that of the given field times a symbol."""
-        size = order_of(field, self._number)
+        rows = blocks_of(len(field), field[:1].nbytes)
+        size = 1.0
+        if field.dtype != self._number:
+            size = max(self._team.each(lambda block: largest_of(field[block]), rows)) or 1.0
         waves = len(self.wave_numbers[0]), len(self.wave_numbers[1])
         kind = np.result_type(self._number, np.complex64)
         block, spectrum = self._workspace.arrays((self._shape, self._number), (waves, kind))
-        fill_of_order(size, block, field)
+        self._team.each(lambda here: fill_of_order(size, block[here], field[here]), rows)
         spectrum = self._forth(block, spectrum)
-        spectrum *= symbol
+
+        def multiply(here: slice) -> None:
+            spectrum[here] *= symbol[here]
+
+        self._team.each(multiply, blocks_of(len(spectrum), spectrum[:1].nbytes))
         back = self._back(spectrum, block)
-        return np.asarray(np.multiply(back, size, out=into, dtype=np.float64))
+        found = np.empty(self._shape) if into is None else into
+        self._team.each(
+            lambda here: np.multiply(back[here], size, out=found[here], dtype=np.float64), rows
+        )
+        return found
 
     def factor_along(self, axis: int, factor: WaveFactor) -> NDArray[np.complex128]:
         """Factor of each entry of a spectrum by its wave number along an axis [1/m]."""

@@ -25,6 +25,7 @@ from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
+from viscontact.halfspace.line_blocks import blocks_of
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.setup import RunSetup
@@ -91,7 +92,7 @@ class Stepper:
         self._history = SurfaceHistory(run, domain)
         self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
         self._creeping = run.problem.surface.most_creeping  # term whose time error is estimated
-        self._errors = TimeErrors(run.plans[self._creeping], run.problem.load)
+        self._errors = TimeErrors(run.plans[self._creeping], run.problem.load, domain.team)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
@@ -164,11 +165,11 @@ class Stepper:
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
-        known = self._reference_history(step)
+        known, team = self._reference_history(step), self._domain.team
         if self._run.problem.motion is None:
-            guess = self._reference_guess(predict(known, step.time, drive), response, past)
+            guess = self._reference_guess(predict(known, step.time, drive, team), response, past)
         else:
-            moved = predict(self._moved(known, step), step.time, point.level)
+            moved = predict(self._moved(known, step), step.time, point.level, team)
             guess = None if moved is None else self._moved_guess(moved, problem)
         return StepProblem(point, response, drive, problem, guess)
 
@@ -244,8 +245,14 @@ class Stepper:
             values[0] /= response.first.compliance
             self._domain.convolution.apply(values[0], into=values[1])
             return Guess(values, reference.motion)
-        np.subtract(values, history, out=values)
-        values /= response.compliance
+        found, past = values.reshape(-1), history.reshape(-1)
+
+        def increment(part: slice) -> None:
+            here = found[part]
+            here -= past[part]
+            here /= response.compliance
+
+        self._domain.team.each(increment, blocks_of(values.size, values.itemsize))
         return Guess(values, reference.motion)
 
     def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:

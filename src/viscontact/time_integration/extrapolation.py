@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.line_blocks import Team, blocks_of
+
 #: Points of the extrapolating polynomial. A third one amplifies the errors that the solver's
 #: tolerance leaves: it costs half an iteration a step.
 EXTRAPOLATION_POINTS = 2
@@ -35,7 +37,9 @@ class ElasticReference:
     motion: NDArray[np.float64]  # approach [m] and tilts [rad]
 
 
-def predict(past: Sequence[ElasticReference], time: float, drive: float) -> ElasticReference | None:
+def predict(
+    past: Sequence[ElasticReference], time: float, drive: float, team: Team | None = None
+) -> ElasticReference | None:
     """Extrapolate the elastic reference to a time [s] and its drive [m² or m].
 
     `past` holds those since the load's last kink or jump, oldest first. Linear in the drive where
@@ -50,10 +54,15 @@ def predict(past: Sequence[ElasticReference], time: float, drive: float) -> Elas
     else:
         weights = lagrange_weights([each.time for each in known], time)
     # The weights add up to one: last + w0 (first - last), in place to save passes over the fields.
-    last = known[-1].fields
-    fields = np.subtract(known[0].fields, last)
-    fields *= weights[0]
-    fields += last
+    fields = np.empty(known[-1].fields.shape)
+    found, first, last = (each.reshape(-1) for each in (fields, known[0].fields, known[-1].fields))
+
+    def extrapolate(part: slice) -> None:
+        here = np.subtract(first[part], last[part], out=found[part])
+        here *= weights[0]
+        here += last[part]
+
+    (team or Team()).each(extrapolate, blocks_of(fields.size, fields.itemsize))
     motion = np.asarray(weights) @ np.array([each.motion for each in known])
     return ElasticReference(time, drive, fields, motion)
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.line_blocks import Team, blocks_of
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap
@@ -29,6 +30,7 @@ class HereditaryResponse:
     resolved: bool  # the step is short against the law, so that pressure may change much over it
     held: float = 0.0  # part of the step over which the new value is held after its rise [-]
     trended: float = 0.0  # part of the step over which the last step's trend is continued [-]
+    team: Team = field(default_factory=Team)  # threads that share the field out
 
     @property
     def history(self) -> NDArray[np.float64]:
@@ -37,8 +39,14 @@ class HereditaryResponse:
 
     def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement for a new value of the field."""
-        displacement = self.compliance * value
-        displacement += self.history
+        displacement = np.empty(value.shape)
+        found, given, past = displacement.reshape(-1), value.reshape(-1), self.history.reshape(-1)
+
+        def add(part: slice) -> None:
+            here = np.multiply(self.compliance, given[part], out=found[part])
+            here += past[part]
+
+        self.team.each(add, blocks_of(value.size, value.itemsize))
         return displacement
 
 

@@ -163,7 +163,7 @@ class InternalVariables(HereditaryIntegral):
         step, shape = self._next, self._shape
         compliance = self._compliance.instant + float(step.new.sum())
         return HereditaryResponse(
-            self._history, compliance, step.resolved, shape.held, shape.trended
+            self._history, compliance, step.resolved, shape.held, shape.trended, self._team
         )
 
     def _history(self) -> NDArray[np.float64]:

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.halfspace.line_blocks import Team, blocks_of
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.hereditary_integral import HereditaryResponse
@@ -75,8 +76,8 @@ class TimeErrors:
     the force, a cone's not at all.
     """
 
-    def __init__(self, plan: HereditaryPlan, load: LoadHistory) -> None:
-        self._load = load
+    def __init__(self, plan: HereditaryPlan, load: LoadHistory, team: Team | None = None) -> None:
+        self._load, self._team = load, team or Team()
         self._level = 0.0
         self._compliance = plan.prony_approximation
         #: Displacement error of each term of J, from interpolation and from the pressure error [m].
@@ -104,13 +105,12 @@ class TimeErrors:
         contact = values[0] > 0
         if self._values is not None:
             contact |= self._values[0] > 0
-        size = max(self._size, _mean_over(contact, values[1]))
+        size = max(self._size, self._mean_over(contact, values[1]))
         level = max(self._level, self._load.level_of(point))
         if step.is_jump or self._values is None:
             return StepError(0.0, 0.0, size, level)
-        rate = values[1] - self._values[1]
-        rate /= step.duration
-        travel = LARGEST_OVER_MEAN * step.duration * _mean_over(contact, rate)
+        rate = self._rate_over(step, values[1], self._values[1])
+        travel = LARGEST_OVER_MEAN * step.duration * self._mean_over(contact, rate)
         interpolation_error = self._interpolation_error(step, rate, contact, travel, response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
@@ -192,7 +192,7 @@ class TimeErrors:
         late = response.held * travel / 2
         if not step.smooth or self._rate is None:
             return max(late, ISOLATED_STEP_SHARE * travel)
-        change = LARGEST_OVER_MEAN * _mean_over(contact, rate - self._rate)
+        change = LARGEST_OVER_MEAN * self._mean_over(contact, rate, self._rate)
         curvature = 2 * change / (step.duration + self._durations[-1])
         part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
         return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
@@ -225,8 +225,36 @@ class TimeErrors:
         self._pressure_error, self._jumped = -float(self._term_errors.sum()) / compliance, False
         self._term_errors += step.new * self._pressure_error
 
+    def _rate_over(
+        self, step: Step, value: NDArray[np.float64], before: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Mean rate of a field over a step."""
+        rate = np.empty(value.shape)
 
-def _mean_over(where: NDArray[np.bool_], field: NDArray[np.float64]) -> float:
-    """Mean of the absolute values of a field over some of the cells; 0 over none."""
-    count = np.count_nonzero(where)
-    return float(np.abs(field).sum(where=where)) / count if count else 0.0
+        def divide(rows: slice) -> None:
+            here = np.subtract(value[rows], before[rows], out=rate[rows])
+            here /= step.duration
+
+        self._team.each(divide, _blocks(value))
+        return rate
+
+    def _mean_over(
+        self,
+        where: NDArray[np.bool_],
+        field: NDArray[np.float64],
+        other: NDArray[np.float64] | None = None,
+    ) -> float:
+        """Mean absolute value of a field, or of its difference to another, over some cells."""
+
+        def sums(rows: slice) -> tuple[int, float]:
+            here = field[rows] if other is None else field[rows] - other[rows]
+            cells = where[rows]
+            return int(np.count_nonzero(cells)), float(np.abs(here).sum(where=cells))
+
+        counts, totals = zip(*self._team.each(sums, _blocks(field)), strict=True)
+        return sum(totals) / sum(counts) if any(counts) else 0.0
+
+
+def _blocks(field: NDArray[np.float64]) -> list[slice]:
+    """Blocks of rows of a field."""
+    return blocks_of(len(field), field[:1].nbytes)
