@@ -129,6 +129,7 @@ BENCHMARKS = {
     "storing": "storing.py",
     "steady": "steady.py",
     "layers": "layers.py",
+    "error-bars": "error_bars.py",
 }
 
 TASKS = {

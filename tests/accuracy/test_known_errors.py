@@ -12,13 +12,8 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.accuracy.coarser_runs import (
-    CoarserResult,
-    History,
-    history_of,
-    march_coarser_run,
-    plan_coarser_runs,
-)
+from viscontact.accuracy.coarser_results import CoarserResult, History, history_of
+from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.error_bars import error_bars_from
 from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import RunSetup, prepare_run

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
+from viscontact.accuracy.coarser_results import history_of
+from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.singular_peaks import SINGULAR, peak_bars, singular_warnings
 from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
@@ -67,6 +68,28 @@ def test_peak_that_an_automatic_grid_left_out_has_no_limit_at_an_end(ball):
     assert math.isinf(peak_bars(BARS, *changed, left_out=True)[0])
     assert peak_bars(BARS, *changed)[0] == 1.0
     assert peak_bars(BARS, *ball, left_out=True)[0] == 1.0  # no end is reached
+
+
+def test_peak_has_no_limit_between_instants_that_coarser_runs_have_far_apart(ball):
+    """Cells in which a round edge lies on the finer one of the two grids may hide its growth."""
+    history, results = ball
+    many = {name: np.repeat(values, 9) for name, values in history.items()}
+    many["time"] = np.arange(9.0)
+    changed = []
+    for each, instants, exponent in zip(results, ([0, 8], [0, 4, 8]), (0.5, 0.02), strict=True):
+        count = len(instants)
+        scalars = {name: np.repeat(values, count) for name, values in each.scalars.items()}
+        peaks = np.full(count, history["peak_pressure"][0] * each.spacing**-exponent)
+        repeated = ("bend_growth", "spots", "peak_drops", "rises_to_ends")
+        changed.append(
+            replace(
+                each,
+                scalars=scalars | {"time": np.array(instants, float), "peak_pressure": peaks},
+                end_pressures=np.stack([peaks, peaks / 2], axis=1),
+                **{name: np.repeat(getattr(each, name), count, axis=0) for name in repeated},
+            )
+        )
+    assert np.isinf(peak_bars(np.ones(9), many, changed)).all()
 
 
 def test_infinite_bars_come_with_a_warning_and_a_remedy_once():

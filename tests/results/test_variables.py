@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.accuracy.coarser_runs import history_of
+from viscontact.accuracy.coarser_results import history_of
 from viscontact.accuracy.error_bars import ZERO_WITHOUT_CONTACT
 from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main

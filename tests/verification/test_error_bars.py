@@ -16,7 +16,8 @@ import pytest
 
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
-from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
+from viscontact.accuracy.coarser_results import history_of
+from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.error_bars import error_bars, error_bars_from
 from viscontact.accuracy.singular_peaks import SINGULAR
 from viscontact.problem.problem import Problem

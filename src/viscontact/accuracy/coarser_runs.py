@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
+from viscontact.accuracy.coarser_results import CoarserResult, History, ObservedStates
 from viscontact.accuracy.coarser_steps import (
     fewer_times,
     first_steps,
@@ -22,34 +23,35 @@ from viscontact.accuracy.moving_levels import (
     fewer_moving_times,
     whole_cell_ratios,
 )
-from viscontact.checks.mesh import cells_across_spots
-from viscontact.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
 from viscontact.contact.cell_fields import is_even
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.loads import MixedHistory
 from viscontact.materials.compliance import ContactCompliance
-from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
 from viscontact.simulation.program_course import EventError
 from viscontact.simulation.setup import RunSetup, plan_history
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import plan_steps, step_ends
 
-#: Cell sizes of the coarser runs, in cells of the run.
-CELL_RATIOS = (1.5, 2.4)
+#: Least number of cells across the largest contact, and cell sizes of the coarser runs, in cells of
+#: the run. Lines of centres of whole multiples would lie on those of the run: the rims of all grids
+#: might then agree by chance.
+CELL_RATIOS = ((40, (1.9, 2.9)), (0, (1.5, 2.4)))
 
 #: Number of steps below which a third run estimates their errors, however small the estimated
 #: time errors are: the first step behind a kink of the load has none.
 FEW_STEPS = 16
 
 #: Least number of steps of the run, and step sizes of its coarser runs, in steps of the run.
-STEP_RATIOS = ((FEW_STEPS, (2, 4)), (7, (2, 2)), (0, (1, 1)))
+STEP_RATIOS = ((32, (4, 8)), (FEW_STEPS, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 
 #: Mean number of steps between two times of the run from which coarser runs have all these times.
 STEPS_BETWEEN = 2
 
-#: Estimated time error of the pressure up to which the two coarser runs show what the steps add.
-SMALL_TIME_ERROR = 3e-3
+#: Estimated time error of the pressure up to which it serves where the two coarser runs do not show
+#: what the steps add; and the same where the load jumps, as the error of the first step behind a
+#: jump may be larger, and of a moving body, whose losses depend on the steps.
+SMALL_TIME_ERROR, SMALL_WITH_JUMPS = 3e-2, 3e-3
 
 #: Relative creep within the first step of a moving body behind a jump from which this is divided.
 LITTLE_CREEP = 0.1
@@ -66,9 +68,6 @@ MIN_COARSENING = 1.6
 
 FloatArray = NDArray[np.float64]
 
-#: Scalars over the instants of a run by name, including ``time``.
-History = Mapping[str, NDArray[np.float64]]
-
 
 @dataclass(frozen=True, eq=False)
 class CoarserRun:
@@ -78,31 +77,6 @@ class CoarserRun:
     divides_steps: bool  # divides steps that the coarsest run takes as the original run does
     run: RunSetup
     program_times: FloatArray | None = None  # of a load program: times of the run that it steps to
-
-
-@dataclass(frozen=True, eq=False)
-class CoarserResult:
-    """Result of a coarser run."""
-
-    spacing: float  # as in CoarserRun
-    divides_steps: bool  # as in CoarserRun
-    scalars: History
-    end_pressures: NDArray[np.float64]  # over the instants, see `singularities.EndCells` [Pa]
-    #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
-    #: cause, over the mean pressure [-].
-    bend_growth: NDArray[np.float64]
-    spots: NDArray[np.float64]  # mean width of the contact spots, in cells of the original run
-    peak_drops: FloatArray  # relative drop of pressure from the largest one to the cells next to it
-    rises_to_ends: NDArray[np.bool_]  # pressure rises to both ends along x, y; shape (instants, 2)
-    is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
-    #: Ends of the segments of a load program, NaN where they ended in another way than those of the
-    #: run; none of other loads [s].
-    segment_ends: FloatArray = field(default_factory=lambda: np.zeros(0))
-
-    @property
-    def at_end(self) -> NDArray[np.bool_]:
-        """Instants at which the contact reaches the end of the body."""
-        return np.asarray(self.end_pressures[:, 0] > 0)
 
 
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
@@ -116,10 +90,12 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     own = step_ends(plan_steps(times, load))
     creeping = creeps(run.problem.surface.creep, times)
     few = len(own) < FEW_STEPS or _creeps_behind_jumps(run, own)
-    divides = creeping and (few or not _has_small_time_error(history))
+    divides = creeping and (few or not _has_small_time_error(run, history))
     step_ratios = _step_ratios(len(own))
     across = float(history["cells_across"].max(initial=0.0))
-    spacings = _spacings(across, parities=_parities(run))
+    # The rims of a strip lie alike among the cells all along it: their errors do not cancel.
+    wanted = _cell_ratios(across if run.grid.has_datum else 0.0)
+    spacings = _spacings(across, wanted, parities=_parities(run))
     if run.problem.motion is not None and (whole := whole_cell_ratios(across)):
         spacings = tuple((by, parity) for (by, _), (_, parity) in zip(whole, spacings, strict=True))
         step_ratios = (whole[0][1], whole[1][1])
@@ -138,6 +114,12 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
         yield replace(divided, divides_steps=True)
 
 
+def _has_program(run: RunSetup) -> bool:
+    """Test whether a load program gives the run its instants."""
+    load = run.problem.load
+    return isinstance(load, MixedHistory) and load.program is not None
+
+
 def _kept_times(run: RunSetup, times: FloatArray, step_ratio: int) -> FloatArray:
     """Times of a run of which about every `step_ratio`-th one is kept."""
     motion, stops = run.problem.motion, run.problem.history.stops
@@ -146,11 +128,17 @@ def _kept_times(run: RunSetup, times: FloatArray, step_ratio: int) -> FloatArray
     return fewer_moving_times(times, stops, motion, run.grid, step_ratio)
 
 
-def _has_small_time_error(history: History) -> bool:
-    """Test whether the estimated time errors are small; there is none at the first touch."""
-    peak, error = history["peak_pressure"], history["time_error"]
+def _has_small_time_error(run: RunSetup, history: History) -> bool:
+    """Test whether the estimated time errors are small.
+
+    There is none where contact begins within a step, later than at time 0.
+    """
+    times, peak, error = history["time"], history["peak_pressure"], history["time_error"]
     begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
-    return bool(np.nanmax(error) <= SMALL_TIME_ERROR and (error[1:][begins] > 0).all())
+    begins &= times[:-1] > 0
+    jumps = run.problem.motion is not None or run.problem.history.jumps.size > 0
+    small = SMALL_WITH_JUMPS if jumps else SMALL_TIME_ERROR
+    return bool(np.nanmax(error) <= small and (error[1:][begins] > 0).all())
 
 
 def _creeps_behind_jumps(run: RunSetup, ends: FloatArray) -> bool:
@@ -163,20 +151,23 @@ def _creeps_behind_jumps(run: RunSetup, ends: FloatArray) -> bool:
     return bool(grown > (1 + LITTLE_CREEP) * compliance.instant)
 
 
-def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
-    """Ratios of cells and of steps of the coarser runs of a run with a number of steps.
+def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]:
+    """Ratios of cells and of steps of the coarser runs of a run.
+
+    It has a number of steps, and of cells across its largest contact.
 
     Examples
     --------
-    >>> usual_coarsening(60)
-    ((1.5, 2), (2.4, 4))
-    >>> usual_coarsening(7), usual_coarsening(6)
-    (((1.5, 2), (2.4, 2)), ((1.5, 1), (2.4, 1)))
+    >>> usual_coarsening(60, across=50)
+    ((1.9, 4), (2.9, 8))
+    >>> usual_coarsening(20, across=30), usual_coarsening(6, across=30)
+    (((1.5, 2), (2.4, 4)), ((1.5, 1), (2.4, 1)))
     """
-    step_ratios = _step_ratios(steps)
-    return tuple(
-        (spacing, step_ratio) for spacing, step_ratio in zip(CELL_RATIOS, step_ratios, strict=True)
-    )
+    return tuple(zip(_cell_ratios(across), _step_ratios(steps), strict=True))
+
+
+def _cell_ratios(across: float) -> tuple[float, float]:
+    return next(cell_ratios for least, cell_ratios in CELL_RATIOS if across >= least)
 
 
 def _step_ratios(steps: int) -> tuple[int, int]:
@@ -190,66 +181,26 @@ def march_coarser_run(
 
     `on_step` is called after each step, and may stop the run by an exception.
     """
-    states, ends, bends, spots, drops = [], [], [], [], []
-    rises: list[tuple[bool, bool]] = []
-    peak = 0.0
-    sharp = False
+    run, program_times = coarser_run.run, coarser_run.program_times
+    observed = ObservedStates(run, coarser_run.spacing)
     events: OwnEvents | None = None
+
+    def after_step(state: ContactState | None) -> None:
+        if on_step is not None:
+            on_step()
+        if state is not None:
+            observed.add(state)
+
     try:
-        coarser_run, events = _with_own_events(coarser_run)
-        run = coarser_run.run
-        at_end = cells_at_end(run.open_gap)
-        for state in March(run, warns=False):
-            if on_step is not None:
-                on_step()
-            if state is None:
-                continue
-            if events is not None:
-                state = replace(state, time=events.instant_of(state.time))
-                if math.isnan(state.time):
-                    continue
-            states.append(state.without_fields())
-            ends.append(at_end.pressures(state.pressure))
-            bends.append(_bend_growth(run, state))
-            spots.append(cells_across_spots(state.pressure > 0, periodic=run.grid.periodic))
-            drops.append(_drop_beside_peak(state.pressure))
-            rises.append((_rises_to_ends(state.pressure), _rises_to_ends(state.pressure.T)))
-            if state.peak_pressure > 1.1 * peak:
-                peak = state.peak_pressure
-                sharp = sharp or _peaks_at_point(coarser_run, state)
+        if program_times is not None:
+            events = own_events(run, program_times, after_step)
+        else:
+            for state in March(run, warns=False):
+                after_step(state)
     except (ConvergenceError, DomainError, EventError):
         return None
-    return CoarserResult(
-        coarser_run.spacing,
-        coarser_run.divides_steps,
-        history_of(states),
-        np.array(ends, dtype=float).reshape(-1, 2),
-        np.array(bends, dtype=float),
-        coarser_run.spacing * np.array(spots, dtype=float),
-        np.array(drops, dtype=float),
-        np.array(rises, dtype=bool).reshape(-1, 2),
-        sharp,
-        np.zeros(0) if events is None else events.ends,
-    )
-
-
-def _with_own_events(coarser_run: CoarserRun) -> tuple[CoarserRun, OwnEvents | None]:
-    """A coarser run of a load program under the history that it has on its own cells and steps."""
-    times, run = coarser_run.program_times, coarser_run.run
-    if times is None:
-        return coarser_run, None
-    events = own_events(run, times)
-    problem = replace(run.problem, load=events.load, times=events.times)
-    plan, *others = plan_history(problem, run.open_gap, run.grid)
-    run = replace(run, problem=problem, hereditary=plan, other_terms=tuple(others))
-    return replace(coarser_run, run=run), events
-
-
-def history_of(states: Sequence[ContactState]) -> History:
-    """Scalars of states that are used to estimate their errors, over their instants."""
-    scalars = scalars_with_error(moving=bool(states) and states[0].moving)
-    names = ("time", *scalars, "cells_across", "time_error")
-    return {name: np.array([getattr(state, name) for state in states], float) for name in names}
+    result = observed.result(divides_steps=coarser_run.divides_steps)
+    return result if events is None else result.at(events.own, segment_ends=events.ends)
 
 
 def _parities(run: RunSetup) -> tuple[bool, bool]:
@@ -264,12 +215,14 @@ def _parities(run: RunSetup) -> tuple[bool, bool]:
     return True, bool(np.isfinite(run.open_gap).all())
 
 
-def _spacings(across: float, *, parities: tuple[bool, bool]) -> tuple[tuple[float, bool], ...]:
+def _spacings(
+    across: float, wanted: tuple[float, float], *, parities: tuple[bool, bool]
+) -> tuple[tuple[float, bool], ...]:
     """Ratios of cells, closer to 1 if the run has few cells across its contact, and parities."""
-    coarsest = CELL_RATIOS[-1]
+    coarsest = wanted[-1]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
-    ratios = (1 + (spacing - 1) * closer for spacing in CELL_RATIOS)
+    ratios = (1 + (spacing - 1) * closer for spacing in wanted)
     return tuple(zip(ratios, parities, strict=True))
 
 
@@ -294,39 +247,4 @@ def _coarser_run(
     plan, *others = plan_history(problem, coarse.open_gap, coarse.grid)
     setup = replace(coarse, problem=problem, hereditary=plan, other_terms=tuple(others))
     spacing = math.sqrt(ratios[0] * ratios[1])
-    load = problem.load
-    has_program = isinstance(load, MixedHistory) and load.program is not None
-    return CoarserRun(spacing, False, setup, times if has_program else None)
-
-
-def _drop_beside_peak(pressure: FloatArray) -> float:
-    """Largest relative drop from the largest pressure to the neighbouring cells in contact."""
-    i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
-    around = pressure[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
-    peak = float(pressure[i, j])
-    return float(1 - around.min(where=around > 0, initial=peak) / peak) if peak > 0 else 0.0
-
-
-def _rises_to_ends(pressure: FloatArray) -> bool:
-    """Test whether the largest pressures across the first axis rise to both ends of the contact."""
-    lines = pressure.max(axis=1)
-    pressed = lines[lines > 0]
-    return len(pressed) > 1 and bool(pressed[0] >= pressed[1] and pressed[-1] >= pressed[-2])
-
-
-def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:
-    """Test whether the largest pressure lies at a point that is sharp on the original cells."""
-    run = coarser_run.run
-    place = run.grid.largest_at(state.pressure)
-    dx, dy = run.grid.cell_size
-    cell = (dx / coarser_run.spacing, dy / coarser_run.spacing)
-    strain = strain_of(state.peak_pressure, float(run.problem.compliance(state.time)))
-    return is_sharp(run.problem.indenter, place, (1.5 * dx, 1.5 * dy), cell, strain)
-
-
-def _bend_growth(run: RunSetup, state: ContactState) -> float:
-    """Growth of the largest pressure that the body's bend can cause, over the mean pressure [-]."""
-    peak = np.unravel_index(int(state.pressure.argmax()), state.pressure.shape)
-    bend = bend_at(run.open_gap, run.grid, (int(peak[0]), int(peak[1])))
-    strain = 2 * np.pi * float(run.problem.compliance(state.time)) * state.mean_pressure
-    return bend / strain if strain > 0 else 0.0
+    return CoarserRun(spacing, False, setup, times if _has_program(run) else None)

@@ -14,9 +14,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.coarser_runs import (
-    CoarserResult,
-    History,
     creeps,
     march_coarser_run,
     plan_coarser_runs,
@@ -87,7 +86,7 @@ def error_bars(
     Examples
     --------
     >>> import viscontact as vc
-    >>> from viscontact.accuracy.coarser_runs import history_of
+    >>> from viscontact.accuracy.coarser_results import history_of
     >>> from viscontact.simulation.state_generator import march_run
     >>> from viscontact.problem.problem import Problem
     >>> from viscontact.simulation.setup import prepare_run
@@ -163,7 +162,9 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     ended = np.logical_or.accumulate(at_end) if creeping else at_end
     singular = moving_maximum(unbounded_peak(history, results)) > 0
     drops = moving_maximum(peak_drops(times, results))
-    return ContactKinds(at_end, ended, of_spots, singular, rises_to_ends(times, results), drops)
+    rises = rises_to_ends(times, results)
+    divided = any(each.divides_steps for each in results)
+    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, divided)
 
 
 def unknown_bars(history: History) -> ErrorBars:
@@ -201,7 +202,13 @@ def _bar(
     over = _over(by_cells, scale)
     touching = history["contact_area"] > 0
     relative = np.where(touching, _around(cells * over) / cells, _around(over))
-    relative += np.nan_to_num(_over(levels.by_steps, scale))
+    by_steps = levels.by_steps
+    if not kinds.divided:
+        # What is prescribed does not differ between the grids.
+        differs = between_known(by_cells) > run.problem.solver_error * scale
+        estimated = model.of_time_error * moving_maximum(history["time_error"]) * own
+        by_steps = np.fmax(by_steps, np.where(differs, estimated, 0.0))
+    relative += np.nan_to_num(_over(by_steps, scale))
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
     relative += run.problem.surface.splitting_error
     bar = (relative + run.problem.compliance.inversion_error) * scale

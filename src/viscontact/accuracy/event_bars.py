@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_runs import CoarserResult, History
+from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.accuracy.levels import DIVIDED_STEP_FACTOR, RefinementLevels
 from viscontact.loads import MixedHistory

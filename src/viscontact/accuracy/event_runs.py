@@ -1,11 +1,13 @@
 """Coarser runs of a load program, whose events have instants of their own.
 
-A coarser run carries the program out on its own cells and steps. Its states are compared with those
-of the run at equal times after the event before, and at the event itself.
+A coarser run carries the program out on its own cells and steps. The states on the way, found by
+the search for the events, are compared with those of the run at equal times after the event before,
+and at the event itself.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +17,7 @@ from viscontact.loads import MixedHistory
 from viscontact.simulation.load_events import EventSearch
 from viscontact.simulation.program_course import ProgramCourse
 from viscontact.simulation.setup import RunSetup
+from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE
 
 Array = NDArray[np.float64]
@@ -22,25 +25,26 @@ Array = NDArray[np.float64]
 #: Longest duration of a segment of a coarser run that ends on a condition, over that of the run.
 LONGEST = 2.0
 
+#: Error of the instants of its events, as a part of the step: the events of two grids are farther
+#: apart.
+EVENT_TOLERANCE = 1e-5
+
 
 @dataclass(frozen=True, eq=False)
 class OwnEvents:
-    """History of a coarser run of a program, and what its instants are compared with."""
+    """Instants of a coarser run of a program, and what they are compared with."""
 
-    load: MixedHistory
-    times: Array  # ends of the steps of the coarser run [s]
-    own: Array  # instants of the run that they are compared with, NaN where there is none [s]
+    own: Array  # instants of the run that its states are compared with, NaN where none is [s]
     ends: Array  # ends of the segments in the coarser run, NaN where they ended in another way [s]
 
-    def instant_of(self, time: float) -> float:
-        """Instant of the run that one of the coarser run is compared with; NaN without one [s]."""
-        return float(self.own[np.abs(self.times - time).argmin()])
 
-
-def own_events(coarse: RunSetup, times: Array) -> OwnEvents:
+def own_events(
+    coarse: RunSetup, times: Array, on_state: Callable[[ContactState], None]
+) -> OwnEvents:
     """Carry the program of a run out on coarser cells, in steps to some of the run's times.
 
-    ValueError if a condition is not met; ConvergenceError, DomainError as in `march`.
+    `on_state` is called with the state at the end of each step. EventError if a condition is not
+    met; ConvergenceError, DomainError as in `march`.
     """
     own = coarse.problem.load
     assert isinstance(own, MixedHistory)
@@ -58,8 +62,12 @@ def own_events(coarse: RunSetup, times: Array) -> OwnEvents:
         for length, ended_by in zip(np.diff(own.times), own.ended_by, strict=True)
     ]
     course = ProgramCourse(own.program, sum(lengths), lengths)
-    search = EventSearch(replace(coarse.problem, grid=coarse.grid), course, step_ends)
+    problem = replace(coarse.problem, grid=coarse.grid)
+    search = EventSearch(
+        problem, course, step_ends, event_tolerance=EVENT_TOLERANCE, on_state=on_state
+    )
     load = search.carry_out()
+    search.refuse_coarse_mesh()
     taken = np.array([state.time for state in search.states])
     ends = np.full(len(own.controls), np.nan)
     compared = np.full(len(taken), np.nan)
@@ -74,7 +82,7 @@ def own_events(coarse: RunSetup, times: Array) -> OwnEvents:
             break
         compared[np.abs(taken - end).argmin()] = own.times[number + 1]
         ends[number] = end
-    return OwnEvents(load, taken, compared, ends)
+    return OwnEvents(compared, ends)
 
 
 def _times_within(own: MixedHistory, number: int, times: Array) -> Array:

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import straight_ends
-from viscontact.accuracy.coarser_runs import History, creeps
+from viscontact.accuracy.coarser_results import History
+from viscontact.accuracy.coarser_runs import creeps
 from viscontact.accuracy.moving_bars import RESISTANCES, entry_rise, least_resistance_bar
 from viscontact.simulation.setup import RunSetup
 
@@ -106,6 +107,7 @@ class ContactKinds:
     #: Pressure rises to both ends of the contact along x, y; shape (2, times).
     rises: NDArray[np.bool_]
     drops: Array  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
+    divided: bool  # a third run has divided the steps that the others take as the run does
 
     @property
     def steep(self) -> NDArray[np.bool_]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_runs import CoarserResult, History
+from viscontact.accuracy.coarser_results import CoarserResult, History
 
 Array = NDArray[np.float64]
 
@@ -64,10 +64,16 @@ class RefinementLevels:
 
 
 def end_flags(times: Array, results: list[CoarserResult]) -> Array:
-    """1 at times at which any coarser run has reached the end of the body, else 0."""
+    """1 at times at which any coarser run has reached the end of the body, else 0.
+
+    Between two of its instants, a coarser run is there where it is at one of them.
+    """
     flags = np.zeros(len(times))
     for result in results:
-        flags[np.isin(times, result.scalars["time"][result.at_end])] = 1.0
+        theirs = result.scalars["time"]
+        own = np.full(len(times), np.nan)
+        own[np.isin(times, theirs)] = result.at_end[np.isin(theirs, times)]
+        flags = np.fmax(flags, between_known(own))
     return flags
 
 
@@ -105,10 +111,11 @@ def peak_drops(times: Array, results: list[CoarserResult]) -> Array:
 
 def aligned(name: str, times: Array, result: CoarserResult) -> Array:
     """A coarser run's scalar at the run's times, NaN where it has none."""
-    values, theirs = np.full(len(times), np.nan), result.scalars["time"]
-    shared, known = np.isin(times, theirs), np.isin(theirs, times)
-    values[shared] = result.scalars[name][known]
-    return values
+    theirs = result.scalars["time"]
+    if not theirs.size:
+        return np.full(len(times), np.nan)
+    places = np.minimum(np.searchsorted(theirs, times), len(theirs) - 1)
+    return np.where(theirs[places] == times, result.scalars[name][places], np.nan)
 
 
 def _interpolated(times: Array, values: Array) -> Array:
@@ -123,7 +130,8 @@ WINDOW_STEPS = 3
 
 def _windows(values: NDArray[Any], reach: int) -> Array:
     """Values at the times around each, NaN beyond the ends."""
-    padded = np.pad(np.asarray(values, dtype=float), reach, constant_values=np.nan)
+    padded = np.full(len(values) + 2 * reach, np.nan)
+    padded[reach : len(values) + reach] = values
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
 
 
@@ -165,7 +173,7 @@ def moving_minimum(values: NDArray[Any]) -> Array:
 
 
 def moving_mean(values: Array) -> Array:
-    """Mean over a window of times without NaN; 0 where all are NaN.
+    """Mean over a window of times without NaN; NaN where all are NaN.
 
     Examples
     --------
@@ -174,4 +182,7 @@ def moving_mean(values: Array) -> Array:
     """
     windows = _windows(values, WINDOW_STEPS)
     known = np.isfinite(windows)
-    return np.asarray(np.where(known, windows, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1))
+    count = known.sum(axis=1)
+    return np.where(
+        count > 0, np.where(known, windows, 0.0).sum(axis=1) / np.maximum(count, 1), np.nan
+    )

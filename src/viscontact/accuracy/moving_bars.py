@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_runs import History
+from viscontact.accuracy.coarser_results import History
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]

@@ -14,10 +14,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_runs import MIN_ACROSS, CoarserResult, History
+from viscontact.accuracy.coarser_results import CoarserResult, History
+from viscontact.accuracy.coarser_runs import MIN_ACROSS
 from viscontact.accuracy.levels import (
     RefinementLevels,
     aligned,
+    between_known,
     end_flags,
     moving_maximum,
     moving_mean,
@@ -102,11 +104,13 @@ def _grows_at_end(
     """Times at which the largest pressure lies next to the body's end and grows with the cells."""
     finest = _finest(results)
     share = finest.end_pressures[:, 0] / _positive(finest.scalars["peak_pressure"])
-    lies_there = moving_maximum(_at(times, finest, share)) >= 1 - SAME_PEAK
+    share = between_known(_at(times, finest, share))
+    lies_there = moving_maximum(share) >= 1 - SAME_PEAK
     own, coarser = levels.values[0], levels.values[1:]
     growth = np.log(_positive(own) / _positive(coarser))
     exponents = growth / np.log(levels.spacings[1:])[:, None]
-    # An unknown growth counts as one without a limit.
+    # Between two instants of a coarser run as at one of them; an unknown growth has no limit.
+    exponents = np.array([between_known(each) for each in exponents])
     bounded = moving_maximum(np.fmax.reduce(exponents)) <= UNBOUNDED_EXPONENT
     return np.asarray(_at_end(times, results) & lies_there & ~bounded)
 
@@ -130,7 +134,9 @@ def _does_not_converge(
     finest = _finest(results)
     bent = _at(history["time"], finest, finest.bend_growth) > UNBOUNDED_GROWTH
     unbounded = np.where(known, ~verdict.converges & grows & fine & bent, np.nan)
-    return np.asarray(moving_mean(unbounded) > 0.5)
+    mean = moving_mean(unbounded)
+    # Between instants that are farther apart than the window, as at one of the next ones.
+    return np.asarray(np.where(np.isnan(mean), between_known(mean), mean) > 0.5)
 
 
 def _end_excess(times: Array, results: Sequence[CoarserResult]) -> Array:

@@ -232,7 +232,7 @@ class Output(Section):
     errors: bool = Field(
         default=True,
         description="whether the errors of the scalars are estimated after the last step, from two "
-        "coarser runs, which take about two thirds of the time of the run",
+        "coarser runs, which take about a third of the time of the run",
     )
 
 

@@ -102,10 +102,23 @@ def is_sharp(
     >>> is_sharp(Cone(1.5), *near, strain=0.07), is_sharp(Sphere(0.01), *near, strain=0.01)
     (True, False)
     """
+    return sharpest_angle(indenter, place, reach, cell) > MIN_ANGLE * strain
+
+
+def sharpest_angle(
+    indenter: Indenter,
+    place: tuple[float, float],
+    reach: tuple[float, float],
+    cell: tuple[float, float],
+) -> float:
+    """Angle of the sharpest corner near a place, 0 if the body is round there [rad].
+
+    Arguments as those of `is_sharp`, where angles larger than MIN_ANGLE times the strain are sharp.
+    """
     x, y = (_samples(*each) for each in zip(place, reach, cell, strict=True))
     gap = indenter.gap(x[:, None], y[None, :])
     gap = np.where(np.isinf(gap), np.nan, gap)  # where the body ends, nothing bends
-    return any(_angle(gap, axis, cell[axis] / SAMPLES) > MIN_ANGLE * strain for axis in (0, 1))
+    return max(_angle(gap, axis, cell[axis] / SAMPLES) for axis in (0, 1))
 
 
 def strain_of(peak_pressure: float, compliance: float) -> float:

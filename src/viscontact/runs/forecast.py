@@ -107,14 +107,15 @@ def run_seconds(run: RunSetup, *, errors: bool) -> float:
     steps, each = run.problem.step_count, convolution_time(run.grid)
     marches = [(steps, each)]
     if errors:
+        across = min(run.grid.shape) / 2  # of a contact that fills half of its grid
         marches += [
             (steps / step_ratio, each / spacing**2)
-            for spacing, step_ratio in usual_coarsening(round(steps))
+            for spacing, step_ratio in usual_coarsening(round(steps), across)
         ]
     load = run.problem.load
-    # A load program is marched twice, the first time to find its events.
-    marched = 2 if isinstance(load, MixedHistory) and load.program is not None else 1
-    return marched * sum(
+    if isinstance(load, MixedHistory) and load.program is not None:
+        marches.append(marches[0])  # the first time to find the events
+    return sum(
         one * (FIRST_STEP + LATER_STEP * count) + STEP_OVERHEAD * count for count, one in marches
     )
 

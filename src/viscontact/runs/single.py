@@ -10,7 +10,7 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.accuracy.coarser_runs import history_of
+from viscontact.accuracy.coarser_results import history_of
 from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.checks.arguments import unusual_radius
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
@@ -82,7 +82,7 @@ def simulate(
         done, total) after each instant.
     errors : bool, optional
         Estimate the errors of the scalars, ``peak_pressure_error`` and so on, from two
-        coarser runs, which take about two thirds of the run's own time.
+        coarser runs, which take about a third of the run's own time.
     motion : Travel or Reciprocation, optional
         Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
         out. The grid is fixed to the surface; an automatic one covers the path.

@@ -11,7 +11,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from copy import copy
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 import scipy
@@ -32,7 +33,7 @@ from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, 
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
 #: Error of the instant of an event that its search leaves, as a part of the step.
-SEARCH_TOLERANCE = 1e-9
+EVENT_TOLERANCE = 1e-9
 
 #: Distance from the root to the instant of the event, in tolerances of the search: there a lost
 #: contact is lost for certain.
@@ -43,6 +44,16 @@ PLANNED_ERROR = 1e-3
 
 #: Ends of the steps of a segment [s], from its number, its begin and its latest end.
 StepEnds = Callable[[int, float, float], NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class _SolvedStep:
+    """A step that has been solved but not accepted, its state, and the observer after it."""
+
+    step: Step
+    trial: TrialStep
+    state: ContactState
+    observer: Observer
 
 
 class EventSearch:
@@ -57,10 +68,22 @@ class EventSearch:
     """
 
     def __init__(
-        self, problem: Problem, course: ProgramCourse, step_ends: StepEnds | None, threads: int = 1
+        self,
+        problem: Problem,
+        course: ProgramCourse,
+        step_ends: StepEnds | None,
+        threads: int = 1,
+        *,
+        event_tolerance: float = EVENT_TOLERANCE,
+        on_state: Callable[[ContactState], None] | None = None,
     ) -> None:
-        """Take the steps of a function, or without one as the problem's adaptive times ask."""
+        """Take the steps of a function, or without one as the problem's adaptive times ask.
+
+        `event_tolerance` is the error of the instants of events, as a part of the step; `on_state`
+        is called with the state at the end of each step, with its fields.
+        """
         self._course, self._step_ends = course, step_ends
+        self._event_tolerance, self._on_state = event_tolerance, on_state
         self._stops = problem.instants
         self._tolerance = problem.adaptive.tolerance if problem.adaptive else PLANNED_ERROR
         times = AdaptiveTimes(course.latest, self._tolerance)
@@ -69,10 +92,9 @@ class EventSearch:
         self._domain: ContactDomain = domain_of(self._run)
         self._stepper = Stepper(self._run, self._domain)
         self._observer = Observer(self._run, warns=False)
-        self._last = Step(0.0, 0.0, 0.0, smooth=False)
-        trial, self._state = self._solved(self._last)
-        self._stepper.accept(self._last, trial)
-        self.states, self.reach = [self._state.without_fields()], (0.0, 0.0)
+        self.states: list[ContactState] = []
+        self.reach = (0.0, 0.0)
+        self._accept(self._solved(Step(0.0, 0.0, 0.0, smooth=False)))
 
     def carry_out(self) -> MixedHistory:
         """March to the end of the program; EventError if a condition is never met."""
@@ -86,27 +108,31 @@ class EventSearch:
             course.finish(self._state, met)
         return course.history()
 
+    def refuse_coarse_mesh(self) -> None:
+        """Raise DomainError if the largest contact had too few cells across, as a run does."""
+        self._observer.refuse_coarse_mesh()
+
     def _march_segment(self) -> Condition | None:
         """March up to the end of the segment that follows, or to the first condition met."""
         history, begin, end = self._course.history(), self._course.begin, self._course.planned_end
         self._stepper.continue_under(history)
         steps = self._given(begin, end) if self._step_ends else self._adaptive(history, end)
         while (step := steps.next_step()) is not None:
-            trial, state = self._solved(step)
-            if not steps.accept_step(trial.error.relative):
+            solved = self._solved(step)
+            if not steps.accept_step(solved.trial.error.relative):
                 continue
             found = [
-                (*self._located(condition, step, state), condition)
+                (self._located(condition, solved), condition)
                 for condition in self._course.conditions
-                if _crosses(condition, self._state, state)
+                if _crosses(condition, self._state, solved.state)
             ]
             if not found:
-                self._accept(step, trial, state)
+                self._accept(solved)
                 continue
-            step, trial, state, met = min(found, key=lambda each: each[0].time)
+            solved, met = min(found, key=lambda each: each[0].step.time)
             if len(found) > 1:  # the history answers to the step that was solved last
-                trial, state = self._solved(step)
-            self._accept(step, trial, state)
+                solved = self._solved(solved.step)
+            self._accept(solved)
             return met
         return None
 
@@ -135,43 +161,46 @@ class EventSearch:
         steps.accept_step(0.0)  # goes on behind it, with a first step as behind any kink
         return steps
 
-    def _accept(self, step: Step, trial: TrialStep, state: ContactState) -> None:
-        self._stepper.accept(step, trial)
-        refuse_rim(self._run, step, self._stepper.whole_solution(trial))
-        self._last, self._state = step, state
-        self.states.append(state.without_fields())
-        reach = _reach(self._run, state)
+    def _accept(self, solved: _SolvedStep) -> None:
+        self._stepper.accept(solved.step, solved.trial)
+        refuse_rim(self._run, solved.step, self._stepper.whole_solution(solved.trial))
+        self._last, self._state, self._observer = solved.step, solved.state, solved.observer
+        if self._on_state is not None:
+            self._on_state(solved.state)
+        self.states.append(solved.state.without_fields())
+        reach = _reach(self._run, solved.state)
         self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
 
-    def _solved(self, step: Step) -> tuple[TrialStep, ContactState]:
+    def _solved(self, step: Step) -> _SolvedStep:
         trial = self._stepper.trial(step)
         if trial.outcome is Outcome.NOT_CONVERGED:
             raise ConvergenceError(not_converged(self._run, step, trial.solution))
         solution = self._stepper.whole_solution(trial)
-        return trial, self._observer.evaluate(step, trial.point, solution)
+        observer = copy(self._observer)  # it adds the work of each step that it sees
+        return _SolvedStep(step, trial, observer.evaluate(step, trial.point, solution), observer)
 
-    def _located(
-        self, condition: Condition, step: Step, crossed: ContactState
-    ) -> tuple[Step, TrialStep, ContactState]:
+    def _located(self, condition: Condition, crossed: _SolvedStep) -> _SolvedStep:
         """Return the step up to the instant at which a condition is met."""
+        step = crossed.step
         begin = step.time - step.duration
 
         def excess(time: float) -> float:
             if time == begin:
                 return _excess(condition, self._state)
             if time == step.time:
-                return _excess(condition, crossed)
-            return _excess(condition, self._solved(_until(time))[1])
+                return _excess(condition, crossed.state)
+            return _excess(condition, self._solved(_until(time)).state)
 
         def _until(time: float) -> Step:
             return Step(time, time - begin, time, step.smooth)
 
-        tolerance = SEARCH_TOLERANCE * step.duration
+        tolerance = self._event_tolerance * step.duration
         met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))
         # An event right at the begin would be a step of no length; a lost contact is past its root.
         least = 2 * KINK_TOLERANCE * step.time
-        located = _until(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
-        return located, *self._solved(located)
+        return self._solved(
+            _until(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
+        )
 
 
 def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:

@@ -9,7 +9,8 @@ import numpy as np
 
 import viscontact as vc
 from verification.families.exact_run import ExactRun
-from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
+from viscontact.accuracy.coarser_results import history_of
+from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.error_bars import error_bars_from
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.problem.problem import Problem

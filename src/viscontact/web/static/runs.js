@@ -64,7 +64,7 @@ async function receive(status) {
 const hasResults = (status) => status.figures.length > 0;
 
 // All values are there before their error bars, which are added when they come. Without this, a
-// long run would keep its answer back for two thirds of its time again.
+// long run would keep its answer back for a third of its time again.
 const SOON = 0.4; // [s]
 let early = null;
 async function showEarly(status) {
