@@ -93,8 +93,7 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     divides = creeping and (few or not _has_small_time_error(run, history))
     step_ratios = _step_ratios(len(own))
     across = float(history["cells_across"].max(initial=0.0))
-    # The rims of a strip lie alike among the cells all along it: their errors do not cancel.
-    wanted = _cell_ratios(across if run.grid.has_datum else 0.0)
+    wanted = _cell_ratios(across if _may_have_larger_cells(run) else 0.0)
     spacings = _spacings(across, wanted, parities=_parities(run))
     if run.problem.motion is not None and (whole := whole_cell_ratios(across)):
         spacings = tuple((by, parity) for (by, _), (_, parity) in zip(whole, spacings, strict=True))
@@ -164,6 +163,15 @@ def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]
     (((1.5, 2), (2.4, 4)), ((1.5, 1), (2.4, 1)))
     """
     return tuple(zip(_cell_ratios(across), _step_ratios(steps), strict=True))
+
+
+def _may_have_larger_cells(run: RunSetup) -> bool:
+    """Test whether the coarser runs of a contact of many cells may have larger ones than others.
+
+    The rims of a strip lie alike among the cells all along it, so that their errors do not cancel;
+    on layers, errors depend on the cells within their thickness as well.
+    """
+    return run.grid.has_datum and not np.isfinite(run.problem.thinnest_layer)
 
 
 def _cell_ratios(across: float) -> tuple[float, float]:
