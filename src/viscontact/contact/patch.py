@@ -25,6 +25,7 @@ class PatchOperators:
     ) -> None:
         self._shape = shape
         self._convolution, self._preconditioner = convolution, preconditioner
+        self._near: dict[tuple[int, int], np.float32] = {}
 
     @cached_property
     def convolution(self) -> Operator:
@@ -36,19 +37,20 @@ class PatchOperators:
         """Approximate inverse of the convolution."""
         return self._preconditioner()
 
-    @cached_property
-    def near_stiffness(self) -> dict[tuple[int, int], np.float32]:
-        """Stiffness between a cell and those around it, by their offsets [1/m]."""
-        rows, columns = (count // 2 for count in self._shape)
-        one = np.zeros(self._shape)
-        one[rows, columns] = 1.0
-        found = self.preconditioner.stiffness_of(one).astype(np.float32)
-        around = ((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1))
-        return {
-            (down, right): found[rows + down, columns + right]
-            for down, right in around
-            if 0 <= rows + down < self._shape[0] and 0 <= columns + right < self._shape[1]
-        }
+    def near_stiffness(self, spare: NDArray[np.float64]) -> dict[tuple[int, int], np.float32]:
+        """Stiffness between a cell and those around it, by their offsets [1/m]; uses a field up."""
+        if not self._near:
+            rows, columns = (count // 2 for count in self._shape)
+            spare[...] = 0.0
+            spare[rows, columns] = 1.0
+            found = self.preconditioner.stiffness_of(spare, into=spare)
+            around = ((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1))
+            self._near = {
+                (down, right): np.float32(found[rows + down, columns + right])
+                for down, right in around
+                if 0 <= rows + down < self._shape[0] and 0 <= columns + right < self._shape[1]
+            }
+        return self._near
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,7 +45,7 @@ class RimStiffness:
             return
         rows, columns = np.divmod(changed, active.shape[1])
         sign = np.where(active[rows, columns], np.float32(1), np.float32(-1))
-        for (down, right), stiffness in self._patch.operators.near_stiffness.items():
+        for (down, right), stiffness in self._patch.operators.near_stiffness(spare).items():
             near_rows, near_columns = rows + down, columns + right
             inside = (near_rows >= 0) & (near_rows < active.shape[0])
             inside &= (near_columns >= 0) & (near_columns < active.shape[1])

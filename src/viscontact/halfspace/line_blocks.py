@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 #: Size of the lines that are worked on at once [bytes].
-BLOCK_BYTES = 2**21
+BLOCK_BYTES = 2**20
 
 #: Start of each array in a workspace, for vector instructions [bytes].
 ALIGNMENT = 64
@@ -29,7 +29,7 @@ class Team:
 
     Examples
     --------
-    >>> Team(2).each(lambda block: block.start, blocks_of(5, 2**20))
+    >>> Team(2).each(lambda block: block.start, blocks_of(5, 2**19))
     [0, 2, 4]
     """
 
@@ -82,7 +82,7 @@ def blocks_of(lines: int, bytes_per_line: int) -> list[slice]:
 
     Examples
     --------
-    >>> blocks_of(5, 2**20)
+    >>> blocks_of(5, 2**19)
     [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
     """
     most = max(1, BLOCK_BYTES // max(1, bytes_per_line))
