@@ -15,11 +15,10 @@ from viscontact.fourier import (
     as_reals,
     fastest_transforms,
     fill_of_order,
-    largest_of,
     transforms_by,
 )
 from viscontact.halfspace.kernel_spectrum import kernel_spectrum, padded_length
-from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of
+from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of, order_of
 
 #: Work on a block of lines, in a workspace of its own.
 _Work: TypeAlias = Callable[[slice, NDArray[Any]], None]
@@ -129,19 +128,13 @@ class Convolution:
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.
-        size = self._order_of(pressure)
+        parts = [_cut(pressure, self._second, lines) for lines in self._lines]
+        size = order_of(parts, self._number, self._team)
         half = self._half_spectrum()
         self._each(self._lines, 0, partial(self._forth, pressure, size, half))
         self._each(self._waves, 1, partial(self._multiply, half))
         self._each(self._lines, 0, partial(self._back, result, size, half))
         return result
-
-    def _order_of(self, pressure: NDArray[np.float64]) -> float:
-        """Factor to divide the pressure by: in single precision its largest value, else 1."""
-        if self._number == pressure.dtype:
-            return 1.0
-        parts = [_cut(pressure, self._second, lines) for lines in self._lines]
-        return max(self._team.each(largest_of, parts)) or 1.0
 
     def _half_spectrum(self) -> NDArray[Any]:
         """Array for the spectrum along the first axis; in the padded lines if they hold it."""

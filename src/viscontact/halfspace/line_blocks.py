@@ -14,6 +14,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.fourier import largest_of
+
 #: Size of the lines that are worked on at once [bytes].
 BLOCK_BYTES = 2**20
 
@@ -52,6 +54,38 @@ class Team:
         others = [self._pool.submit(share, first) for first in range(1, shares)]
         found = [share(0), *(other.result() for other in others)]
         return [found[place % shares][place // shares] for place in range(len(blocks))]
+
+    def each_part(self, work: Callable[..., object], *fields: NDArray[Any]) -> None:
+        """Work on fields of one shape part by part; `work` takes the same part of each.
+
+        A part is a row of numbers in the memory of its field, which is contiguous.
+
+        >>> total = np.zeros((2, 2))
+        >>> Team().each_part(lambda part, other: np.add(part, other, out=part), total, np.eye(2))
+        >>> total.tolist()
+        [[1.0, 0.0], [0.0, 1.0]]
+        """
+        # Not `reshape`, which copies fields that are not contiguous.
+        rows = [field.view() for field in fields]
+        for row in rows:
+            row.shape = (row.size,)
+        blocks = blocks_of(rows[0].size, rows[0].itemsize)
+        self.each(lambda block: work(*(row[block] for row in rows)), blocks)
+
+
+def order_of(parts: Sequence[NDArray[Any]], number: np.dtype[Any], team: Team) -> float:
+    """Return the factor to divide a field, given in parts, by before it is stored as `number`.
+
+    In single precision, with its few exponents, that is its largest value; else 1.
+
+    Examples
+    --------
+    >>> order_of([np.array([1e-99]), np.array([-4e-99])], np.dtype(np.float32), Team())
+    4e-99
+    """
+    if number == parts[0].dtype:
+        return 1.0
+    return max(team.each(largest_of, parts)) or 1.0
 
 
 class Workspace:

@@ -22,10 +22,9 @@ from viscontact.fourier import (
     Transforms,
     fastest_transforms,
     fill_of_order,
-    largest_of,
     transforms_by,
 )
-from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of
+from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of, order_of
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Factor of waves by their wave numbers along the motion [1/m].
@@ -172,19 +171,17 @@ class Spectra:
     ) -> NDArray[np.float64]:
         """Field whose spectrum is that of the given field times a symbol."""
         rows = blocks_of(len(field), field[:1].nbytes)
-        size = 1.0
-        if field.dtype != self._number:
-            size = max(self._team.each(lambda block: largest_of(field[block]), rows)) or 1.0
+        size = order_of([field[each] for each in rows], self._number, self._team)
         waves = len(self.wave_numbers[0]), len(self.wave_numbers[1])
         kind = np.result_type(self._number, np.complex64)
         block, spectrum = self._workspace.arrays((self._shape, self._number), (waves, kind))
         self._team.each(lambda here: fill_of_order(size, block[here], field[here]), rows)
         spectrum = self._forth(block, spectrum)
-
-        def multiply(here: slice) -> None:
-            spectrum[here] *= symbol[here]
-
-        self._team.each(multiply, blocks_of(len(spectrum), spectrum[:1].nbytes))
+        waves_of_rows = blocks_of(len(spectrum), spectrum[:1].nbytes)
+        self._team.each(
+            lambda here: np.multiply(spectrum[here], symbol[here], out=spectrum[here]),
+            waves_of_rows,
+        )
         back = self._back(spectrum, block)
         found = np.empty(self._shape) if into is None else into
         self._team.each(

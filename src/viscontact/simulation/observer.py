@@ -260,7 +260,7 @@ def _state(
         contact_length=rim.length,
         contact_width=rim.width,
         peak_pressure=peak,
-        mean_pressure=force / area if touching else 0.0,
+        mean_pressure=min(force / area, peak) if touching else 0.0,  # rounded
         peak_line_load=peak_line_load(load, rim.grid, rim.length),
         work=work,
         loss_per_cycle=loss,

@@ -25,7 +25,6 @@ from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
-from viscontact.halfspace.line_blocks import blocks_of
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.setup import RunSetup
@@ -245,14 +244,12 @@ class Stepper:
             values[0] /= response.first.compliance
             self._domain.convolution.apply(values[0], into=values[1])
             return Guess(values, reference.motion)
-        found, past = values.reshape(-1), history.reshape(-1)
 
-        def increment(part: slice) -> None:
-            here = found[part]
-            here -= past[part]
-            here /= response.compliance
+        def increment(found: NDArray[np.float64], past: NDArray[np.float64]) -> None:
+            found -= past
+            found /= response.compliance
 
-        self._domain.team.each(increment, blocks_of(values.size, values.itemsize))
+        self._domain.team.each_part(increment, values, history)
         return Guess(values, reference.motion)
 
     def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team, blocks_of
+from viscontact.halfspace.line_blocks import Team
 
 #: Points of the extrapolating polynomial. A third one amplifies the errors that the solver's
 #: tolerance leaves: it costs half an iteration a step.
@@ -55,14 +55,15 @@ def predict(
         weights = lagrange_weights([each.time for each in known], time)
     # The weights add up to one: last + w0 (first - last), in place to save passes over the fields.
     fields = np.empty(known[-1].fields.shape)
-    found, first, last = (each.reshape(-1) for each in (fields, known[0].fields, known[-1].fields))
 
-    def extrapolate(part: slice) -> None:
-        here = np.subtract(first[part], last[part], out=found[part])
-        here *= weights[0]
-        here += last[part]
+    def extrapolate(
+        found: NDArray[np.float64], first: NDArray[np.float64], last: NDArray[np.float64]
+    ) -> None:
+        np.subtract(first, last, out=found)
+        found *= weights[0]
+        found += last
 
-    (team or Team()).each(extrapolate, blocks_of(fields.size, fields.itemsize))
+    (team or Team()).each_part(extrapolate, fields, known[0].fields, known[-1].fields)
     motion = np.asarray(weights) @ np.array([each.motion for each in known])
     return ElasticReference(time, drive, fields, motion)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team, blocks_of
+from viscontact.halfspace.line_blocks import Team
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap
@@ -40,13 +40,14 @@ class HereditaryResponse:
     def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement for a new value of the field."""
         displacement = np.empty(value.shape)
-        found, given, past = displacement.reshape(-1), value.reshape(-1), self.history.reshape(-1)
 
-        def add(part: slice) -> None:
-            here = np.multiply(self.compliance, given[part], out=found[part])
-            here += past[part]
+        def add(
+            found: NDArray[np.float64], given: NDArray[np.float64], past: NDArray[np.float64]
+        ) -> None:
+            np.multiply(self.compliance, given, out=found)
+            found += past
 
-        self.team.each(add, blocks_of(value.size, value.itemsize))
+        self.team.each_part(add, displacement, value, self.history)
         return displacement
 
 

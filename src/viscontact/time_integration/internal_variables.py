@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team, blocks_of
+from viscontact.halfspace.line_blocks import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.time_integration.hereditary_integral import (
@@ -96,18 +96,17 @@ class InternalVariables(HereditaryIntegral):
         """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
         value = value.copy() if value.flags.writeable else value
-        values = [(weights, _flat(each)) for weights, each in self._weighted_values(value)]
-        fields = [_flat(field) for field in self._fields]
+        weights, values = zip(*self._weighted_values(value), strict=True)
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
 
-        def add(part: slice) -> None:
-            for index, field in enumerate(fields):
-                here = field[part]
+        def add(*parts: NDArray[np.float64]) -> None:
+            given = parts[len(self._fields) :]
+            for index, here in enumerate(parts[: len(self._fields)]):
                 here *= self._next.decay[index]
-                for weights, each in values:
-                    here += weights[index] * each[part]
+                for weight, each in zip(weights, given, strict=True):
+                    here += weight[index] * each
 
-        self._team.each(add, blocks_of(value.size, value.itemsize))
+        self._team.each_part(add, *self._fields, *values)
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
@@ -168,23 +167,20 @@ class InternalVariables(HereditaryIntegral):
 
     def _history(self) -> NDArray[np.float64]:
         """All of the displacement that does not depend on the new value; computed when wanted."""
-        step, has_trend = self._next, self._trend is not None and not self._shape.is_level
-        history = np.empty(self._value.shape)
+        step, history = self._next, np.empty(self._value.shape)
+        weights, others = step.decay.tolist(), list(self._fields)
+        if self._trend is not None and not self._shape.is_level:
+            weights, others = [*weights, step.trend.sum()], [*others, self._trend.mean]
 
-        def add(part: slice) -> None:
-            here = np.multiply(step.old.sum(), _flat(self._value)[part], out=_flat(history)[part])
-            for field, decay in zip(self._fields, step.decay, strict=True):
-                here += decay * _flat(field)[part]
-            if has_trend and self._trend is not None:
-                here += step.trend.sum() * _flat(self._trend.mean)[part]
+        def add(
+            found: NDArray[np.float64], value: NDArray[np.float64], *given: NDArray[np.float64]
+        ) -> None:
+            np.multiply(step.old.sum(), value, out=found)
+            for weight, each in zip(weights, given, strict=True):
+                found += weight * each
 
-        self._team.each(add, blocks_of(history.size, history.itemsize))
+        self._team.each_part(add, history, self._value, *others)
         return history
-
-
-def _flat(field: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Numbers of a contiguous field in one row, in the same memory."""
-    return field.reshape(-1)
 
 
 @dataclass(frozen=True, eq=False)

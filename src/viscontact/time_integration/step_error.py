@@ -231,11 +231,13 @@ class TimeErrors:
         """Mean rate of a field over a step."""
         rate = np.empty(value.shape)
 
-        def divide(rows: slice) -> None:
-            here = np.subtract(value[rows], before[rows], out=rate[rows])
-            here /= step.duration
+        def divide(
+            found: NDArray[np.float64], late: NDArray[np.float64], early: NDArray[np.float64]
+        ) -> None:
+            np.subtract(late, early, out=found)
+            found /= step.duration
 
-        self._team.each(divide, _blocks(value))
+        self._team.each_part(divide, rate, value, before)
         return rate
 
     def _mean_over(
@@ -251,10 +253,6 @@ class TimeErrors:
             cells = where[rows]
             return int(np.count_nonzero(cells)), float(np.abs(here).sum(where=cells))
 
-        counts, totals = zip(*self._team.each(sums, _blocks(field)), strict=True)
+        rows = blocks_of(len(field), field[:1].nbytes)
+        counts, totals = zip(*self._team.each(sums, rows), strict=True)
         return sum(totals) / sum(counts) if any(counts) else 0.0
-
-
-def _blocks(field: NDArray[np.float64]) -> list[slice]:
-    """Blocks of rows of a field."""
-    return blocks_of(len(field), field[:1].nbytes)

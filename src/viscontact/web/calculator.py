@@ -90,7 +90,7 @@ class Calculator:
             if is_last:
                 return
             before = status
-            # The values of a run, and its end, are told as soon as they are known.
+            # A new stage is sent at once: the values of a run are known, or it has ended.
             for _ in range(round(EVENT_INTERVAL / POLL_INTERVAL)):
                 await asyncio.sleep(POLL_INTERVAL)
                 if run.stage != stage:
