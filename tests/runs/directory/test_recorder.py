@@ -22,6 +22,7 @@ from viscontact import fourier
 from viscontact.contact.equilibrium import ContactSolution
 from viscontact.problem.problem import Problem
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory import recorder
 from viscontact.runs.directory.checkpoint import (
     LAYOUT,
     Checkpoint,
@@ -29,6 +30,7 @@ from viscontact.runs.directory.checkpoint import (
     save_checkpoint,
 )
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
+from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.recorded import ChangedCaseError
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.recorder import Recorder
@@ -83,6 +85,22 @@ def contents(directory: Path) -> dict[str, bytes]:
 
 
 # --- plain data -------------------------------------------------------------------------------
+
+
+def test_who_reads_the_last_line_of_the_log_finds_all_rows_in_the_result(
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recorder, "PAUSE", 1e9)  # no checkpoint after the first step
+    append, rows = ProgressLog.append, []
+
+    def looked_at(log: ProgressLog, *given: Any) -> None:
+        append(log, *given)
+        path = recorded.directory / RESULT_NAME
+        rows.append(len(vc.open_results(path).time) if path.exists() else 0)
+
+    monkeypatch.setattr(ProgressLog, "append", looked_at)
+    finish(Recorder(recorded))
+    assert rows == [0] + [1] * (COUNT - 2) + [COUNT]
 
 
 def test_plain_data_come_back_to_the_last_bit() -> None:

@@ -208,16 +208,19 @@ class Recorder:
                 return  # nothing to keep, and an earlier result stays
             self._begin()
         if state is not None:
-            self._write(state)
-            if not failed:
-                self._rows, self._place = self._rows + 1, float(getattr(state, state.over))
+            self._write(state, failed)
         if not failed and clock.monotonic() >= self._due:
             self.checkpoint()
 
-    def _write(self, state: ContactState) -> None:
+    def _write(self, state: ContactState, failed: bool) -> None:
         assert self._lines is not None  # begun
-        self._lines.append(state, self._recorded.part(self._march, state))
+        part = self._recorded.part(self._march, state)
         self._writer.append(self._recorded.recorded_state(state))
+        if not failed:
+            self._rows, self._place = self._rows + 1, float(getattr(state, state.over))
+            if part >= 1:
+                self._publish()  # a reader of the last line finds all rows in the result
+        self._lines.append(state, part)
 
     def _begin(self) -> None:
         """Take the directory over for this run, as late as possible: an earlier result stays."""

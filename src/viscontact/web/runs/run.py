@@ -16,8 +16,8 @@ from viscontact.runs.processes.request import DONE, INTERRUPTED, RunRequest
 from viscontact.web.runs.live_scalars import LiveScalars
 from viscontact.web.workspace.folder import Folder, RunEntry
 
-#: Time for estimating errors, as a part of the time of the march [-].
-ERRORS_PART = 0.67
+#: Usual time for estimating errors, as a part of the time of the march [-].
+ERRORS_PART = 0.3
 
 #: Final states.
 OVER = ("done", "cancelled", "interrupted", "failed")

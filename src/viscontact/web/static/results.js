@@ -36,8 +36,9 @@ export async function drawResults() {
   place("reference-text").replaceChildren(...referenceText(kept, data));
   place("downloads").replaceChildren(...downloads(shown));
   place("accuracy").replaceChildren(...definitions(data.accuracy));
+  if (isEarly(status)) document.documentElement.dataset.early = shown.id;
   await drawFigures(shown, reference);
-  document.documentElement.dataset[isEarly(status) ? "early" : "drawn"] = shown.id;
+  if (!isEarly(status)) document.documentElement.dataset.drawn = shown.id;
 }
 
 // Shown before its error bars.
