@@ -72,7 +72,7 @@ def _full(*arguments: Any, **options: Any) -> None:
         (recorder, "save_checkpoint"),
     ],
 )
-@pytest.mark.parametrize("calls", [0, 4])
+@pytest.mark.parametrize("calls", [0, 4, 10])
 def test_full_disk_stops_the_run_which_continues_once_there_is_space(
     calls: int,
     where: Any,
@@ -95,7 +95,7 @@ def test_full_disk_stops_the_run_which_continues_once_there_is_space(
         patched.setattr(where, name, filling)
         code = main(["run", "case.yaml"])
     lines = said_in_lines(capsys)
-    if (name, calls) == ("finish", 4):
+    if name == "finish" and calls > 0:
         assert code == 0  # it is called once
         return
     assert code == 1

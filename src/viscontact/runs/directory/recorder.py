@@ -215,12 +215,15 @@ class Recorder:
     def _write(self, state: ContactState, failed: bool) -> None:
         assert self._lines is not None  # begun
         part = self._recorded.part(self._march, state)
+        is_last = part >= 1 and not failed
+        if not is_last:
+            self._lines.append(state, part)
         self._writer.append(self._recorded.recorded_state(state))
         if not failed:
             self._rows, self._place = self._rows + 1, float(getattr(state, state.over))
-            if part >= 1:
-                self._publish()  # a reader of the last line finds all rows in the result
-        self._lines.append(state, part)
+        if is_last:
+            self._publish()  # a reader of the last line finds all rows in the result
+            self._lines.append(state, part)
 
     def _begin(self) -> None:
         """Take the directory over for this run, as late as possible: an earlier result stays."""
