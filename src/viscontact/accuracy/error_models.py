@@ -33,9 +33,9 @@ class ErrorModel:
 #: Approach, force, its offset and work, also where a contact reaches the end of a body: pressure is
 #: singular there, and the cells approximate the end by a staircase.
 _BULK = ErrorModel(2.0, 1.1, at_end=ErrorModel(0.7, 1.2))
-_FORCE = ErrorModel(2.0, 1.3, at_end=ErrorModel(0.7, 1.2), of_time_error=0.15)
-_OFFSET = ErrorModel(2.0, 1.25, at_end=ErrorModel(0.7, 0.8))
-_WORK = ErrorModel(2.0, 1.75, at_end=ErrorModel(0.7, 1.2), of_time_error=0.4)
+_FORCE = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 1.2), of_time_error=0.15)
+_OFFSET = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 0.8))
+_WORK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2), of_time_error=0.4)
 
 #: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
 #: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
 #: the contact may end in the last cells of the body.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.033, 1.0, 1.5, 3.5, 1.5
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.028, 1.0, 1.5, 3.5, 1.5
 
 #: Cells across the contact at which the first of them is twice as large, as its rim is curved.
 FEW_CELLS = 9.0
@@ -41,10 +41,9 @@ CREST_PART = 2.0
 
 #: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, or is
 #: that much smaller than it has been, the surface that it left is still almost closed and its rim
-#: is found too far outside. Least error of the rim over the way that it has moved, and its smallest
-#: and largest value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less
-#: than 0.2.
-LATE_PART, LATE_CELLS, LEAST_LATE, MOST_LATE = 0.5, 2.0, 0.02, 0.1
+#: is found too far outside. Least error of the rim over the way that it has moved, and its largest
+#: value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less than 0.2.
+LATE_PART, LATE_CELLS, MOST_LATE = 0.5, 2.0, 0.1
 
 #: Factor of the last for the area of a strip, whose rims lie alike among the cells all along, so
 #: that their errors do not cancel: with 1, bars of moving strips held 96 % of the errors.
@@ -83,6 +82,10 @@ LEAST_END_AREA_ERROR = 1.1
 #: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
 #: smooth peak drops by much less than the second number.
 LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
+
+#: Most by which a crest between cells, a parabola, is higher than the largest cell, in the drop
+#: from there to the cells next to it. Without a rim, nothing else may show on coarser grids.
+CREST_BETWEEN_CELLS = 1 / 8
 
 #: Where cells are long against the thickness of a layer, the pressure falls to the rim as on
 #: springs or less steeply, not as on a half-space. Least error of the rim in cells over that ratio,
@@ -148,6 +151,8 @@ def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Arra
     drops = kinds.drops
     relative = LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP)
     relative = np.fmax(relative, np.where(kinds.steep, entry_rise(run, history["time"]), 0.0))
+    has_no_rim = np.isinf(_cells_across(run, history))
+    relative = np.fmax(relative, np.where(has_no_rim, CREST_BETWEEN_CELLS * drops, 0.0))
     return np.asarray(relative * history["peak_pressure"])
 
 
@@ -209,7 +214,7 @@ def _late_cells(run: RunSetup, history: History) -> Array:
     last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
     ways = np.stack([radius[last] - radius, np.maximum.accumulate(radius) - radius])
     shrunk = (ways > 0) & (ways < LATE_CELLS)
-    late = np.where(shrunk, np.clip(LATE_PART * ways, LEAST_LATE, MOST_LATE), 0.0)
+    late = np.where(shrunk, np.minimum(LATE_PART * ways, MOST_LATE), 0.0)
     return np.asarray(late.max(axis=0))
 
 

@@ -33,7 +33,8 @@ CALIBRATED: dict[str, Draw] = {
     )
 }
 
-#: Families that were left out of every choice in the bars.
+#: Families that were left out of the choice of kinds and limits, and looked at in that of the
+#: common factors only; the bar of a crest between cells follows from a parabola.
 HELD_OUT: dict[str, Draw] = {
     each.__name__: each
     for each in (

@@ -41,7 +41,7 @@ def test_bars_hold_in_a_sample_of_all_families(families: dict) -> None:
 
 @pytest.mark.slow
 def test_bars_hold_in_families_that_were_used_to_choose_factors(campaign) -> None:
-    """Other seeds than those of the choice."""
+    """A seed of the last choice; `docs/accuracy.md` has the figures of one that is not."""
     records = solved(300, 36 * len(CALIBRATED), CALIBRATED)
     for each in report(records):
         campaign(f"calibrated families, {each}")
@@ -50,7 +50,7 @@ def test_bars_hold_in_families_that_were_used_to_choose_factors(campaign) -> Non
 
 @pytest.mark.slow
 def test_bars_hold_in_families_that_were_held_out(campaign) -> None:
-    """A seed that was not looked at when limits of the bars were set."""
+    """Families only the common factors of which were looked at, on this seed and others."""
     records = solved(304, 40 * len(HELD_OUT), HELD_OUT)
     for each in report(records):
         campaign(f"held-out families, {each}")
