@@ -261,3 +261,18 @@ def fill_of_order(size: float, block: Field, field: NDArray[np.float64]) -> None
         block[...] = field
     else:
         np.divide(field, size, out=block, dtype=np.float64, casting="same_kind")
+
+
+def restore_of_order(size: float, block: Field, field: Field) -> None:
+    """Copy a block, multiplied by a factor, into a field.
+
+    Examples
+    --------
+    >>> field = np.zeros(2)
+    >>> restore_of_order(4e-99, np.array([0.25, -1.0], np.float32), field); field.tolist()
+    [1e-99, -4e-99]
+    """
+    if block.dtype == field.dtype and size == 1.0:
+        field[...] = block
+    else:
+        np.multiply(block, size, out=field, dtype=np.float64)

@@ -13,7 +13,10 @@ The method follows Polonsky & Keer (1999), Wear 231, 206, and differs from it in
    and the step is taken straight towards that: one convolution, where cutting afterwards takes two.
 
 Passes over the fields go through blocks of rows (`RigidPlane.each`), and work in a few fields that
-are kept. The comments in `BoundedCG` number the steps of an iteration:
+are kept. Residual and directions are in single precision, as the operators of the search are: the
+residual as a part of the largest displacement, so that it is of order one in any units. Pressure
+and displacement, which the steps are added to, are in double precision, and so are all sums that
+restore a balance. The comments in `BoundedCG` number the steps of an iteration:
 
 1. Fit approach and tilts to the gap under pressure by least squares; measure the residual.
 2. Add the cells that the body overlaps to the active set; precondition the gap of the active cells.
@@ -25,6 +28,7 @@ are kept. The comments in `BoundedCG` number the steps of an iteration:
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,8 +42,9 @@ from viscontact.contact.winkler import project_onto_balance
 #: Iterations without a new least residual after which the search counts as stagnant.
 STAGNATION_ITERATIONS = 40
 
-#: Relative imbalance below which a guess counts as balanced.
-BALANCE_TOLERANCE = 1e-12
+#: Relative imbalance below which a guess counts as balanced, in tolerances of the residual, and not
+#: less than rounding. Directions in single precision leave up to 1e-11 on grids of few cells.
+BALANCE_TOLERANCE, BALANCE_ROUNDING = 1e-3, 1e-12
 
 #: First step length, in 1/compliance. Below 1, as the preconditioner still overestimates the
 #: stiffness where only some cells carry pressure.
@@ -60,7 +65,7 @@ class ContactResidual:
     contact: NDArray[np.bool_]  # cells under pressure
     inverse_gram: NDArray[np.float64]  # inverse Gram matrix of the planes over these cells
     motion: NDArray[np.float64]  # rigid motion that fits best: approach [m], tilts [rad]
-    gap: NDArray[np.float64]  # gap with that motion [m]
+    gap: NDArray[Any]  # gap with that motion, in the unit asked for
     error: float  # largest gap in contact or penetration over the largest displacement [-]
 
 
@@ -68,24 +73,29 @@ def contact_residual(
     problem: ContactProblem,
     patch: Patch,
     iterate: Guess,
-    into: tuple[NDArray[np.bool_], NDArray[np.float64]] | None = None,
+    into: tuple[NDArray[np.bool_], NDArray[Any]] | None = None,
+    unit: float = 1.0,
 ) -> ContactResidual:
     """Step 1: rigid motion by least squares over the contact, gap and residual.
 
-    The cells under pressure and the gap [m] are written to `into` if that is given.
+    The cells under pressure and the gap, in a `unit` [m], are written to `into` if that is given.
     """
     shape = iterate.pressure.shape
     contact, gap = into or (np.empty(shape, bool), np.empty(shape))
 
     def opened(block: RigidPlane) -> tuple[float, Moments, NDArray[np.float64]]:
         rows = block.rows
-        here = np.multiply(problem.compliance, iterate.unit_displacement[rows], out=gap[rows])
+        here = problem.compliance * iterate.unit_displacement[rows]
         largest = float(here.max())
         here += problem.open_gap[rows]
         here -= block.field(iterate.motion)
         touching = np.greater(iterate.pressure[rows], 0, out=contact[rows])
-        held = np.where(touching, here, 0.0)
-        return largest, block.moments_of_rows(touching), block.sums_of_rows(held)
+        if unit == 1.0:
+            gap[rows] = here
+        else:
+            np.multiply(here, 1 / unit, out=gap[rows], casting="same_kind")
+        np.copyto(here, 0.0, where=~touching)
+        return largest, block.moments_of_rows(touching), block.sums_of_rows(here)
 
     largest, moments, sums = zip(*patch.plane.each(opened), strict=True)
     inverse = patch.plane.inverse_of(moments, problem.constraints.free)
@@ -94,12 +104,12 @@ def contact_residual(
 
     def fitted(block: RigidPlane) -> float:
         here = gap[block.rows]
-        here -= block.field(correction)
-        held = np.where(contact[block.rows], here, 0.0)
+        here -= block.field(correction / unit).astype(gap.dtype, copy=False)
+        held = np.where(contact[block.rows], here, gap.dtype.type(0))
         return max(float(held.max()), -float(here.min()))
 
     scale = max(problem.displacement_scale, *largest)
-    error = max(0.0, *patch.plane.each(fitted)) / scale
+    error = max(0.0, *patch.plane.each(fitted)) * (unit / scale)
     return ContactResidual(contact, inverse, iterate.motion + correction, gap, error)
 
 
@@ -109,30 +119,36 @@ class BoundedCG:
     The pressure and the displacement of the guess are changed in their own memory.
     """
 
-    def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
-        self.problem, self.patch = problem, patch
+    def __init__(
+        self, problem: ContactProblem, patch: Patch, start: Guess, tolerance: float
+    ) -> None:
+        self.problem, self.patch, self.tolerance = problem, patch, tolerance
         self.iterations = self.convolutions = 0
         self.iterate = Guess(start.values, problem.constraints.with_prescribed(start.motion))
-        shape = start.pressure.shape
+        shape, single = start.pressure.shape, np.float32
+        #: Unit of the residual [m], and of the pressure for directions [Pa m], which are in 1/m.
+        self._unit = _largest_displacement(problem, start)
+        self._force_unit = self._unit / problem.compliance
         #: Cells of the last direction and of the next; gap in these, and the same to come.
         self._active, self._next_active = np.zeros(shape, bool), np.empty(shape, bool)
-        self._residual, self._next_residual = np.zeros(shape), np.empty(shape)
-        self._direction, self._spare = np.zeros(shape), np.empty(shape)
-        self._change = np.empty(shape)  # unit displacement of a step
+        self._residual, self._next_residual = np.zeros(shape, single), np.empty(shape, single)
+        self._direction, self._spare = np.zeros(shape, single), np.empty(shape, single)
+        self._change = np.empty(shape, single)  # unit displacement of a step [-]
+        self._ahead = np.empty(shape)  # pressure to step towards [Pa]
         self._rim_stiffness = RimStiffness(patch)
         self._slope = 0.0
-        self._length = INITIAL_STEP_LENGTH / problem.compliance
+        self._length = INITIAL_STEP_LENGTH
         self.stagnated = not (self._is_feasible() or self._project_to_feasible())
 
-    def run(self, tolerance: float, max_iterations: int) -> None:
+    def run(self, max_iterations: int) -> None:
         """Iterate until the relative residual meets the tolerance, or no progress is made."""
         best, since_best = np.inf, 0
         while not self.stagnated:
             # Step 1: measure the residual.
             into = self._next_active, self._next_residual
-            checked = contact_residual(self.problem, self.patch, self.iterate, into)
+            checked = contact_residual(self.problem, self.patch, self.iterate, into, self._unit)
             self.iterate = Guess(self.iterate.values, checked.motion)
-            if checked.error <= tolerance:
+            if checked.error <= self.tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
             best = min(best, checked.error)
@@ -180,7 +196,7 @@ class BoundedCG:
 
     def _project(
         self,
-        vector: NDArray[np.float64],
+        vector: NDArray[np.float32],
         active: NDArray[np.bool_],
         inverse: NDArray[np.float64],
     ) -> None:
@@ -195,11 +211,12 @@ class BoundedCG:
 
         def levelled(block: RigidPlane) -> None:
             here = vector[block.rows]
-            here -= active[block.rows] * block.field(plane)
+            # In double precision, so that what is left of the resultants is rounding of cells.
+            here[...] = here - active[block.rows] * block.field(plane)
 
         self.patch.plane.each(levelled)
 
-    def _conjugate(self, found: NDArray[np.float64], factor: float) -> None:
+    def _conjugate(self, found: NDArray[np.float32], factor: float) -> None:
         """Turn the preconditioned residual into the next direction, in its memory."""
 
         def conjugated(block: RigidPlane) -> None:
@@ -215,10 +232,10 @@ class BoundedCG:
         # balanced pressure instead of cutting afterwards.
         if self._is_projected_trial() and self._step_to_projected():
             return
-        # Step 4: exact line search, length = -<r, d> / <d, J K d>.
+        # Step 4: exact line search, length = -<r, d> / <d, K d>; the units hold the compliance.
         plane, direction = self.patch.plane, self._direction
         change = self._unit_displacement_of(direction)
-        curvature = self.problem.compliance * _inner(plane, direction, change)
+        curvature = _inner(plane, direction, change)
         if curvature <= 0:
             self._slope = 0.0
             return
@@ -230,8 +247,8 @@ class BoundedCG:
         # cells together can carry the load.
         self._slope = 0.0
         others = self.problem.constraints, plane, self.patch.cell_area
-        self._spare[...] = project_onto_balance(self.iterate.pressure, self._active, *others)
-        if not self._project_to_feasible(from_spare=True):
+        self._ahead[...] = project_onto_balance(self.iterate.pressure, self._active, *others)
+        if not self._project_to_feasible(is_ahead=True):
             self._step_to_first_bound(length)
 
     def _is_projected_trial(self) -> bool:
@@ -239,10 +256,11 @@ class BoundedCG:
 
         False without a cut, and where no plane factor balances it.
         """
-        ahead, length = self._spare, TRIAL_STEP_FACTOR * self._length
+        ahead, length = self._ahead, TRIAL_STEP_FACTOR * self._length * self._force_unit
 
         def stepped(block: RigidPlane) -> float:
-            here = np.multiply(length, self._direction[block.rows], out=ahead[block.rows])
+            here, direction = ahead[block.rows], self._direction[block.rows]
+            np.multiply(direction, length, out=here, dtype=np.float64)
             here += self.iterate.pressure[block.rows]
             return float(here.min())
 
@@ -254,31 +272,40 @@ class BoundedCG:
         Return whether that is far enough.
         """
         # Exact line search on the segment from the iterate to the projected pressure.
-        plane, step = self.patch.plane, self._spare
-
-        def subtract(block: RigidPlane) -> None:
-            step[block.rows] -= self.iterate.pressure[block.rows]
-
-        plane.each(subtract)
+        plane, step = self.patch.plane, self._step_ahead()
         change = self._unit_displacement_of(step)
-        curvature = self.problem.compliance * _inner(plane, step, change)
+        curvature = _inner(plane, step, change)
         best = -_inner(plane, self._residual, step) / curvature if curvature > 0 else 0.0
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
         self._moved(min(best, 1.0), step, cut=True)
+        if best >= 1.0:
+            self.iterate.pressure[...] = self._ahead  # cells without pressure have none at all
         return True
 
-    def _moved(self, length: float, step: NDArray[np.float64], *, cut: bool = False) -> float:
+    def _step_ahead(self) -> NDArray[np.float32]:
+        """Step from the iterate to the pressure set aside."""
+        step = self._spare
+
+        def subtract(block: RigidPlane) -> None:
+            here = self._ahead[block.rows] - self.iterate.pressure[block.rows]
+            np.multiply(here, 1 / self._force_unit, out=step[block.rows], casting="same_kind")
+
+        self.patch.plane.each(subtract)
+        return step
+
+    def _moved(self, length: float, step: NDArray[np.float32], *, cut: bool = False) -> float:
         """Move the iterate along a step of known unit displacement; return its least pressure.
 
         With `cut`, no pressure falls below zero by rounding.
         """
+        length *= self._force_unit
 
         def moved(block: RigidPlane) -> float:
             pressure, displacement = self.iterate.values[:, block.rows]
-            pressure += length * step[block.rows]
-            displacement += length * self._change[block.rows]
+            pressure += np.multiply(step[block.rows], length, dtype=np.float64)
+            displacement += np.multiply(self._change[block.rows], length, dtype=np.float64)
             if cut:
                 np.maximum(pressure, 0.0, out=pressure)
             return float(pressure.min())
@@ -288,7 +315,8 @@ class BoundedCG:
     def _step_to_first_bound(self, length: float) -> None:
         """Go back, and step until the first cell loses its pressure, which keeps the balances."""
         self._moved(-length, self._direction)
-        pressure, step = self.iterate.pressure, length * self._direction
+        pressure = self.iterate.pressure
+        step = np.multiply(self._direction, length * self._force_unit, dtype=np.float64)
         room = np.divide(pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
         part = float(room.min())
         self._moved(length * part, self._direction, cut=True)
@@ -299,23 +327,24 @@ class BoundedCG:
         """True if the pressure is non-negative and balanced to rounding."""
         sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
         off = self.problem.constraints.imbalance(sums, self.patch.arm)
-        return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
+        most = max(BALANCE_TOLERANCE * self.tolerance, BALANCE_ROUNDING)
+        return float(self.iterate.pressure.min()) >= 0 and off < most
 
-    def _project_to_feasible(self, *, from_spare: bool = False) -> bool:
+    def _project_to_feasible(self, *, is_ahead: bool = False) -> bool:
         """Cut off tension and restore the balances; whether that was possible.
 
         Of the iterate's pressure, or of one that has been put aside.
         """
-        projected = self._spare
-        if not from_spare:
-            projected[...] = self.iterate.pressure
-        np.copyto(projected, 0.0, where=np.isinf(self.problem.open_gap))
-        if not self._is_balanced(projected):
+        ahead = self._ahead
+        if not is_ahead:
+            ahead[...] = self.iterate.pressure
+        np.copyto(ahead, 0.0, where=np.isinf(self.problem.open_gap))
+        if not self._is_balanced(ahead):
             return False
-        step = np.subtract(projected, self.iterate.pressure, out=self._change)
+        step = self._step_ahead()
         self._unit_displacement_of(step)
-        self.iterate.unit_displacement[...] += self._change
-        self.iterate.pressure[...] = projected
+        self._moved(1.0, step)
+        self.iterate.pressure[...] = ahead
         return True
 
     def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
@@ -323,12 +352,23 @@ class BoundedCG:
         patch = self.patch
         return balance(pressure, self.problem.constraints, patch.plane, patch.cell_area, patch.arm)
 
-    def _unit_displacement_of(self, step: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Unit displacement ``K step`` by a convolution on the patch [Pa m], in kept memory."""
+    def _unit_displacement_of(self, step: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Unit displacement ``K step`` by a convolution on the patch [-], in kept memory."""
         self.convolutions += 1
         return self.patch.convolution.apply(step, into=self._change)
 
 
-def _inner(plane: RigidPlane, a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    """Inner product, not by BLAS, which would start threads."""
-    return sum(plane.each(lambda block: float(np.einsum("ij,ij->", a[block.rows], b[block.rows]))))
+def _largest_displacement(problem: ContactProblem, iterate: Guess) -> float:
+    """Largest displacement [m], or the least that errors are relative to; 1 where both are zero."""
+    largest = problem.compliance * float(iterate.unit_displacement.max())
+    return max(problem.displacement_scale, largest) or 1.0
+
+
+def _inner(plane: RigidPlane, a: NDArray[np.float32], b: NDArray[np.float32]) -> float:
+    """Inner product, in double precision but for the rows; BLAS would start threads."""
+
+    def rows(block: RigidPlane) -> float:
+        found = np.einsum("ij,ij->i", a[block.rows], b[block.rows])
+        return float(found.sum(dtype=np.float64))
+
+    return sum(plane.each(rows))

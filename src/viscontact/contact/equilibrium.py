@@ -149,8 +149,8 @@ def _search_on(
     patch: Patch, problem: ContactProblem, start: Guess, tolerance: float, max_iterations: int
 ) -> _Search:
     """Search from a guess, whose pressure becomes that found on the patch, 0 outside."""
-    search = BoundedCG(problem.within(patch), patch, start.within(patch))
-    search.run(tolerance, max_iterations)
+    search = BoundedCG(problem.within(patch), patch, start.within(patch), tolerance)
+    search.run(max_iterations)
     pressure = start.pressure
     for outside in (slice(patch.rows.start), slice(patch.rows.stop, None)):
         pressure[outside] = 0.0

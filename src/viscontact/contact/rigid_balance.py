@@ -160,10 +160,12 @@ class RigidPlane:
 
     def sums_of_rows(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of the rows of one block against 1, x and y, at once."""
-        # Not as matrix products: BLAS would start threads, which cost more than they save.
-        along_x = values.sum(axis=1)
+        # Not as matrix products: BLAS would start threads, which cost more than they save. Of a
+        # matrix `einsum` takes half the time of `sum`.
+        values = values.astype(np.float64, copy=False)
+        along_x = np.einsum("ij->i", values)
         moment_x = 0.0 if self._mirrored[0] else along_x @ self._x
-        moment_y = 0.0 if self._mirrored[1] else values.sum(axis=0) @ self._y
+        moment_y = 0.0 if self._mirrored[1] else np.einsum("ij->j", values) @ self._y
         return np.array([along_x.sum(), moment_x, moment_y])
 
     def inverse_gram(
@@ -186,15 +188,16 @@ class RigidPlane:
 
     def moments_of_rows(self, weight: NDArray[np.float64] | NDArray[np.bool_]) -> Moments:
         """Sums of the rows' weights times 1, x, y, x², xy, y² in cells; no squares if mirrored."""
-        weight = np.asarray(weight, dtype=np.float64)
+        # Counts of cells are exact in single precision as well.
+        weight = weight.astype(np.float32 if weight.dtype == bool else np.float64, copy=False)
         column, row = self._column, self._row
         x = y = xx = xy = yy = 0.0
-        along_x = weight.sum(axis=1)
+        along_x = np.einsum("ij->i", weight).astype(np.float64)
         n = along_x.sum()
         if not self._mirrored[0]:
             x, xx = along_x @ column, along_x @ column**2
         if not self._mirrored[1]:
-            along_y = weight.sum(axis=0)
+            along_y = np.einsum("ij->j", weight).astype(np.float64)
             y, yy = along_y @ row, along_y @ row**2
         if not any(self._mirrored):
             xy = column @ np.einsum("ij,j->i", weight, row)

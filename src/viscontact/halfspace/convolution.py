@@ -15,6 +15,7 @@ from viscontact.fourier import (
     as_reals,
     fastest_transforms,
     fill_of_order,
+    restore_of_order,
     transforms_by,
 )
 from viscontact.halfspace.kernel_spectrum import kernel_spectrum, padded_length
@@ -216,7 +217,7 @@ class Convolution:
             padded = _cut(padded, second, slice(lines.stop - lines.start))
             moved = transforms.real_inverse(spectrum, padded, first)
         moved = _cut(moved, first, slice(self.shape[first]))
-        np.multiply(moved, size, out=_cut(result, second, lines), dtype=np.float64)
+        restore_of_order(size, moved, _cut(result, second, lines))
 
     def _along_second(
         self,

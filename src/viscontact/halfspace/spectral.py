@@ -22,6 +22,7 @@ from viscontact.fourier import (
     Transforms,
     fastest_transforms,
     fill_of_order,
+    restore_of_order,
     transforms_by,
 )
 from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of, order_of
@@ -184,9 +185,7 @@ class Spectra:
         )
         back = self._back(spectrum, block)
         found = np.empty(self._shape) if into is None else into
-        self._team.each(
-            lambda here: np.multiply(back[here], size, out=found[here], dtype=np.float64), rows
-        )
+        self._team.each(lambda here: restore_of_order(size, back[here], found[here]), rows)
         return found
 
     def factor_along(self, axis: int, factor: WaveFactor) -> NDArray[np.complex128]:
