@@ -27,7 +27,9 @@ restore a balance. The comments in `BoundedCG` number the steps of an iteration:
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -75,16 +77,20 @@ def contact_residual(
     iterate: Guess,
     into: tuple[NDArray[np.bool_], NDArray[Any]] | None = None,
     unit: float = 1.0,
+    first: Callable[[RigidPlane], None] | None = None,
 ) -> ContactResidual:
     """Step 1: rigid motion by least squares over the contact, gap and residual.
 
     The cells under pressure and the gap, in a `unit` [m], are written to `into` if that is given.
+    `first` works on each block of the iterate before it is read.
     """
     shape = iterate.pressure.shape
     contact, gap = into or (np.empty(shape, bool), np.empty(shape))
 
     def opened(block: RigidPlane) -> tuple[float, Moments, NDArray[np.float64]]:
         rows = block.rows
+        if first:
+            first(block)
         here = problem.compliance * iterate.unit_displacement[rows]
         largest = float(here.max())
         here += problem.open_gap[rows]
@@ -104,7 +110,7 @@ def contact_residual(
 
     def fitted(block: RigidPlane) -> float:
         here = gap[block.rows]
-        here -= block.field(correction / unit).astype(gap.dtype, copy=False)
+        here -= block.field(correction / unit, gap.dtype)
         held = np.where(contact[block.rows], here, gap.dtype.type(0))
         return max(float(held.max()), -float(here.min()))
 
@@ -135,6 +141,8 @@ class BoundedCG:
         self._direction, self._spare = np.zeros(shape, single), np.empty(shape, single)
         self._change = np.empty(shape, single)  # unit displacement of a step [-]
         self._ahead = np.empty(shape)  # pressure to step towards [Pa]
+        #: Step of known unit displacement that is still to be taken, on a block of rows.
+        self._next_step: Callable[[RigidPlane], None] | None = None
         self._rim_stiffness = RimStiffness(patch)
         self._slope = 0.0
         self._length = INITIAL_STEP_LENGTH
@@ -146,7 +154,9 @@ class BoundedCG:
         while not self.stagnated:
             # Step 1: measure the residual.
             into = self._next_active, self._next_residual
-            checked = contact_residual(self.problem, self.patch, self.iterate, into, self._unit)
+            given = self.iterate, into, self._unit, self._next_step
+            checked = contact_residual(self.problem, self.patch, *given)
+            self._next_step = None
             self.iterate = Guess(self.iterate.values, checked.motion)
             if checked.error <= self.tolerance:
                 return
@@ -279,10 +289,20 @@ class BoundedCG:
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
-        self._moved(min(best, 1.0), step, cut=True)
-        if best >= 1.0:
-            self.iterate.pressure[...] = self._ahead  # cells without pressure have none at all
+        # Taken while the residual is measured, which saves a pass over the iterate.
+        self._next_step = partial(self._step_part, best, step)
         return True
+
+    def _step_part(self, part: float, step: NDArray[np.float32], block: RigidPlane) -> None:
+        """Step on a block by a part of the way to the pressure set aside, at most all of it."""
+        length = min(part, 1.0) * self._force_unit
+        pressure, displacement = self.iterate.values[:, block.rows]
+        displacement += np.multiply(self._change[block.rows], length, dtype=np.float64)
+        if part >= 1.0:
+            pressure[...] = self._ahead[block.rows]
+        else:
+            pressure += np.multiply(step[block.rows], length, dtype=np.float64)
+            np.maximum(pressure, 0.0, out=pressure)  # below zero by rounding
 
     def _step_ahead(self) -> NDArray[np.float32]:
         """Step from the iterate to the pressure set aside."""
@@ -295,19 +315,14 @@ class BoundedCG:
         self.patch.plane.each(subtract)
         return step
 
-    def _moved(self, length: float, step: NDArray[np.float32], *, cut: bool = False) -> float:
-        """Move the iterate along a step of known unit displacement; return its least pressure.
-
-        With `cut`, no pressure falls below zero by rounding.
-        """
+    def _moved(self, length: float, step: NDArray[np.float32]) -> float:
+        """Move the iterate along a step of known unit displacement; return its least pressure."""
         length *= self._force_unit
 
         def moved(block: RigidPlane) -> float:
             pressure, displacement = self.iterate.values[:, block.rows]
             pressure += np.multiply(step[block.rows], length, dtype=np.float64)
             displacement += np.multiply(self._change[block.rows], length, dtype=np.float64)
-            if cut:
-                np.maximum(pressure, 0.0, out=pressure)
             return float(pressure.min())
 
         return min(self.patch.plane.each(moved))
@@ -319,9 +334,10 @@ class BoundedCG:
         step = np.multiply(self._direction, length * self._force_unit, dtype=np.float64)
         room = np.divide(pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
         part = float(room.min())
-        self._moved(length * part, self._direction, cut=True)
+        self._moved(length * part, self._direction)
         # Exactly zero: a remainder from rounding would keep all later steps as short.
         pressure[room == part] = 0.0
+        np.maximum(pressure, 0.0, out=pressure)
 
     def _is_feasible(self) -> bool:
         """True if the pressure is non-negative and balanced to rounding."""
