@@ -181,10 +181,10 @@ class BoundedCG:
         # Step 3: project.
         self._project(found, active, inverse)
         # Step 4: conjugate; beta = max(<z, r - r_old> / <z_old, r_old>, 0) (Polak & Ribiere).
-        factor, slope = 0.0, _inner(self.patch.plane, found, residual)
+        slope, slope_before = _inner(self.patch.plane, found, residual, self._residual)
+        factor = 0.0
         if self._slope > 0:
-            change = slope - _inner(self.patch.plane, found, self._residual)
-            factor = max(change / self._slope, 0.0)
+            factor = max((slope - slope_before) / self._slope, 0.0)
             if changed:
                 self._project(self._direction, active, inverse)
         self._conjugate(found, factor)
@@ -245,11 +245,11 @@ class BoundedCG:
         # Step 4: exact line search, length = -<r, d> / <d, K d>; the units hold the compliance.
         plane, direction = self.patch.plane, self._direction
         change = self._unit_displacement_of(direction)
-        curvature = _inner(plane, direction, change)
+        curvature, slope = _inner(plane, direction, change, self._residual)
         if curvature <= 0:
             self._slope = 0.0
             return
-        self._length = length = -_inner(plane, self._residual, direction) / curvature
+        self._length = length = -slope / curvature
         # Step 5: cut off tension; a plane factor restores the balances.
         if self._moved(length, direction) >= 0 or self._project_to_feasible():
             return
@@ -284,8 +284,8 @@ class BoundedCG:
         # Exact line search on the segment from the iterate to the projected pressure.
         plane, step = self.patch.plane, self._step_ahead()
         change = self._unit_displacement_of(step)
-        curvature = _inner(plane, step, change)
-        best = -_inner(plane, self._residual, step) / curvature if curvature > 0 else 0.0
+        curvature, slope = _inner(plane, step, change, self._residual)
+        best = -slope / curvature if curvature > 0 else 0.0
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
@@ -380,11 +380,17 @@ def _largest_displacement(problem: ContactProblem, iterate: Guess) -> float:
     return max(problem.displacement_scale, largest) or 1.0
 
 
-def _inner(plane: RigidPlane, a: NDArray[np.float32], b: NDArray[np.float32]) -> float:
-    """Inner product, in double precision but for the rows; BLAS would start threads."""
+def _inner(
+    plane: RigidPlane, field: NDArray[np.float32], *others: NDArray[np.float32]
+) -> list[float]:
+    """Inner products with other fields, in double precision but for the rows.
 
-    def rows(block: RigidPlane) -> float:
-        found = np.einsum("ij,ij->i", a[block.rows], b[block.rows])
-        return float(found.sum(dtype=np.float64))
+    Not by BLAS, which would start threads.
+    """
 
-    return sum(plane.each(rows))
+    def of_rows(block: RigidPlane) -> NDArray[np.float64]:
+        here = field[block.rows]
+        rows = [np.einsum("ij,ij->i", here, other[block.rows]) for other in others]
+        return np.array([row.sum(dtype=np.float64) for row in rows])
+
+    return list(map(float, added(plane.each(of_rows))))

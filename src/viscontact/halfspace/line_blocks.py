@@ -6,6 +6,7 @@ are returned in the order of the blocks, so that sums of them do not depend on t
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
@@ -17,7 +18,10 @@ from numpy.typing import NDArray
 from viscontact.fourier import largest_of
 
 #: Size of the lines that are worked on at once [bytes].
-BLOCK_BYTES = 2**20
+BLOCK_BYTES = 2**21
+
+#: Numbers of threads that share blocks evenly are those that divide this.
+EVEN_SHARES = 4
 
 #: Start of each array in a workspace, for vector instructions [bytes].
 ALIGNMENT = 64
@@ -112,12 +116,18 @@ class Workspace:
 
 
 def blocks_of(lines: int, bytes_per_line: int) -> list[slice]:
-    """Blocks of lines of at most `BLOCK_BYTES`, the first of which is the largest.
+    """Blocks of lines of at most `BLOCK_BYTES`, as even as possible; the first is the largest.
+
+    Several blocks are a multiple of `EVEN_SHARES`, so that threads get equal shares of them.
 
     Examples
     --------
     >>> blocks_of(5, 2**19)
-    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
+    [slice(0, 2, None), slice(2, 3, None), slice(3, 4, None), slice(4, 5, None)]
     """
     most = max(1, BLOCK_BYTES // max(1, bytes_per_line))
-    return [slice(start, min(start + most, lines)) for start in range(0, lines, most)]
+    count = -(-lines // most)
+    if count > 1:
+        count = min(lines, count + -count % EVEN_SHARES)
+    ends = [lines // max(1, count) * place + min(place, lines % max(1, count)) for place in range(count + 1)]
+    return [slice(start, stop) for start, stop in itertools.pairwise(ends)]
