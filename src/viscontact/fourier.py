@@ -237,7 +237,7 @@ def as_reals(spectrum: Field) -> Field:
     return spectrum.view(spectrum.real.dtype).reshape(*spectrum.shape, 2)
 
 
-def largest_of(field: NDArray[np.float64]) -> float:
+def largest_of(field: Field) -> float:
     """Return the largest absolute value of a field.
 
     Examples
@@ -248,7 +248,7 @@ def largest_of(field: NDArray[np.float64]) -> float:
     return max(float(field.max()), -float(field.min()))
 
 
-def fill_of_order(size: float, block: Field, field: NDArray[np.float64]) -> None:
+def fill_of_order(size: float, block: Field, field: Field) -> None:
     """Copy a field, divided by a factor, into a block.
 
     Examples

@@ -41,6 +41,27 @@ def test_inverse_gram_is_numpys_least_squares(seed: int, cells: int) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-8)
 
 
+@pytest.mark.parametrize("columns", [9, 4096, 4097])
+def test_counted_cells_have_the_moments_of_whole_numbers(columns: int) -> None:
+    """Their sums are those of Python's integers, with the axis at a third of a cell."""
+    filled = np.random.default_rng(columns).random((3, columns)) < 0.7
+    plane = RigidPlane(np.arange(3) - 1.0, np.arange(columns) - columns / 2 + 1 / 3, (1.0, 1.0))
+    rows, places = (list(map(int, index)) for index in np.nonzero(filled))
+    sum_x = sum(row - 1 for row in rows)
+    six_y = [6 * place - 3 * columns + 2 for place in places]
+    expected = (
+        len(rows),
+        sum_x,
+        sum(six_y) / 6,
+        sum((row - 1) ** 2 for row in rows),
+        sum((row - 1) * y for row, y in zip(rows, six_y, strict=True)) / 6,
+        sum(y * y for y in six_y) / 36,
+    )
+    scale = len(rows) * columns
+    found = plane.moments_of_rows(filled)
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14 * scale)
+
+
 def test_a_line_of_cells_knows_no_tilt_across_itself() -> None:
     weight = np.zeros(GRID.shape)
     weight[3:8, 4] = 1.0

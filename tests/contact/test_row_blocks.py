@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import viscontact as vc
 from viscontact.contact.domain import ContactDomain
@@ -34,6 +36,42 @@ def test_blocks_of_rows_and_threads_give_the_pressure_of_the_whole(
         assert np.abs(found.values[0] - whole.values[0]).max() < 1e-8 * peak
         again = solved(threads)
         assert again.values.tobytes() == found.values.tobytes()
+
+
+@given(lines=st.integers(0, 3000), row_bytes=st.integers(1, 2**23))
+def test_blocks_are_even_shares_of_all_lines(lines: int, row_bytes: int) -> None:
+    blocks = line_blocks.blocks_of(lines, row_bytes)
+    sizes = [block.stop - block.start for block in blocks]
+    assert [line for block in blocks for line in range(block.start, block.stop)] == [*range(lines)]
+    assert all(size == 1 or size * row_bytes <= line_blocks.BLOCK_BYTES for size in sizes)
+    assert max(sizes, default=0) - min(sizes, default=0) <= 1
+    assert sizes[:1] == [max(sizes)] if sizes else not lines
+    assert len(blocks) in (0, 1, lines) or len(blocks) % line_blocks.EVEN_SHARES == 0
+
+
+@settings(max_examples=20, deadline=None)
+@given(pascal=st.floats(-60, 60), metre=st.floats(-9, 9))
+def test_the_search_finds_the_same_contact_in_any_units(pascal: float, metre: float) -> None:
+    """Residual and directions are in single precision, of a range of 1e-38 to 1e38."""
+    force, length = 10.0**pascal, 10.0**metre
+    grid = vc.Grid((32, 30), (0.5 * length, 0.5 * length))
+    gap = vc.Paraboloid(length, 0.6 * length).gap(grid.x[:, None], grid.y[None, :])
+    load = force * length**2
+    problem = ContactProblem(
+        gap,
+        2.5e-7 / force,
+        Constraints((1e3 * load, 20.0 * load * length, -10.0 * load * length)),
+        1e-15 * length,
+    )
+    found = solve_contact(problem, ContactDomain(grid), tolerance=1e-9)
+    known = solve_contact(
+        ContactProblem(gap / length, 2.5e-7, LOAD, 1e-15),
+        ContactDomain(vc.Grid((32, 30), (0.5, 0.5))),
+        tolerance=1e-9,
+    )
+    assert found.converged
+    assert found.iterations <= known.iterations + 1
+    assert found.values[0] / force == pytest.approx(known.values[0], rel=1e-6, abs=1e-3)
 
 
 def test_a_run_on_two_threads_gives_the_same_bits_each_time(

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.conjugate_gradients import BoundedCG, contact_residual
+from viscontact.contact.conjugate_gradients import BoundedCG
+from viscontact.contact.contact_residual import contact_residual
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess

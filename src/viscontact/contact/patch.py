@@ -37,7 +37,7 @@ class PatchOperators:
         """Approximate inverse of the convolution."""
         return self._preconditioner()
 
-    def near_stiffness(self, spare: NDArray[np.float64]) -> dict[tuple[int, int], np.float32]:
+    def near_stiffness(self, spare: NDArray[np.float32]) -> dict[tuple[int, int], np.float32]:
         """Stiffness between a cell and those around it, by their offsets [1/m]; uses a field up."""
         if not self._near:
             rows, columns = (count // 2 for count in self._shape)

@@ -164,7 +164,7 @@ class RigidPlane:
         """Sums of a field against 1, x and y."""
         return added(self.each(lambda block: block.sums_of_rows(values[block.rows])))
 
-    def sums_of_rows(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def sums_of_rows(self, values: NDArray[Any]) -> NDArray[np.float64]:
         """Sums of the rows of one block against 1, x and y, at once."""
         # Not as matrix products: BLAS would start threads, which cost more than they save. Of a
         # matrix `einsum` takes half the time of `sum`.
@@ -174,9 +174,7 @@ class RigidPlane:
         moment_y = 0.0 if self._mirrored[1] else np.einsum("ij->j", values) @ self._y
         return np.array([along_x.sum(), moment_x, moment_y])
 
-    def inverse_gram(
-        self, weight: NDArray[np.float64] | NDArray[np.bool_], free: NDArray[np.bool_]
-    ) -> NDArray[np.float64]:
+    def inverse_gram(self, weight: NDArray[Any], free: NDArray[np.bool_]) -> NDArray[np.float64]:
         """Pseudo-inverse of the weighted sums of (1, x, y) (1, x, y)ᵀ over the free coefficients.
 
         Where the cells determine only some coefficients (one cell, or a line of cells) the others
@@ -192,7 +190,7 @@ class RigidPlane:
         total = tuple(map(sum, zip(*moments, strict=True)))
         return _inverse(total, free) * self._units
 
-    def moments_of_rows(self, weight: NDArray[np.float64] | NDArray[np.bool_]) -> Moments:
+    def moments_of_rows(self, weight: NDArray[Any]) -> Moments:
         """Sums of the rows' weights times 1, x, y, x², xy, y² in cells; no squares if mirrored."""
         column, row = self._column, self._row
         # Sums of up to 2^24 are exact in single precision, which takes half the time.

@@ -58,8 +58,8 @@ class RimStiffness:
             near_rows, near_columns = rows + down, columns + right
             inside = (near_rows >= 0) & (near_rows < active.shape[0])
             inside &= (near_columns >= 0) & (near_columns < active.shape[1])
-            near = near_rows[inside], near_columns[inside]
-            np.add.at(self._stiffness, near, sign[inside] * stiffness)
+            places = near_rows[inside], near_columns[inside]
+            np.add.at(self._stiffness, places, sign[inside] * stiffness)
 
     def correct(self, found: NDArray[np.float32], residual: NDArray[np.float32]) -> None:
         """Take the correction from a preconditioned residual, in its memory."""

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.conjugate_gradients import ContactResidual, contact_residual
+from viscontact.contact.contact_residual import ContactResidual, contact_residual
 from viscontact.contact.moving_domain import MovingDomain
 from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.fourier import (
+    Field,
     Transforms,
     as_reals,
     fastest_transforms,
@@ -119,12 +120,11 @@ class Convolution:
         total._symbol = symbol.astype(self._symbol.dtype)
         return total
 
-    def apply(
-        self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
+    def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over contact compliance [Pa m], positive into the half-space.
 
         The pressure [Pa] is positive in compression; the result is written to `into` if given.
+        Both are in double precision, or in that of the convolution.
         """
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
@@ -159,7 +159,7 @@ class Convolution:
 
     def _forth(
         self,
-        pressure: NDArray[np.float64],
+        pressure: Field,
         size: float,
         half: NDArray[Any],
         lines: slice,
@@ -202,7 +202,7 @@ class Convolution:
 
     def _back(
         self,
-        result: NDArray[np.float64],
+        result: Field,
         size: float,
         half: NDArray[Any],
         lines: slice,

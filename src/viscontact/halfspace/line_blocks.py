@@ -129,5 +129,5 @@ def blocks_of(lines: int, bytes_per_line: int) -> list[slice]:
     count = -(-lines // most)
     if count > 1:
         count = min(lines, count + -count % EVEN_SHARES)
-    ends = [lines // max(1, count) * place + min(place, lines % max(1, count)) for place in range(count + 1)]
+    ends = [-(-lines * place // count) for place in range(count + 1)] if count else [0]
     return [slice(start, stop) for start, stop in itertools.pairwise(ends)]

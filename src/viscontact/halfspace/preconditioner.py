@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import Transforms
+from viscontact.fourier import Field, Transforms
 from viscontact.halfspace.line_blocks import Team, Workspace
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.spectral import Spectra
@@ -81,15 +81,11 @@ class Preconditioner:
         _, before, part = self._interpolation
         return np.asarray(known[before] + np.diff(known)[before] * part)
 
-    def apply(
-        self, displacement: NDArray[np.float64], into: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
+    def apply(self, displacement: Field, into: Field | None = None) -> Field:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
         return self._spectra.filtered(displacement, self._symbol, into)
 
-    def stiffness_of(
-        self, cells: NDArray[Any], into: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
+    def stiffness_of(self, cells: Field, into: Field | None = None) -> Field:
         """Stiffness of a half-space where some cells are displaced by 1, the others by 0 [1/m].
 
         Of the stiffest half-space that is nowhere stiffer than the surface.

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.fourier import (
+    Field,
     Transforms,
     fastest_transforms,
     fill_of_order,
@@ -85,9 +86,7 @@ class PeriodicConvolution:
         total._symbol = symbol.astype(self._symbol.dtype)
         return total
 
-    def apply(
-        self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
+    def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over contact compliance [Pa m], positive into the half-space; zero mean.
 
         The pressure [Pa] is positive in compression; the result is written to `into` if given.
@@ -166,10 +165,10 @@ class Spectra:
 
     def filtered(
         self,
-        field: NDArray[np.float64],
+        field: Field,
         symbol: NDArray[Any],
-        into: NDArray[np.float64] | None = None,
-    ) -> NDArray[np.float64]:
+        into: Field | None = None,
+    ) -> Field:
         """Field whose spectrum is that of the given field times a symbol."""
         rows = blocks_of(len(field), field[:1].nbytes)
         size = order_of([field[each] for each in rows], self._number, self._team)
