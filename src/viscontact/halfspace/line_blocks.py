@@ -7,6 +7,7 @@ are returned in the order of the blocks, so that sums of them do not depend on t
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
@@ -48,13 +49,13 @@ class Team:
 
     def each(self, work: Callable[[_Block], _Found], blocks: Sequence[_Block]) -> list[_Found]:
         """Work on all blocks, and return what that gives, in their order."""
+        if self.threads == 1 or len(blocks) <= 1:
+            return [work(block) for block in blocks]
         shares = min(self.threads, len(blocks))
 
         def share(first: int) -> list[_Found]:
             return [work(block) for block in blocks[first::shares]]
 
-        if shares <= 1:
-            return [work(block) for block in blocks]
         others = [self._pool.submit(share, first) for first in range(1, shares)]
         found = [share(0), *(other.result() for other in others)]
         return [found[place % shares][place // shares] for place in range(len(blocks))]
@@ -73,6 +74,9 @@ class Team:
         rows = [field.view() for field in fields]
         for row in rows:
             row.shape = (row.size,)
+        if rows[0].nbytes <= BLOCK_BYTES:
+            work(*rows)
+            return
         blocks = blocks_of(rows[0].size, rows[0].itemsize)
         self.each(lambda block: work(*(row[block] for row in rows)), blocks)
 
@@ -104,14 +108,14 @@ class Workspace:
 
     def arrays(self, *wanted: tuple[tuple[int, ...], np.dtype[Any]]) -> list[NDArray[Any]]:
         """Return arrays of shapes and kinds, beside each other, valid until the next call."""
-        sizes = [int(np.prod(shape)) * kind.itemsize for shape, kind in wanted]
-        begins = np.cumsum([0, *(size + -size % ALIGNMENT for size in sizes)])
-        if begins[-1] > len(self._bytes):
+        sizes = [math.prod(shape) * kind.itemsize for shape, kind in wanted]
+        *begins, end = itertools.accumulate((size + -size % ALIGNMENT for size in sizes), initial=0)
+        if end > len(self._bytes):
             self._bytes = np.empty(0, np.uint8)  # freed before the larger one is made
-            self._bytes = np.empty(int(begins[-1]), np.uint8)
+            self._bytes = np.empty(end, np.uint8)
         return [
             self._bytes[begin : begin + size].view(kind).reshape(shape)
-            for begin, size, (shape, kind) in zip(begins, sizes, wanted, strict=False)
+            for begin, size, (shape, kind) in zip(begins, sizes, wanted, strict=True)
         ]
 
 

@@ -156,6 +156,10 @@ class Spectra:
         self.wave_numbers = 2 * np.pi * waves[0], 2 * np.pi * waves[1]
         self._shape, self._number = shape, np.dtype(number)
         self._workspace, self._team = workspace or Workspace(), team or Team()
+        kind = np.result_type(self._number, np.complex64)
+        self._spectrum = (len(waves[0]), len(waves[1])), kind
+        self._rows = blocks_of(shape[0], shape[1] * self._number.itemsize)
+        self._wave_rows = blocks_of(len(waves[0]), len(waves[1]) * kind.itemsize)
 
     @property
     def half_wave_numbers(self) -> NDArray[np.float64]:
@@ -170,17 +174,14 @@ class Spectra:
         into: Field | None = None,
     ) -> Field:
         """Field whose spectrum is that of the given field times a symbol."""
-        rows = blocks_of(len(field), field[:1].nbytes)
+        rows = self._rows
         size = order_of([field[each] for each in rows], self._number, self._team)
-        waves = len(self.wave_numbers[0]), len(self.wave_numbers[1])
-        kind = np.result_type(self._number, np.complex64)
-        block, spectrum = self._workspace.arrays((self._shape, self._number), (waves, kind))
+        block, spectrum = self._workspace.arrays((self._shape, self._number), self._spectrum)
         self._team.each(lambda here: fill_of_order(size, block[here], field[here]), rows)
         spectrum = self._forth(block, spectrum)
-        waves_of_rows = blocks_of(len(spectrum), spectrum[:1].nbytes)
         self._team.each(
             lambda here: np.multiply(spectrum[here], symbol[here], out=spectrum[here]),
-            waves_of_rows,
+            self._wave_rows,
         )
         back = self._back(spectrum, block)
         found = np.empty(self._shape) if into is None else into
