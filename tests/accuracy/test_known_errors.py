@@ -227,7 +227,7 @@ def test_bar_holds_the_height_of_a_crest_between_cells_of_a_contact_without_rim(
     wave = np.pi * reduced * amplitude / length
     material, load = vc.Material(vc.Elastic(1e6), 0.5), vc.step(1.5 * wave * length**2)
     grid = vc.Grid((count, count), (length, length), periodic=True)
-    run = prepare_run(Problem(body, material, load, grid, [0.0]))
+    run = prepare_run(Problem(body, material, load, grid, [0.0], tolerance=1e-8))
     history = history_of(list(march_run(run)))
     results = coarser_results_that_agree(run, history, "peak_pressure")
     (bar,) = error_bars_from(run, history, results).values["peak_pressure"]

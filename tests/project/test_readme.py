@@ -25,7 +25,7 @@ def test_the_python_example_prints_what_it_says(capsys: pytest.CaptureFixture[st
     source = block(README, "python")
     said = re.findall(r"# \[(\S+) (\S+)\]", source)
     exec(compile(source, "README.md", "exec"), {})
-    printed = re.findall(r"\[ *(\S+) +(\S+)\]", capsys.readouterr().out)
+    printed = re.findall(r"\[ *(\S+) +(\S+) *\]", capsys.readouterr().out)
     for ours, theirs in zip(printed, said, strict=True):
         for value, digits in zip(ours, theirs, strict=True):
             assert float(value) == pytest.approx(float(digits), rel=5e-3)

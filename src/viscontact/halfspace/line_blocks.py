@@ -37,7 +37,7 @@ class Team:
     Examples
     --------
     >>> Team(2).each(lambda block: block.start, blocks_of(5, 2**19))
-    [0, 2, 4]
+    [0, 2, 3, 4]
     """
 
     def __init__(self, threads: int = 1) -> None:
