@@ -88,3 +88,16 @@ def test_a_run_on_two_threads_gives_the_same_bits_each_time(
     assert runs[0].tobytes() == runs[1].tobytes()
     alone = np.stack([state.pressure for state in vc.march(*given, grid, times)])
     assert np.abs(runs[0] - alone).max() < 1e-5 * alone.max()
+
+
+@pytest.mark.parametrize("cells", [8, 16, 60])
+def test_a_solution_is_balanced_to_rounding_though_the_search_is_in_single_precision(
+    cells: int,
+) -> None:
+    grid = vc.Grid((cells, cells), (0.5, 0.5))
+    gap = vc.Paraboloid(1.0, 0.6).gap(grid.x[:, None], grid.y[None, :])
+    domain = ContactDomain(grid)
+    found = solve_contact(ContactProblem(gap, 2.5e-7, LOAD, 1e-15), domain, tolerance=1e-6)
+    assert found.converged
+    sums = domain.whole.plane.sums(found.values[0]) * grid.cell_area
+    assert LOAD.imbalance(sums, domain.whole.arm) < 1e-12

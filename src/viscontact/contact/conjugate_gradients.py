@@ -43,9 +43,8 @@ from viscontact.contact.winkler import project_onto_balance
 #: Iterations without a new least residual after which the search counts as stagnant.
 STAGNATION_ITERATIONS = 40
 
-#: Relative imbalance below which a guess counts as balanced, in tolerances of the residual, and not
-#: less than rounding. Directions in single precision leave up to 1e-11 on grids of few cells.
-BALANCE_TOLERANCE, BALANCE_ROUNDING = 1e-3, 1e-12
+#: Relative imbalance below which a guess counts as balanced.
+BALANCE_TOLERANCE = 1e-12
 
 #: First step length, in 1/compliance. Below 1, as the preconditioner still overestimates the
 #: stiffness where only some cells carry pressure.
@@ -65,10 +64,8 @@ class BoundedCG:
     The pressure and the displacement of the guess are changed in their own memory.
     """
 
-    def __init__(
-        self, problem: ContactProblem, patch: Patch, start: Guess, tolerance: float
-    ) -> None:
-        self.problem, self.patch, self.tolerance = problem, patch, tolerance
+    def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
+        self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
         self.iterate = Guess(start.values, problem.constraints.with_prescribed(start.motion))
         shape, single = start.pressure.shape, np.float32
@@ -88,8 +85,11 @@ class BoundedCG:
         self._length = INITIAL_STEP_LENGTH
         self.stagnated = not (self._is_feasible() or self._project_to_feasible())
 
-    def run(self, max_iterations: int) -> None:
-        """Iterate until the relative residual meets the tolerance, or no progress is made."""
+    def run(self, tolerance: float, max_iterations: int) -> None:
+        """Iterate until the relative residual meets the tolerance, or no progress is made.
+
+        The pressure is balanced to the rounding of its steps, which are in single precision.
+        """
         best, since_best = np.inf, 0
         while not self.stagnated:
             # Step 1: measure the residual.
@@ -98,7 +98,7 @@ class BoundedCG:
             checked = contact_residual(self.problem, self.patch, *given)
             self._next_step = None
             self.iterate = Guess(self.iterate.values, checked.motion)
-            if checked.error <= self.tolerance:
+            if checked.error <= tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
             best = min(best, checked.error)
@@ -283,8 +283,7 @@ class BoundedCG:
         """True if the pressure is non-negative and balanced to rounding."""
         sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
         off = self.problem.constraints.imbalance(sums, self.patch.arm)
-        most = max(BALANCE_TOLERANCE * self.tolerance, BALANCE_ROUNDING)
-        return float(self.iterate.pressure.min()) >= 0 and off < most
+        return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
 
     def _project_to_feasible(self, *, is_ahead: bool = False) -> bool:
         """Cut off tension and restore the balances; whether that was possible.
