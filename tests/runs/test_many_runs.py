@@ -299,7 +299,7 @@ def test_simulations_in_processes_are_the_simulations_in_order() -> None:
     assert failed.__notes__ == ["in run 3 of 3 of simulate_many"]
 
 
-@pytest.mark.parametrize(("free", "at_once"), [(2.3e9, 4), (2e9, 2), (1.5e9, 1), (5e8, 1)])
+@pytest.mark.parametrize(("free", "at_once"), [(2.3e9, 4), (1.9e9, 2), (1.5e9, 1), (5e8, 1)])
 def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
     free: float, at_once: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -309,7 +309,7 @@ def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
         asked.append(count)
         raise InterruptedError
 
-    # of an elastic body: 0.15 GB, and 25 numbers of 8 bytes a cell
+    # of an elastic body: 0.15 GB, 20 numbers of 8 bytes a cell, and 0.13 GB on 2000 x 2000 cells
     given = {"indenter": vc.Sphere(0.01), "material": RUBBER, "load": vc.step(0.1)}
     sizes = {n: {**given, "grid": vc.Grid((n, n), (1.0, 1.0))} for n in (100, 2000)}
     monkeypatch.setattr(many, "LocalWorkers", pool)
@@ -317,7 +317,7 @@ def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
     with warnings.catch_warnings(record=True) as warned, pytest.raises(InterruptedError):
         vc.simulate_many([sizes[n] for n in (100, 2000, 100, 2000)], workers=4)
     assert asked == [at_once]
-    said = f"about 2.2 GB of memory, {free / 1e9:.3g} GB are free; {at_once} at a time"
+    said = f"about 2.15 GB of memory, {free / 1e9:.3g} GB are free; {at_once} at a time"
     assert [said in str(each.message) for each in warned] == [True] * (at_once < 4)
 
 
