@@ -9,6 +9,7 @@ outline.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -59,14 +60,15 @@ class Rim:
         """Extent of the contact along x, at most a period where that is finite [m]."""
         if len(self.rows) > self.grid.shape[0]:
             return self.grid.size[0]
-        return min(_extent(self.contact, self.along_x) * self.grid.cell_size[0], self.grid.size[0])
+        cells = _extent(self._touched[0], self.contact, self.along_x)
+        return min(cells * self.grid.cell_size[0], self.grid.size[0])
 
     @cached_property
     def width(self) -> float:
         """Extent of the contact along y, at most a period where that is finite [m]."""
         if len(self.columns) > self.grid.shape[1]:
             return self.grid.size[1]
-        cells = _extent(self.contact.T, self.along_y.T)
+        cells = _extent(self._touched[1], self.contact.T, self.along_y.T)
         return min(cells * self.grid.cell_size[1], self.grid.size[1])
 
     @property
@@ -80,6 +82,12 @@ class Rim:
         ended = [own for own, whole in zip(extents, self.grid.size, strict=True) if own < whole]
         return min(ended or extents)
 
+    @cached_property
+    def _touched(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Rows and columns of the block that have contact."""
+        rows, columns = (np.flatnonzero(self.contact.any(axis=axis)) for axis in (1, 0))
+        return rows, columns
+
     @property
     def cells_across(self) -> int:
         """Rows or columns of cells that have contact, the fewer of the two.
@@ -88,7 +96,7 @@ class Rim:
         any other, it is the number of cells of the grid.
         """
         lines, counts = (self.rows, self.columns), self.grid.shape
-        touched = [int(self.contact.any(axis=1 - axis).sum()) for axis in (0, 1)]
+        touched = [len(each) for each in self._touched]
         ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
         return min(touched[k] for k in ends) if ends else max(counts)
 
@@ -117,9 +125,9 @@ def mean_chords(
     """
     begun = []
     for lines, repeats in zip((contact, contact.T), periodic, strict=True):
-        before = lines[-1:] if repeats else np.zeros_like(lines[:1])
-        begun.append(int(np.count_nonzero(lines & ~np.concatenate([before, lines[:-1]]))))
-    return np.asarray(int(np.count_nonzero(contact)) / np.maximum(begun, 1))
+        first = lines[0] > lines[-1] if repeats else lines[0]
+        begun.append(np.count_nonzero(first) + np.count_nonzero(lines[1:] > lines[:-1]))
+    return np.asarray(np.count_nonzero(contact) / np.maximum(begun, 1))
 
 
 def trace_rim(
@@ -229,16 +237,19 @@ def _mean_segment(
     periodic: Sequence[bool] = (False, False),
 ) -> float:
     """Area between the rim and its chords per quarter turn, less the error of the crossings."""
-    chords, beyond = mean_chords(contact, periodic=periodic), np.isinf(gap)
-    if not chords.any():
+    along_x, along_y = mean_chords(contact, periodic=periodic).tolist()
+    if not along_x:
         return SEGMENTS
-    # Crossings at the body's outline have no such error.
-    lines = (contact, beyond), (contact.T, beyond.T)
-    pairs = [pair for c, b in lines for pair in ((c[1:], b[:-1]), (c[:-1], b[1:]))]
-    at_end = sum(np.count_nonzero(inner & outer) for inner, outer in pairs)
-    by_gap = max(1 - at_end / (2 * np.count_nonzero(contact) * np.sum(1 / chords)), 0.0)
-    loss = SEGMENT_LOSS / max(np.sqrt(np.prod(chords)), 1.0)
-    return float(SEGMENTS * (1 - by_gap * min(loss, 1 - LEAST_SEGMENTS)))
+    by_gap, beyond = 1.0, np.isinf(gap)
+    if beyond.any():
+        # Crossings at the body's outline have no such error.
+        lines = (contact, beyond), (contact.T, beyond.T)
+        pairs = [pair for c, b in lines for pair in ((c[1:], b[:-1]), (c[:-1], b[1:]))]
+        at_end = sum(np.count_nonzero(inner & outer) for inner, outer in pairs)
+        all_ends = 2 * np.count_nonzero(contact) * (1 / along_x + 1 / along_y)
+        by_gap = max(1 - at_end / all_ends, 0.0)
+    loss = SEGMENT_LOSS / max(math.sqrt(along_x * along_y), 1.0)
+    return SEGMENTS * (1 - by_gap * min(loss, 1 - LEAST_SEGMENTS))
 
 
 def _enclosed_squares(rim: Rim) -> float:
@@ -267,9 +278,10 @@ def _enclosed_squares(rim: Rim) -> float:
     return float(np.count_nonzero(count == 4) + enclosed.sum())
 
 
-def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
-    """Extent along the first axis, in cells: the farthest crossings both ways."""
-    touched = np.flatnonzero(contact.any(axis=1))
+def _extent(
+    touched: NDArray[np.intp], contact: NDArray[np.bool_], crossings: NDArray[np.float64]
+) -> float:
+    """Extent along the first axis, in cells: the farthest crossings both ways of touched rows."""
     if not touched.size:
         return 0.0
     # A crossing lies between half a cell inside and one outside of its inner centre: two rows

@@ -13,11 +13,14 @@ from viscontact.grid import Grid
 
 Array = NDArray[np.float64]
 
-#: Rows and columns of some cells, or steps between cells, shape (2, count).
+#: Positions of cells in the padded fields of a block, read row by row.
 Cells = NDArray[np.intp]
 
 #: Open cells beside the contact from which its rim is extrapolated.
 MARGIN = 3
+
+#: Lines of cells around a block, outside the body: two cells are read beyond an open one.
+PADDING = 2
 
 #: Least descent of a chord from line to line, in cells.
 LEAST_DESCENT = 1e-6
@@ -27,20 +30,21 @@ LEAST_DESCENT = 1e-6
 class _Intervals:
     """Intervals between neighbouring centres in which contact changes, along x, then along y."""
 
-    axis: NDArray[np.intp]
+    along_x: int  # number of those along x
     start: Cells  # cell before the interval
     inner: Cells  # cell in contact
-    outer: Cells  # open cell
+    outwards: Cells  # step to the open cell
+    across: Cells  # step to the next line
 
     @property
-    def across(self) -> Cells:
-        """Step to the next line."""
-        return np.array([self.axis, 1 - self.axis])
+    def outer(self) -> Cells:
+        """Open cells."""
+        return self.inner + self.outwards
 
     def some(self, chosen: NDArray[np.intp]) -> _Intervals:
-        """Some of the intervals."""
-        each = (cells[:, chosen] for cells in (self.start, self.inner, self.outer))
-        return _Intervals(self.axis[chosen], *each)
+        """Some of the intervals, in their order."""
+        each = (cells[chosen] for cells in (self.start, self.inner, self.outwards, self.across))
+        return _Intervals(int(np.searchsorted(chosen, self.along_x)), *each)
 
 
 def locate_rim(
@@ -51,21 +55,23 @@ def locate_rim(
     `ends` are the distances to the body's outline; NaN, or none at all, is the middle.
     """
     intervals = _changes(contact)
-    located, slope = _by_gaps(grid, intervals, contact, gap)
-    at_end = np.flatnonzero(np.isinf(gap[*intervals.outer]))
+    touches, gaps = _padded(contact, outside=False), _padded(gap, outside=np.inf)
+    located, slope = _by_gaps(grid, intervals, touches.ravel(), gaps.ravel())
+    at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
-        located[at_end] = _body_ends(ends, intervals.some(at_end))
-    fields = np.full((2, *contact.shape), np.nan)
+        located[at_end] = _body_ends(ends, intervals.some(at_end), gaps.shape[1])
+    fields = np.full((2, gaps.size), np.nan)
     # A line that the rim crosses at a small angle does not locate it well.
     oblique = np.abs(slope) > 1
-    fields[intervals.axis, *intervals.start] = np.where(oblique, np.nan, located)
+    _put(fields, intervals, np.where(oblique, np.nan, located))
     chosen = np.flatnonzero(oblique)
     if chosen.size:
         lines = intervals.some(chosen)
-        chords = _by_chords(fields, lines, contact, slope[chosen] > 0)
-        found = np.where(np.isnan(chords), located[chosen], chords)
-        fields[lines.axis, *lines.start] = found
-    return fields[0, :-1], fields[1, :, :-1]
+        chords = _by_chords(fields, lines, touches.ravel(), slope[chosen] > 0)
+        _put(fields, lines, np.where(np.isnan(chords), located[chosen], chords))
+    inside = slice(PADDING, -PADDING)
+    along_x, along_y = fields.reshape(2, *gaps.shape)[:, inside, inside]
+    return along_x[:-1], along_y[:, :-1]
 
 
 def places(where: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -73,15 +79,34 @@ def places(where: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]
     return np.divmod(np.flatnonzero(where), where.shape[1])
 
 
+def _padded(field: NDArray[Any], outside: float) -> NDArray[Any]:
+    """Field of a block with a value around it; `np.pad` takes several times as long."""
+    padded = np.full([count + 2 * PADDING for count in field.shape], outside, field.dtype)
+    padded[PADDING:-PADDING, PADDING:-PADDING] = field
+    return padded
+
+
+def _put(fields: Array, intervals: _Intervals, values: Array) -> None:
+    """Write values of intervals to the fields along x and along y."""
+    first = intervals.along_x
+    fields[0, intervals.start[:first]] = values[:first]
+    fields[1, intervals.start[first:]] = values[first:]
+
+
 def _changes(contact: NDArray[np.bool_]) -> _Intervals:
     """Intervals in which contact changes."""
-    along_x = places(contact[1:] != contact[:-1])
-    along_y = places(contact[:, 1:] != contact[:, :-1])
-    axis = np.repeat([0, 1], [len(along_x[0]), len(along_y[0])])
-    start = np.concatenate([along_x, along_y], axis=1)
-    end = start + np.array([1 - axis, axis])
-    inside = contact[*start]
-    return _Intervals(axis, start, np.where(inside, start, end), np.where(inside, end, start))
+    rows, columns = zip(
+        places(contact[1:] != contact[:-1]), places(contact[:, 1:] != contact[:, :-1]), strict=True
+    )
+    row, column = np.concatenate(rows), np.concatenate(columns)
+    along_x, width = len(rows[0]), contact.shape[1] + 2 * PADDING
+    start = (row + PADDING) * width + (column + PADDING)
+    step = np.ones(len(start), np.intp)
+    step[:along_x] = width
+    begins_inside = contact[row, column]
+    inner = start + np.where(begins_inside, 0, step)
+    outwards = np.where(begins_inside, step, -step)
+    return _Intervals(along_x, start, inner, outwards, width + 1 - step)
 
 
 def _by_gaps(
@@ -91,15 +116,15 @@ def _by_gaps(
 
     The middle, if the second gap is not wider (a groove of one cell, the body's end).
     """
-    outwards = intervals.outer - intervals.inner
-    second, third = (_within(contact, intervals.outer + k * outwards) for k in (1, 2))
-    near, far, farther = np.maximum(gap[*intervals.outer], 0.0), gap[*second], gap[*third]
-    known = np.isfinite(far) & (far > near) & ~contact[*second]
+    outer, outwards = intervals.outer, intervals.outwards
+    second = outer + outwards
+    near, far, farther = np.maximum(gap[outer], 0.0), gap[second], gap[second + outwards]
+    known = np.isfinite(far) & (far > near) & ~contact[second]
     near, far = np.where(known, near, 0.0), np.where(known, far, 1.0)
     # Unknown where the body or the grid ends; less than the second in a groove of two cells.
-    clear = np.isfinite(farther) & (third != second).any(axis=0)
+    farther = np.where(np.isfinite(farther), farther, np.nan)
     # gap^(2/3) on the lines beside, where the body does not end there.
-    behind, before = (gap[*_within(gap, second + by * intervals.across)] for by in (1, -1))
+    behind, before = gap[second + intervals.across], gap[second - intervals.across]
     both = known & np.isfinite(behind) & np.isfinite(before)
     gaps = np.array([np.where(both, behind, 0.0), np.where(both, before, 0.0), far, near])
     # Of ratios, so that no unit of length changes the rounding.
@@ -108,17 +133,20 @@ def _by_gaps(
     # Ratios that differ by rounding share a law.
     dx, dy = grid.cell_size
     laws = [edge_law(round(ratio, 6), periodic=all(grid.periodic)) for ratio in (dy / dx, dx / dy)]
-    offset = np.where(intervals.axis == 0, laws[0].offset(slope), laws[1].offset(slope))
-    distance = laws[0].distance(near, far, np.where(clear, farther, np.nan)) - offset
+    first = intervals.along_x
+    offset = np.concatenate([laws[0].offset(slope[:first]), laws[1].offset(slope[first:])])
+    distance = laws[0].distance(near, far, farther) - offset
     return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope
 
 
-def _body_ends(ends: tuple[Array, Array], intervals: _Intervals) -> Array:
+def _body_ends(ends: tuple[Array, Array], intervals: _Intervals, width: int) -> Array:
     """Distances to the body's outline, the middle where it is not known."""
-    found = np.full(len(intervals.axis), 0.5)
-    for axis in (0, 1):
-        along = np.flatnonzero(intervals.axis == axis)
-        found[along] = ends[axis][*intervals.start[:, along]]
+    row, column = (each - PADDING for each in np.divmod(intervals.start, width))
+    first = intervals.along_x
+    along_x, along_y = ends
+    found = np.concatenate(
+        [along_x[row[:first], column[:first]], along_y[row[first:], column[first:]]]
+    )
     return np.where(np.isnan(found), 0.5, found)
 
 
@@ -131,20 +159,14 @@ def _by_chords(
     """
     across, inner, outer = intervals.across, intervals.inner, intervals.outer
     up = np.where(opens, across, -across)
-    is_open = [~contact[*_within(contact, cell + up)] for cell in (inner, outer)]
-    is_closed = [contact[*_within(contact, cell - up)] for cell in (inner, outer)]
-    crossed = is_open[0] & is_open[1] & is_closed[0] & is_closed[1]
+    crossed = contact[inner - up] & contact[outer - up] & ~contact[inner + up]
+    crossed &= ~contact[outer + up]
     # From the line of centres up to the chord at the inner cell, down to it at the outer one.
+    first = intervals.along_x
     height, depth = (
-        fields[1 - intervals.axis, *_within(contact, np.where(side, cell, cell - across))]
-        for cell, side in ((inner, opens), (outer, ~opens))
+        np.concatenate([fields[1, cell[:first]], fields[0, cell[first:]]])
+        for cell in (np.where(opens, inner, inner - across), np.where(opens, outer - across, outer))
     )
     descent = height + 1 - depth
     descent = np.where(np.abs(descent) < LEAST_DESCENT, LEAST_DESCENT, descent)
     return np.where(crossed, height / descent, np.nan)
-
-
-def _within(field: NDArray[Any], cells: Cells) -> Cells:
-    """The cells of a field that are nearest to given places."""
-    last = np.array(field.shape)[:, None] - 1
-    return np.asarray(np.minimum(np.maximum(cells, 0), last))

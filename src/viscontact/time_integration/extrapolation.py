@@ -9,6 +9,7 @@ hereditary integral, saves several iterations a step.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -91,12 +92,12 @@ def shifted(
 
 def _is_steady(drives: Sequence[float]) -> bool:
     """True if the drive moves one way, by steps of similar size."""
-    steps = np.diff(drives)
-    sizes = np.abs(steps)
-    same_sign = bool((steps > 0).all() or (steps < 0).all())
-    return same_sign and bool(
-        sizes.min() > 1e-9 * np.abs(drives).max() and sizes.max() < MAX_STEP_RATIO * sizes.min()
-    )
+    steps = [late - early for early, late in itertools.pairwise(drives)]
+    if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
+        return False
+    sizes = [abs(step) for step in steps]
+    least = max(1e-9 * max(map(abs, drives)), max(sizes) / MAX_STEP_RATIO)
+    return min(sizes) > least
 
 
 def lagrange_weights(nodes: Sequence[float], at: float) -> list[float]:
