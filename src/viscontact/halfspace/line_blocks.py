@@ -63,20 +63,20 @@ class Team:
     def each_part(self, work: Callable[..., object], *fields: NDArray[Any]) -> None:
         """Work on fields of one shape part by part; `work` takes the same part of each.
 
-        A part is a row of numbers in the memory of its field, which is contiguous.
+        A part is a row of numbers in the memory of its field, which is contiguous, or all of it.
 
         >>> total = np.zeros((2, 2))
         >>> Team().each_part(lambda part, other: np.add(part, other, out=part), total, np.eye(2))
         >>> total.tolist()
         [[1.0, 0.0], [0.0, 1.0]]
         """
+        if fields[0].nbytes <= BLOCK_BYTES:
+            work(*fields)
+            return
         # Not `reshape`, which copies fields that are not contiguous.
         rows = [field.view() for field in fields]
         for row in rows:
             row.shape = (row.size,)
-        if rows[0].nbytes <= BLOCK_BYTES:
-            work(*rows)
-            return
         blocks = blocks_of(rows[0].size, rows[0].itemsize)
         self.each(lambda block: work(*(row[block] for row in rows)), blocks)
 

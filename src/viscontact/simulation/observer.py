@@ -117,7 +117,7 @@ class Observer:
         if last and self._motion is not None:
             moving = self._motion.warnings()
         found = self._warnings.new(self._open, mesh, unreported | moving)
-        return replace(state, warnings=found)
+        return replace(state, warnings=found) if found else state
 
     def refuse_coarse_mesh(self) -> None:
         """Raise DomainError at the end if the largest contact had fewer than four cells across."""

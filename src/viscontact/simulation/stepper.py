@@ -187,7 +187,7 @@ class Stepper:
         time_error = self._errors.after(step, trial.pairs[self._creeping], trial.error)
         largest = float(trial.reference.fields[1].max())
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
-        return replace(_on_full_grid(self._domain, trial, time_error), heat=loss[0], power=loss[1])
+        return _on_full_grid(self._domain, trial, time_error, loss)
 
     def _known_from(self, trial: TrialStep) -> ElasticReference:
         """What the next guess is extrapolated from: of a moving body pressures, over the load.
@@ -333,8 +333,13 @@ def _at_lowest_point(run: RunSetup, time: float, apart: ContactSolution) -> Cont
     return replace(apart, motion=motion, gap=apart.gap + below)
 
 
-def _on_full_grid(domain: ContactDomain, trial: TrialStep, time_error: float) -> StepSolution:
-    """The solution of a step, on the whole grid."""
+def _on_full_grid(
+    domain: ContactDomain,
+    trial: TrialStep,
+    time_error: float,
+    loss: tuple[float, float] = (math.nan, math.nan),
+) -> StepSolution:
+    """The solution of a step, on the whole grid, with heat [J] and power [W] lost."""
     solution = trial.solution
     found = solution.found
     fields = {
@@ -360,4 +365,6 @@ def _on_full_grid(domain: ContactDomain, trial: TrialStep, time_error: float) ->
         outcome=trial.outcome,
         resolved=all(term.resolved for term in trial.response.terms),
         time_error=time_error,
+        heat=loss[0],
+        power=loss[1],
     )
