@@ -25,6 +25,9 @@ ITEM_BYTES = 8
 #: Cells of a row whose places about its middle add up exactly in single precision.
 MOST_EXACT_CELLS = 4096
 
+#: Least force that imbalances are relative to, for division [N].
+LEAST_FORCE = float(np.finfo(float).tiny)
+
 #: Variance of position [cells²] below which cells count as one, or as a line, without a known tilt.
 NO_EXTENT = 1e-9
 
@@ -85,7 +88,7 @@ class Constraints:
         Moments are divided by `arm` [m]; errors are relative to the force or its target, the
         larger.
         """
-        force = max(abs(self.targets[0]), abs(float(sums[0])), np.finfo(float).tiny)
+        force = max(abs(self.targets[0]), abs(float(sums[0])), LEAST_FORCE)
         error = (sums - self.targets) / (force * np.array([1.0, arm, arm]))
         return float(np.abs(error[self.free]).max(initial=0.0))
 
@@ -188,7 +191,7 @@ class RigidPlane:
         self, moments: Sequence[Moments], free: NDArray[np.bool_]
     ) -> NDArray[np.float64]:
         """The same of the moments of all blocks."""
-        total = tuple(map(sum, zip(*moments, strict=True)))
+        total = moments[0] if len(moments) == 1 else tuple(map(sum, zip(*moments, strict=True)))
         return _inverse(total, free) * self._units
 
     def moments_of_rows(self, weight: NDArray[Any]) -> Moments:
@@ -226,7 +229,7 @@ def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.
     n, x, y, xx, xy, yy = moments
     if n <= 0:
         return np.zeros((3, 3))
-    mean, along_x, along_y = (float(is_free) for is_free in free)
+    mean, along_x, along_y = free.tolist()
     mx, my = mean * x / n, mean * y / n
     a, b, c = _pseudo_inverse(
         along_x * (xx - n * mx * mx),
