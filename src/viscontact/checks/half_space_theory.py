@@ -66,17 +66,22 @@ class Geometry:
     def steepness(self) -> NDArray[np.float64]:
         """Larger absolute slope from each cell to the next along either axis, not kept [-]."""
         steepness = np.zeros(self.grid.shape)
-        for axis in (0, 1):
-            here = np.moveaxis(steepness, axis, 0)[:-1]
-            with np.errstate(invalid="ignore"):  # outside the body
-                slope = np.diff(np.moveaxis(self.open_gap, axis, 0), axis=0)
-            np.maximum(here, np.abs(slope) / self.grid.cell_size[axis], out=here)
+        np.maximum(steepness[:-1], self._slopes(0), out=steepness[:-1])
+        np.maximum(steepness[:, :-1], self._slopes(1), out=steepness[:, :-1])
         return steepness
 
     @cached_property
     def steepest(self) -> float:
         """Largest of these slopes [-]."""
-        return float(self.steepness.max())
+        return float(np.max([self._slopes(axis).max(initial=0.0) for axis in (0, 1)]))
+
+    def _slopes(self, axis: int) -> NDArray[np.float64]:
+        """Absolute slopes from each cell to the next along an axis, NaN outside the body [-]."""
+        with np.errstate(invalid="ignore"):
+            slopes = np.diff(self.open_gap, axis=axis)
+        np.abs(slopes, out=slopes)
+        slopes /= self.grid.cell_size[axis]
+        return slopes
 
     @cached_property
     def nearly_steep(self) -> NDArray[np.bool_]:

@@ -9,9 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.fourier import Transforms, fast_length
-
-#: Size of the lines that are transformed at once [bytes].
-BLOCK_BYTES = 2**22
+from viscontact.halfspace.line_blocks import blocks_of
 
 
 def padded_length(cells: int, *, unpadded: bool, exact: bool) -> int:
@@ -49,40 +47,42 @@ def kernel_spectrum(
     spectrum: NDArray[Any] = coefficients
     for axis in sorted((0, 1), key=lambda each: each == signed):  # real as long as possible
         length, entries = lengths[axis], spectrum.shape[axis]
-        lines = spectrum if axis == 1 else spectrum.T
         if axis == signed:
-            signed_lines = lines[:, _signed_offsets(length, entries)]
-            found = (
-                _of_real_lines(signed_lines, transforms)
+            kernel = spectrum.take(_signed_offsets(length, entries), axis)
+            spectrum = (
+                _of_reals(kernel, axis, transforms)
                 if axis == first
-                else transforms.complex_forward(signed_lines.astype(complex), 1)
+                else transforms.complex_forward(kernel.astype(complex), axis)
             )
         else:
-            found = _of_even_lines(lines, length, transforms, mirrored=mirrored[axis])
-        spectrum = found if axis == 1 else found.T
+            spectrum = _of_even(spectrum, axis, length, transforms, mirrored=mirrored[axis])
     return np.ascontiguousarray(spectrum)
 
 
-def _of_real_lines(lines: NDArray[np.float64], transforms: Transforms) -> NDArray[Any]:
-    """First half of the spectra of real lines, with the middle."""
-    count, length = lines.shape
-    return transforms.real_forward(lines, np.empty((count, length // 2 + 1), complex), 1)
+def _of_reals(field: NDArray[np.float64], axis: int, transforms: Transforms) -> NDArray[Any]:
+    """First half of the spectra of real lines along an axis, with the middle."""
+    shape = list(field.shape)
+    shape[axis] = shape[axis] // 2 + 1
+    return transforms.real_forward(field, np.empty(shape, complex), axis)
 
 
-def _of_even_lines(
-    lines: NDArray[np.float64], length: int, transforms: Transforms, *, mirrored: bool
+def _of_even(
+    field: NDArray[np.float64], axis: int, length: int, transforms: Transforms, *, mirrored: bool
 ) -> NDArray[np.float64]:
-    """Transform of lines of even kernels, a block of lines at a time."""
-    offsets = _distances(length, lines.shape[1], even=mirrored)
-    found = np.empty((lines.shape[0], length if mirrored else length // 2 + 1))
-    most = max(1, BLOCK_BYTES // (8 * length))
-    for start in range(0, lines.shape[0], most):
-        block = lines[start : start + most][:, offsets]
-        found[start : start + most] = (
-            transforms.even_forward(block, 1)[:, :length]
-            if mirrored
-            else _of_real_lines(block, transforms).real
-        )
+    """Transform of the lines of an even kernel along an axis, a block of lines at a time."""
+    offsets = _distances(length, field.shape[axis], even=mirrored)
+    shape = list(field.shape)
+    shape[axis] = length if mirrored else length // 2 + 1
+    found = np.empty(shape)
+    for lines in blocks_of(field.shape[1 - axis], 8 * length):
+        block = (slice(None), lines) if axis == 0 else (lines, slice(None))
+        even = field[block].take(offsets, axis)
+        if mirrored:
+            # Without the last entry, which the symbol of a mirrored axis has not.
+            whole = transforms.even_forward(even, axis)
+            found[block] = whole[:-1] if axis == 0 else whole[:, :-1]
+        else:
+            found[block] = _of_reals(even, axis, transforms).real
     return found
 
 

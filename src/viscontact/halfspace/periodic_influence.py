@@ -25,7 +25,10 @@ import numpy as np
 import scipy  # its special functions are imported at their first use
 from numpy.typing import NDArray
 
-from viscontact.halfspace.influence import GAUSS_NODES, GAUSS_WEIGHTS, influence_coefficient
+from viscontact.halfspace.influence import influence_coefficient
+
+#: Gauss's rule over an edge of a cell, on [-1, 1], for what is smooth over it.
+GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 #: Images on either side that are summed one by one: at least these, and up to this many lengths of
 #: a cell across.
