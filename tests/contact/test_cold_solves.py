@@ -72,7 +72,7 @@ def test_thirty_directions_are_enough_to_eight_digits(kind: str, cells: int) -> 
 def test_where_a_solve_starts_does_not_change_its_answer(
     kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    problem, half_space = posed(kind, 256)
+    problem, half_space = posed(kind, 512)
     nested = solve_contact(problem, half_space, tolerance=1e-9)
     monkeypatch.setattr(ContactDomain, "coarser", lambda self: None)
     direct = solve_contact(problem, half_space, tolerance=1e-9)

@@ -33,7 +33,7 @@ from viscontact.halfspace.surface_response import (
 PATCH_MARGIN = 0.06
 
 #: Fewest cells of a coarser domain along each axis.
-MIN_CELLS = 32
+MIN_CELLS = 64
 
 #: A patch of more than this part of the grid saves no time.
 MAX_PATCH_SHARE = 0.8
