@@ -59,6 +59,17 @@ def test_nothing_jumps_where_the_far_formula_takes_over(cell):
         assert after / before - 1 == pytest.approx(-2e-9, abs=1e-10)
 
 
+@pytest.mark.parametrize("cell", CELLS)
+def test_beyond_twenty_edges_coefficients_are_gauss_sums_of_eight_by_eight_points(cell):
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    for edges, angle in itertools.product((20.01, 25.0, 60.0), np.linspace(0, np.pi / 2, 9)):
+        x, y = edges * max(cell) * np.cos(angle), edges * max(cell) * np.sin(angle)
+        distance = np.hypot(x - nodes[:, None] * cell[0] / 2, y - nodes * cell[1] / 2)
+        expected = cell[0] * cell[1] / (4 * np.pi) * (weights @ (1 / distance) @ weights)
+        # Measured: 4.5e-14 for squares on the diagonal, 2e-14 for edges of 30 to 1.
+        assert influence_coefficient(x, y, cell) == pytest.approx(expected, rel=1e-13, abs=0)
+
+
 def test_far_away_a_cell_is_a_point_load_and_its_second_moments():
     # 1/r (1 + (3 x²/r² - 1) dx²/(24 r²) + (3 y²/r² - 1) dy²/(24 r²) + O(r^-4)), Taylor's series.
     dx, dy, x, y = 1.0, 2.0, 3e4, 4e4

@@ -73,6 +73,7 @@ class Geometry:
     @cached_property
     def steepest(self) -> float:
         """Largest of these slopes [-]."""
+        # Not `max`, which may pass over NaN.
         return float(np.max([self._slopes(axis).max(initial=0.0) for axis in (0, 1)]))
 
     def _slopes(self, axis: int) -> NDArray[np.float64]:

@@ -25,7 +25,7 @@ ITEM_BYTES = 8
 #: Cells of a row whose places about its middle add up exactly in single precision.
 MOST_EXACT_CELLS = 4096
 
-#: Least force that imbalances are relative to, for division [N].
+#: Least force that imbalances are divided by [N].
 LEAST_FORCE = float(np.finfo(float).tiny)
 
 #: Variance of position [cells²] below which cells count as one, or as a line, without a known tilt.

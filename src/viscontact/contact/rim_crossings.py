@@ -30,7 +30,7 @@ LEAST_DESCENT = 1e-6
 class _Intervals:
     """Intervals between neighbouring centres in which contact changes, along x, then along y."""
 
-    along_x: int  # number of those along x
+    count_along_x: int
     start: Cells  # cell before the interval
     inner: Cells  # cell in contact
     outwards: Cells  # step to the open cell
@@ -44,7 +44,7 @@ class _Intervals:
     def some(self, chosen: NDArray[np.intp]) -> _Intervals:
         """Some of the intervals, in their order."""
         each = (cells[chosen] for cells in (self.start, self.inner, self.outwards, self.across))
-        return _Intervals(int(np.searchsorted(chosen, self.along_x)), *each)
+        return _Intervals(int(np.searchsorted(chosen, self.count_along_x)), *each)
 
 
 def locate_rim(
@@ -88,9 +88,9 @@ def _padded(field: NDArray[Any], outside: float) -> NDArray[Any]:
 
 def _put(fields: Array, intervals: _Intervals, values: Array) -> None:
     """Write values of intervals to the fields along x and along y."""
-    first = intervals.along_x
-    fields[0, intervals.start[:first]] = values[:first]
-    fields[1, intervals.start[first:]] = values[first:]
+    split = intervals.count_along_x
+    fields[0, intervals.start[:split]] = values[:split]
+    fields[1, intervals.start[split:]] = values[split:]
 
 
 def _changes(contact: NDArray[np.bool_]) -> _Intervals:
@@ -99,14 +99,14 @@ def _changes(contact: NDArray[np.bool_]) -> _Intervals:
         places(contact[1:] != contact[:-1]), places(contact[:, 1:] != contact[:, :-1]), strict=True
     )
     row, column = np.concatenate(rows), np.concatenate(columns)
-    along_x, width = len(rows[0]), contact.shape[1] + 2 * PADDING
+    count_along_x, width = len(rows[0]), contact.shape[1] + 2 * PADDING
     start = (row + PADDING) * width + (column + PADDING)
     step = np.ones(len(start), np.intp)
-    step[:along_x] = width
+    step[:count_along_x] = width
     begins_inside = contact[row, column]
     inner = start + np.where(begins_inside, 0, step)
     outwards = np.where(begins_inside, step, -step)
-    return _Intervals(along_x, start, inner, outwards, width + 1 - step)
+    return _Intervals(count_along_x, start, inner, outwards, width + 1 - step)
 
 
 def _by_gaps(
@@ -123,7 +123,7 @@ def _by_gaps(
     near, far = np.where(known, near, 0.0), np.where(known, far, 1.0)
     # Unknown where the body or the grid ends; less than the second in a groove of two cells.
     farther = np.where(np.isfinite(farther), farther, np.nan)
-    # gap^(2/3) on the lines beside, where the body does not end there.
+    # gap^(2/3) on the lines beside, where neither body nor block ends there.
     behind, before = gap[second + intervals.across], gap[second - intervals.across]
     both = known & np.isfinite(behind) & np.isfinite(before)
     gaps = np.array([np.where(both, behind, 0.0), np.where(both, before, 0.0), far, near])
@@ -133,8 +133,8 @@ def _by_gaps(
     # Ratios that differ by rounding share a law.
     dx, dy = grid.cell_size
     laws = [edge_law(round(ratio, 6), periodic=all(grid.periodic)) for ratio in (dy / dx, dx / dy)]
-    first = intervals.along_x
-    offset = np.concatenate([laws[0].offset(slope[:first]), laws[1].offset(slope[first:])])
+    split = intervals.count_along_x
+    offset = np.concatenate([laws[0].offset(slope[:split]), laws[1].offset(slope[split:])])
     distance = laws[0].distance(near, far, farther) - offset
     return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope
 
@@ -142,10 +142,10 @@ def _by_gaps(
 def _body_ends(ends: tuple[Array, Array], intervals: _Intervals, width: int) -> Array:
     """Distances to the body's outline, the middle where it is not known."""
     row, column = (each - PADDING for each in np.divmod(intervals.start, width))
-    first = intervals.along_x
+    split = intervals.count_along_x
     along_x, along_y = ends
     found = np.concatenate(
-        [along_x[row[:first], column[:first]], along_y[row[first:], column[first:]]]
+        [along_x[row[:split], column[:split]], along_y[row[split:], column[split:]]]
     )
     return np.where(np.isnan(found), 0.5, found)
 
@@ -162,9 +162,9 @@ def _by_chords(
     crossed = contact[inner - up] & contact[outer - up] & ~contact[inner + up]
     crossed &= ~contact[outer + up]
     # From the line of centres up to the chord at the inner cell, down to it at the outer one.
-    first = intervals.along_x
+    split = intervals.count_along_x
     height, depth = (
-        np.concatenate([fields[1, cell[:first]], fields[0, cell[first:]]])
+        np.concatenate([fields[1, cell[:split]], fields[0, cell[split:]]])
         for cell in (np.where(opens, inner, inner - across), np.where(opens, outer - across, outer))
     )
     descent = height + 1 - depth

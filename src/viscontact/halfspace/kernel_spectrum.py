@@ -78,7 +78,7 @@ def _of_even(
         block = (slice(None), lines) if axis == 0 else (lines, slice(None))
         even = field[block].take(offsets, axis)
         if mirrored:
-            # Without the last entry, which the symbol of a mirrored axis has not.
+            # Without the last entry, which the spectrum of a mirrored axis lacks.
             whole = transforms.even_forward(even, axis)
             found[block] = whole[:-1] if axis == 0 else whole[:, :-1]
         else:

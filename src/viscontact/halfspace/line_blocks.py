@@ -63,7 +63,8 @@ class Team:
     def each_part(self, work: Callable[..., object], *fields: NDArray[Any]) -> None:
         """Work on fields of one shape part by part; `work` takes the same part of each.
 
-        A part is a row of numbers in the memory of its field, which is contiguous, or all of it.
+        Fields are contiguous. A part is a row of numbers in a field's memory, or all of a small
+        field.
 
         >>> total = np.zeros((2, 2))
         >>> Team().each_part(lambda part, other: np.add(part, other, out=part), total, np.eye(2))

@@ -21,8 +21,8 @@ WORK_ARRAYS, ARRAYS_PER_TERM = 20.0, 2.0
 #: Of a body with symmetry planes: arrays of the whole grid, and those of the cells computed.
 WHOLE_ARRAYS, COMPUTED_ARRAYS = 11.1, 6.4
 
-#: Arrays freed by a run that the process keeps, of all cells and of those computed, and the most
-#: that is kept of one [bytes]: the system's allocator gives memory of large arrays back.
+#: Freed arrays of a run that the process keeps, of all cells and of those computed, and the most
+#: that is kept for each [bytes], measured with glibc, which gives memory of large arrays back.
 FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 
 #: Further arrays under a moving body, and of a sum over all steps.
