@@ -151,8 +151,7 @@ class RigidPlane:
 
     def each(self, work: Callable[[RigidPlane], _Found]) -> list[_Found]:
         """Work on each block of rows, and return what that gives, in their order."""
-        blocks = self._blocks
-        return [work(self)] if blocks[0] is self else self._team.each(work, blocks)
+        return self._team.each(work, self._blocks)
 
     @cached_property
     def _blocks(self) -> list[RigidPlane]:
