@@ -141,12 +141,8 @@ def test_the_stated_error_holds_for_creep_and_relaxation_in_time(case):
 
 
 # In 0.01 to 30 s; a law without an instant compliance is replaced before 1e-5 s.
-# Without it the last terms are nearly dependent: with kernels of linear algebra of different
-# processors the sum is passive with 6 to 12 of them, and its error 0.003 to 0.033.
-@pytest.mark.parametrize(
-    ("instant", "eps", "terms", "allowed"),
-    [(0.2, 1e-4, 2, 1e-5), (0.0, 1e-4, 2, 1e-5), (0.2, 0.1, 12, 3e-3), (0.0, 0.1, 12, 5e-2)],
-)
+@pytest.mark.parametrize("instant", [0.2, 0.0])
+@pytest.mark.parametrize(("eps", "terms", "allowed"), [(1e-4, 2, 1e-5), (0.1, 12, 3e-3)])
 def test_power_laws_are_separated_within_the_stated_error(instant, eps, terms, allowed):
     exponent = 0.3
     law = vc.PowerLaw(1 / SHEAR, exponent, 1.0, instant=instant / SHEAR)
