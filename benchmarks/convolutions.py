@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from run import reference_convolution, seconds_of
 
-from viscontact.fourier import Transforms, transforms_by
+from viscontact.backend.transforms import Transforms, transforms_by
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_table
 from viscontact.halfspace.preconditioner import Preconditioner

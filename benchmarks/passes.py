@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.fourier import Transforms
+from viscontact.backend.transforms import Transforms
 
 #: Functions that create arrays, or return them without their subclass.
 MADE = ("zeros", "empty", "ones", "full", "array", "asarray", "ascontiguousarray", "empty_like")

@@ -28,7 +28,7 @@ from cases import Case, roller
 from published import estimate
 from scipy import fft
 
-from viscontact.fourier import fastest_transforms
+from viscontact.backend.transforms import fastest_transforms
 from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import march_run

@@ -18,7 +18,7 @@ import numpy as np
 from run import reference_convolution
 
 import viscontact as vc
-from viscontact.fourier import fastest_transforms, transforms_by
+from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.problem.problem import Problem
 from viscontact.steady.contact import SteadyContact, SteadySolver
 from viscontact.steady.curve import SteadyCurve

@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscontact as vc
+from viscontact.backend import team
+from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactProblem, ContactSolution, solve_contact
 from viscontact.contact.rigid_balance import Constraints
-from viscontact.fourier import fastest_transforms, transforms_by
-from viscontact.halfspace import line_blocks
 
 GRID = vc.Grid((64, 60), (0.5, 0.5))
 GAP = vc.Paraboloid(1.0, 0.6).gap(GRID.x[:, None], GRID.y[None, :])
@@ -27,7 +27,7 @@ def test_blocks_of_rows_and_threads_give_the_pressure_of_the_whole(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     whole = solved(1)
-    monkeypatch.setattr(line_blocks, "BLOCK_BYTES", 5000)  # about ten rows
+    monkeypatch.setattr(team, "BLOCK_BYTES", 5000)  # about ten rows
     for threads in (1, 2, 3):
         found = solved(threads)
         assert found.converged
@@ -40,13 +40,13 @@ def test_blocks_of_rows_and_threads_give_the_pressure_of_the_whole(
 
 @given(lines=st.integers(0, 3000), row_bytes=st.integers(1, 2**23))
 def test_blocks_are_even_shares_of_all_lines(lines: int, row_bytes: int) -> None:
-    blocks = line_blocks.blocks_of(lines, row_bytes)
+    blocks = team.blocks_of(lines, row_bytes)
     sizes = [block.stop - block.start for block in blocks]
     assert [line for block in blocks for line in range(block.start, block.stop)] == [*range(lines)]
-    assert all(size == 1 or size * row_bytes <= line_blocks.BLOCK_BYTES for size in sizes)
+    assert all(size == 1 or size * row_bytes <= team.BLOCK_BYTES for size in sizes)
     assert max(sizes, default=0) - min(sizes, default=0) <= 1
     assert sizes[:1] == [max(sizes)] if sizes else not lines
-    assert len(blocks) in (0, 1, lines) or len(blocks) % line_blocks.EVEN_SHARES == 0
+    assert len(blocks) in (0, 1, lines) or len(blocks) % team.EVEN_SHARES == 0
 
 
 @settings(max_examples=20, deadline=None)
@@ -77,7 +77,7 @@ def test_the_search_finds_the_same_contact_in_any_units(pascal: float, metre: fl
 def test_a_run_on_two_threads_gives_the_same_bits_each_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(line_blocks, "BLOCK_BYTES", 5000)
+    monkeypatch.setattr(team, "BLOCK_BYTES", 5000)
     rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     given = vc.Sphere(0.01), rubber, vc.step(0.1, eccentricity_x=1e-5)
     grid, times = vc.Grid((40, 40), (2.4e-3, 2.4e-3)), vc.uniform_times(2.0, 4)

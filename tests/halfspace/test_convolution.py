@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy
 
-from viscontact.fourier import as_reals, fast_length, transforms_by
-from viscontact.halfspace import line_blocks
+from viscontact.backend import team
+from viscontact.backend.transforms import as_reals, fast_length, transforms_by
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient, influence_table
 from viscontact.halfspace.preconditioner import Preconditioner
@@ -87,7 +87,7 @@ def test_blocks_of_lines_are_the_whole_on_any_number_of_threads(
     whole = Convolution(table, transforms=transforms_by(library), **options)
     (pressure,) = fields(whole.shape)
     expected = whole.apply(pressure)
-    monkeypatch.setattr(line_blocks, "BLOCK_BYTES", 2000)
+    monkeypatch.setattr(team, "BLOCK_BYTES", 2000)
     one, *others = (
         Convolution(table, transforms=transforms_by(library, threads), **options).apply(pressure)
         for threads in (1, 2, 3)

@@ -21,7 +21,7 @@ PACKAGE = Path(viscontact.__file__).parent
 
 # The floors from the ground up. Rooms on one floor do not import each other.
 FLOORS = (
-    ("errors", "display", "fourier", "run_files", "units", "examples"),
+    ("errors", "display", "backend", "run_files", "units", "examples"),
     ("reference", "grid", "indenters", "laws", "loads", "tables"),
     ("materials", "halfspace", "surfaces", "state", "series_fits"),
     ("contact", "time_integration", "identification"),
@@ -34,7 +34,7 @@ FLOORS = (
     ("cli",),
     ("__main__",),
 )
-MOST_FLOORS, MOST_ROOT_MODULES = 12, 8
+MOST_FLOORS, MOST_ROOT_MODULES = 12, 7
 # The front door loads names of all floors when they are first used. The displays of objects in
 # notebooks are drawn on a high floor, so the mixin that objects derive from asks there for them.
 AT_THE_FRONT_DOOR = {"display", "web", "cli"}
@@ -44,7 +44,7 @@ DEFERRED = {"runs/directory/recorder.py": "results"}  # xarray and pandas: a thi
 COMPUTES = ("simulation", "accuracy", "steady", "runs")
 # Other packages, and the rooms from whose floor on they may be imported.
 OTHERS = {
-    "numpy": "errors", "scipy": "errors", "ducc0": "fourier",
+    "numpy": "errors", "scipy": "errors", "ducc0": "backend",
     "xarray": "results", "netCDF4": "results", "filelock": "results",
     "python_calamine": "tables",
     "psutil": "runs", "threadpoolctl": "runs",

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.team import Team, Workspace
+from viscontact.backend.transforms import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.contact.cell_fields import is_even
 from viscontact.contact.patch import Patch, PatchOperators
 from viscontact.contact.response_parts import Operator, PartOperators
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
-from viscontact.fourier import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_table
@@ -20,7 +21,6 @@ from viscontact.halfspace.layered_influence import (
     layered_influence_table,
     periodic_layered_table,
 )
-from viscontact.halfspace.line_blocks import Team, Workspace
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
 from viscontact.halfspace.surface_response import (

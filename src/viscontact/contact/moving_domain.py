@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.transforms import Transforms
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.response_parts import Operator
-from viscontact.fourier import Transforms
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient

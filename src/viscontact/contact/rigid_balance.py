@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from viscontact.halfspace.line_blocks import Team, blocks_of
+from viscontact.backend.team import Team, blocks_of
 from viscontact.loads import LoadPoint
 
 _Found = TypeVar("_Found")

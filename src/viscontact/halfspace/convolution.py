@@ -10,7 +10,8 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import (
+from viscontact.backend.team import Team, Workspace, blocks_of, order_of
+from viscontact.backend.transforms import (
     Field,
     Transforms,
     as_reals,
@@ -20,7 +21,6 @@ from viscontact.fourier import (
     transforms_by,
 )
 from viscontact.halfspace.kernel_spectrum import kernel_spectrum, padded_length
-from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of, order_of
 
 #: Work on a block of lines, in a workspace of its own.
 _Work: TypeAlias = Callable[[slice, NDArray[Any]], None]

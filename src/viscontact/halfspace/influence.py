@@ -23,7 +23,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.halfspace.line_blocks import Team, blocks_of
+from viscontact.backend.team import Team, blocks_of
 
 #: Beyond this many cell edges the difference of four corner terms cancels, by a factor of about
 #: (distance/edge)², while Taylor's series to the sixth order is exact to 5e-14.

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import Transforms, fast_length
-from viscontact.halfspace.line_blocks import blocks_of
+from viscontact.backend.team import blocks_of
+from viscontact.backend.transforms import Transforms, fast_length
 
 
 def padded_length(cells: int, *, unpadded: bool, exact: bool) -> int:
@@ -39,7 +39,7 @@ def kernel_spectrum(
     with the middle, of which the others are the mirror image; so along a signed one if it is
     transformed `first`, otherwise all.
 
-    >>> from viscontact.fourier import SciPyTransforms
+    >>> from viscontact.backend.transforms import SciPyTransforms
     >>> kernel, transforms = np.array([[4.0], [1.0]]), SciPyTransforms()
     >>> kernel_spectrum(kernel, (3, 1), (False, False), 1, transforms).ravel().tolist()
     [6.0, 3.0]

@@ -10,8 +10,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import Field, Transforms
-from viscontact.halfspace.line_blocks import Team, Workspace
+from viscontact.backend.team import Team, Workspace
+from viscontact.backend.transforms import Field, Transforms
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.spectral import Spectra
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse

@@ -18,7 +18,8 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import (
+from viscontact.backend.team import Team, Workspace, blocks_of, order_of
+from viscontact.backend.transforms import (
     Field,
     Transforms,
     fastest_transforms,
@@ -26,7 +27,6 @@ from viscontact.fourier import (
     restore_of_order,
     transforms_by,
 )
-from viscontact.halfspace.line_blocks import Team, Workspace, blocks_of, order_of
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Factor of waves by their wave numbers along the motion [1/m].

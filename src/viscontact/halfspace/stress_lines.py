@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from viscontact.fourier import as_reals, fast_length
+from viscontact.backend.transforms import as_reals, fast_length
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.halfspace.stress_response import StressResponse

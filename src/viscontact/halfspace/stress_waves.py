@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from viscontact.fourier import as_reals
+from viscontact.backend.transforms import as_reals
 from viscontact.grid import Grid
 from viscontact.halfspace.stress_lines import Progress
 from viscontact.halfspace.stress_response import StressResponse

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from viscontact.fourier import fast_length
+from viscontact.backend.transforms import fast_length
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
 from viscontact.meshing.contact_extent import MAX_CELLS

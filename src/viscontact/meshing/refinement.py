@@ -24,7 +24,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.fourier import fast_length
+from viscontact.backend.transforms import fast_length
 from viscontact.grid import MESH_QUANTITIES
 from viscontact.meshing.trial_mesh import PEAK, ElasticContact, MeshTrial, try_mesh
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.accuracy.coarser_runs import usual_coarsening
-from viscontact.fourier import fast_length
+from viscontact.backend.transforms import fast_length
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint, MixedHistory
 from viscontact.meshing.contact_place import locate_contact

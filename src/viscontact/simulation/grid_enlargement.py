@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.transforms import fast_length
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.rim_crossings import MARGIN
-from viscontact.fourier import fast_length
 from viscontact.grid import Grid
 from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.meshing.contact_extent import MAX_CELLS

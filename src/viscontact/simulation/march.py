@@ -5,10 +5,10 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 
+from viscontact.backend.transforms import transforms_by
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution
 from viscontact.errors import ConvergenceError, DomainError
-from viscontact.fourier import transforms_by
 from viscontact.grid import Grid
 from viscontact.simulation.grid_enlargement import FREE, GridEnlargement, next_grid, overrun
 from viscontact.simulation.observer import Observer

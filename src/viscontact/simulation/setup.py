@@ -8,6 +8,7 @@ from numbers import Integral
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.checks.arguments import (
     check_balance,
     check_creep,
@@ -21,7 +22,6 @@ from viscontact.checks.arguments import (
 from viscontact.checks.motion import check_motion, check_path
 from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
-from viscontact.fourier import fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, PlacedIndenter
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.transforms import Transforms
 from viscontact.contact.domain import mirrored_axes
 from viscontact.contact.moving_domain import MovingDomain
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.steady_equilibrium import SteadySolution, solve_steady_contact
-from viscontact.fourier import Transforms
 from viscontact.grid import Grid
 from viscontact.steady.moving_law import MovingLaws
 from viscontact.steady.problem import SteadyProblem

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
-from viscontact.fourier import fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate

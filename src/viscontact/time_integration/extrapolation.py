@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team
+from viscontact.backend.team import Team
 
 #: Points of the extrapolating polynomial. A third one amplifies the errors that the solver's
 #: tolerance leaves: it costs half an iteration a step.

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team
+from viscontact.backend.team import Team
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap

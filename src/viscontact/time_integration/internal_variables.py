@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team
+from viscontact.backend.team import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.time_integration.hereditary_integral import (

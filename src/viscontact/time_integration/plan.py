@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team
+from viscontact.backend.team import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.boltzmann_sum import BoltzmannSum
 from viscontact.time_integration.hereditary_integral import HereditaryIntegral

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.halfspace.line_blocks import Team, blocks_of
+from viscontact.backend.team import Team, blocks_of
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.hereditary_integral import HereditaryResponse

@@ -18,7 +18,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact import fourier
+from viscontact.backend import transforms
 from viscontact.contact.equilibrium import ContactSolution
 from viscontact.problem.problem import Problem
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
@@ -390,7 +390,7 @@ def test_a_run_stays_with_the_transforms_it_was_begun_with(
     begun = Recorder(dataclasses.replace(recorded, run=run))
     next(iter(begun.steps()))
     begun.close()
-    monkeypatch.setattr(fourier, "ducc0", object())  # as if it had been installed since
+    monkeypatch.setattr(transforms, "ducc0", object())  # as if it had been installed since
     faster = dataclasses.replace(recorded, run=sphere_run())
     assert faster.run.transforms == "ducc0"
     finish(Recorder.resume(faster))
@@ -406,7 +406,7 @@ def test_a_run_whose_transforms_are_gone_is_not_continued(
     path = recorded.directory / STATE_NAME
     saved = dataclasses.replace(load_checkpoint(path), transforms="ducc0")
     save_checkpoint(path, saved)
-    monkeypatch.setattr(fourier, "ducc0", None)
+    monkeypatch.setattr(transforms, "ducc0", None)
     with pytest.raises(ValueError, match=r"used the Fourier transforms of ducc0.*fast"):
         Recorder.resume(recorded)
 

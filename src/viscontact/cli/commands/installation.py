@@ -17,7 +17,7 @@ def doctor() -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from viscontact.fourier import fastest_transforms
+    from viscontact.backend.transforms import fastest_transforms
     from viscontact.runs.machine.cores import usable_cores
     from viscontact.runs.machine.memory import available_memory
     from viscontact.runs.machine.packages import packages

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import largest_of
+from viscontact.backend.transforms import largest_of
 
 #: Size of the lines that are worked on at once [bytes].
 BLOCK_BYTES = 2**21

@@ -1,0 +1,1 @@
+"""Array types, Fourier transforms and threads: what the numerical rooms stand on."""
