@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.numbers import as_real, finite, positive, whole
@@ -134,12 +134,12 @@ class Grid(Displayable):
         return self.periodic[0] == self.periodic[1]
 
     @property
-    def x(self) -> NDArray[np.float64]:
+    def x(self) -> Floats:
         """Cell centres along x, shape (nx,) [m]."""
         return _centres(self.shape[0], self.size[0], self.centre[0])
 
     @property
-    def y(self) -> NDArray[np.float64]:
+    def y(self) -> Floats:
         """Cell centres along y, shape (ny,) [m]."""
         return _centres(self.shape[1], self.size[1], self.centre[1])
 
@@ -153,7 +153,7 @@ class Grid(Displayable):
         (lx, ly), (x, y) = self.size, self.centre
         return lx + 2 * abs(x), ly + 2 * abs(y)
 
-    def largest_at(self, field: NDArray[np.float64]) -> tuple[float, float]:
+    def largest_at(self, field: Floats) -> tuple[float, float]:
         """Position of the largest value of a field over this grid.
 
         Parameters
@@ -209,9 +209,7 @@ class Grid(Displayable):
         along, across = (s if old == new else s / old * new for s, old, new in pairs)
         return replace(self, shape=shape, size=(along, across))
 
-    def embed(
-        self, field: NDArray[np.float64], wider: Grid, beyond: float = 0.0
-    ) -> NDArray[np.float64]:
+    def embed(self, field: Floats, wider: Grid, beyond: float = 0.0) -> Floats:
         """Embed a field over this grid in a wider one.
 
         Parameters
@@ -304,7 +302,7 @@ def _pair(name: str, given: Any) -> tuple[Any, Any]:
     return along_x, along_y
 
 
-def _centres(cells: int, extent: float, middle: float) -> NDArray[np.float64]:
+def _centres(cells: int, extent: float, middle: float) -> Floats:
     # Built from whole numbers so that mirrored centres are exact opposites around the origin.
     offsets = (2 * np.arange(cells) - (cells - 1)).astype(np.float64)
     return middle + offsets * (extent / (2 * cells))

@@ -7,8 +7,8 @@ from enum import IntEnum
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 
 
@@ -114,10 +114,10 @@ class ContactState:
     """
 
     time: float
-    pressure: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    displacement: NDArray[np.float64]
-    line_load: NDArray[np.float64]
+    pressure: Floats
+    gap: Floats
+    displacement: Floats
+    line_load: Floats
     grid: Grid
     force: float
     eccentricity_x: float

@@ -14,7 +14,7 @@ from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.numbers import unit_of
 
 CLASSES = tuple(STORED_CLASSES.values())
-NUMERIC = re.compile(r"\b(float|int|NDArray)\b")
+NUMERIC = re.compile(r"\b(float|int|Floats)\b")
 UNITS = {dimension.unit for dimension in DIMENSIONS.values()} | {"1", "N/s"}
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.body_edge import trace_outline
 from viscontact.grid import Grid
 from viscontact.simulation.setup import RunSetup
@@ -76,13 +76,13 @@ def straight_ends(run: RunSetup) -> tuple[float, float]:
     )
 
 
-def _straight_end(inside: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
+def _straight_end(inside: Bools, crossings: Floats) -> float:
     """Distance from the grid's centre to a straight end along the first axis, in cells; or inf."""
     positive = _positive_end(inside, crossings)
     return positive if positive < np.inf else _positive_end(inside[::-1], crossings[::-1])
 
 
-def _positive_end(inside: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
+def _positive_end(inside: Bools, crossings: Floats) -> float:
     """That on the positive side."""
     last = int(np.flatnonzero(inside.any(axis=1))[-1])
     if last == len(inside) - 1:

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import (
     MIN_ANGLE,
@@ -20,14 +20,12 @@ from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState
 
-FloatArray = NDArray[np.float64]
-
 #: Growth of the largest pressure since the last search for a sharp point there that calls for
 #: another [-].
 PEAK_GROWTH = 1.1
 
 #: Scalars over the instants of a run by name, including ``time``.
-History = Mapping[str, NDArray[np.float64]]
+History = Mapping[str, Floats]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,24 +35,24 @@ class CoarserResult:
     spacing: float  # cell size, in cells of the original run
     divides_steps: bool  # divides steps that the coarsest run takes as the original run does
     scalars: History
-    end_pressures: NDArray[np.float64]  # over the instants, see `singularities.EndCells` [Pa]
+    end_pressures: Floats  # over the instants, see `singularities.EndCells` [Pa]
     #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
     #: cause, over the mean pressure [-].
-    bend_growth: NDArray[np.float64]
-    spots: NDArray[np.float64]  # mean width of the contact spots, in cells of the original run
-    peak_drops: FloatArray  # relative drop of pressure from the largest one to the cells next to it
-    rises_to_ends: NDArray[np.bool_]  # pressure rises to both ends along x, y; shape (instants, 2)
+    bend_growth: Floats
+    spots: Floats  # mean width of the contact spots, in cells of the original run
+    peak_drops: Floats  # relative drop of pressure from the largest one to the cells next to it
+    rises_to_ends: Bools  # pressure rises to both ends along x, y; shape (instants, 2)
     is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
     #: Ends of the segments of a load program, NaN where they ended in another way than those of the
     #: run; none of other loads [s].
-    segment_ends: FloatArray = field(default_factory=lambda: np.zeros(0))
+    segment_ends: Floats = field(default_factory=lambda: np.zeros(0))
 
     @property
-    def at_end(self) -> NDArray[np.bool_]:
+    def at_end(self) -> Bools:
         """Instants at which the contact reaches the end of the body."""
         return np.asarray(self.end_pressures[:, 0] > 0)
 
-    def at(self, instants: FloatArray, *, segment_ends: FloatArray) -> CoarserResult:
+    def at(self, instants: Floats, *, segment_ends: Floats) -> CoarserResult:
         """The result at instants of the original run, without those that are NaN [s]."""
         known = ~np.isnan(instants)
         scalars = {name: values[known] for name, values in self.scalars.items()}
@@ -145,7 +143,7 @@ def history_of(states: Sequence[ContactState]) -> History:
     return {name: np.array([getattr(state, name) for state in states], float) for name in names}
 
 
-def _drop_beside_peak(pressure: FloatArray) -> float:
+def _drop_beside_peak(pressure: Floats) -> float:
     """Largest relative drop from the largest pressure to the neighbouring cells in contact."""
     i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
     around = pressure[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
@@ -153,7 +151,7 @@ def _drop_beside_peak(pressure: FloatArray) -> float:
     return float(1 - around.min(where=around > 0, initial=peak) / peak) if peak > 0 else 0.0
 
 
-def _rises_to_ends(pressure: FloatArray) -> bool:
+def _rises_to_ends(pressure: Floats) -> bool:
     """Test whether the largest pressures across the first axis rise to both ends of the contact."""
     lines = pressure.max(axis=1)
     pressed = lines[lines > 0]

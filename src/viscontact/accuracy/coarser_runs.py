@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.accuracy.coarser_results import CoarserResult, History, ObservedStates
@@ -23,6 +22,7 @@ from viscontact.accuracy.moving_levels import (
     fewer_moving_times,
     whole_cell_ratios,
 )
+from viscontact.backend.arrays import Floats
 from viscontact.contact.cell_fields import is_even
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.loads import MixedHistory
@@ -66,8 +66,6 @@ MIN_ACROSS = 4.5
 #: Least ratio of the coarsest grid's cells to the run's.
 MIN_COARSENING = 1.6
 
-FloatArray = NDArray[np.float64]
-
 
 @dataclass(frozen=True, eq=False)
 class CoarserRun:
@@ -76,7 +74,7 @@ class CoarserRun:
     spacing: float  # cell size, in cells of the original run
     divides_steps: bool  # divides steps that the coarsest run takes as the original run does
     run: RunSetup
-    program_times: FloatArray | None = None  # of a load program: times of the run that it steps to
+    program_times: Floats | None = None  # of a load program: times of the run that it steps to
 
 
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
@@ -119,7 +117,7 @@ def _has_program(run: RunSetup) -> bool:
     return isinstance(load, MixedHistory) and load.program is not None
 
 
-def _kept_times(run: RunSetup, times: FloatArray, step_ratio: int) -> FloatArray:
+def _kept_times(run: RunSetup, times: Floats, step_ratio: int) -> Floats:
     """Times of a run of which about every `step_ratio`-th one is kept."""
     motion, stops = run.problem.motion, run.problem.history.stops
     if motion is None:
@@ -140,7 +138,7 @@ def _has_small_time_error(run: RunSetup, history: History) -> bool:
     return bool(np.nanmax(error) <= small and (error[1:][begins] > 0).all())
 
 
-def _creeps_behind_jumps(run: RunSetup, ends: FloatArray) -> bool:
+def _creeps_behind_jumps(run: RunSetup, ends: Floats) -> bool:
     """Test whether a moving body's first step behind a jump is long against the law."""
     if run.problem.motion is None:
         return False
@@ -234,13 +232,13 @@ def _spacings(
     return tuple(zip(ratios, parities, strict=True))
 
 
-def creeps(compliance: ContactCompliance, times: FloatArray) -> bool:
+def creeps(compliance: ContactCompliance, times: Floats) -> bool:
     """Test whether the bodies creep within the times of a run."""
     return bool(compliance(float(times[-1])) != compliance.instant)
 
 
 def _coarser_run(
-    run: RunSetup, spacing: float, parity: bool, step_ratio: int, times: FloatArray
+    run: RunSetup, spacing: float, parity: bool, step_ratio: int, times: Floats
 ) -> CoarserRun:
     if (motion := run.problem.motion) is None:
         ratios = aligned_spacing(run, spacing, parity)

@@ -5,23 +5,22 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 #: Length of a step, over the longest of the run's steps within it, below which a coarser run takes
 #: it as the run does.
 SHARED_RATIO = 1.5
 
 
-def fewer_times(times: FloatArray, stops: FloatArray, step_ratio: int) -> FloatArray:
+def fewer_times(times: Floats, stops: Floats, step_ratio: int) -> Floats:
     """Times of which about every `step_ratio`-th one is kept, a power of 2, between the stops."""
     while step_ratio > 1:
         times, step_ratio = _every_second(times, stops), step_ratio // 2
     return times
 
 
-def _every_second(times: FloatArray, stops: FloatArray) -> FloatArray:
+def _every_second(times: Floats, stops: Floats) -> Floats:
     """Every second time between two stops of the load, without the first step behind each.
 
     Of an odd number of steps three are joined.
@@ -40,7 +39,7 @@ def _every_second(times: FloatArray, stops: FloatArray) -> FloatArray:
     return np.unique(np.concatenate(kept))
 
 
-def parts_of_shared_steps(ends: FloatArray, others: FloatArray) -> FloatArray:
+def parts_of_shared_steps(ends: Floats, others: Floats) -> Floats:
     """Quarters and middles of the steps of the others that are hardly longer than the own ones.
 
     >>> parts_of_shared_steps(np.array([0.0, 1.0, 9.0, 12.0, 15.0]), np.array([0.0, 9.0, 15.0]))
@@ -60,7 +59,7 @@ def parts_of_shared_steps(ends: FloatArray, others: FloatArray) -> FloatArray:
 SHORTEST_PART, PARTS = 1e-3, 12
 
 
-def first_steps(ends: FloatArray, jumps: FloatArray) -> tuple[FloatArray, FloatArray]:
+def first_steps(ends: Floats, jumps: Floats) -> tuple[Floats, Floats]:
     """Begins and durations of the first steps behind jumps.
 
     >>> first_steps(np.array([0.0, 1.0, 3.0]), jumps=np.array([1.0, 3.0]))
@@ -71,7 +70,7 @@ def first_steps(ends: FloatArray, jumps: FloatArray) -> tuple[FloatArray, FloatA
     return jumps[known], ends[places[known]] - jumps[known]
 
 
-def parts_of_first_steps(ends: FloatArray, jumps: FloatArray) -> FloatArray:
+def parts_of_first_steps(ends: Floats, jumps: Floats) -> Floats:
     """Parts of the first step behind each jump, in geometric progression, with its end.
 
     A moving body heats the material most while this adapts to a jump; in steps that are long

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.coarser_runs import (
@@ -35,12 +34,10 @@ from viscontact.accuracy.levels import (
     spots_across,
 )
 from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings, unbounded_peak
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.loads import MixedHistory
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
-
-Array = NDArray[np.float64]
-
 
 #: Scalars whose errors a creeping body keeps after the contact has left the end.
 ERRORS_KEPT = (
@@ -65,7 +62,7 @@ class ErrorBars:
 
     #: Half widths of the bars by scalar, in its unit, over the run's times: inf where the scalar
     #: has no limit, NaN where the error is unknown.
-    values: dict[str, Array]
+    values: dict[str, Floats]
     warnings: tuple[str, ...]  # warnings that follow from the coarser runs
     #: Attributes of the result that they replace: the errors of the instants of events.
     attributes: Mapping[str, str | list[float]] = field(default_factory=dict)
@@ -181,7 +178,7 @@ def unknown_bars(history: History) -> ErrorBars:
 
 def _bar(
     run: RunSetup, name: str, levels: RefinementLevels, kinds: ContactKinds, history: History
-) -> Array:
+) -> Floats:
     """Half width of the bars of one scalar over the run's times."""
     own = np.abs(levels.values[0])
     scale = moving_maximum(own)
@@ -216,18 +213,18 @@ def _bar(
     return np.where(np.isnan(own), np.nan, bar)
 
 
-def _over(error: Array, scale: Array) -> Array:
+def _over(error: Floats, scale: Floats) -> Floats:
     """Error over a scale; 0 where that is zero, NaN where the error is unknown."""
     nothing = np.where(np.isnan(error), np.nan, 0.0)
     return np.divide(error, scale, out=nothing, where=scale > 0)
 
 
-def _around(relative: Array) -> Array:
+def _around(relative: Floats) -> Floats:
     """Largest error at an instant, the ones next to it and those that coarser runs leave out."""
     return moving_maximum(between_known(relative), 1)
 
 
-def _mean_pressure_bar(history: History, values: dict[str, Array]) -> Array:
+def _mean_pressure_bar(history: History, values: dict[str, Floats]) -> Floats:
     """Bar of force over area, from the bars of both; without contact that of the peak.
 
     It is unknown where the area may be zero.
@@ -239,7 +236,7 @@ def _mean_pressure_bar(history: History, values: dict[str, Array]) -> Array:
     return np.where(area > 0, bar, values["peak_pressure"])
 
 
-def _touching(history: History, results: list[CoarserResult]) -> NDArray[np.bool_]:
+def _touching(history: History, results: list[CoarserResult]) -> Bools:
     """Times of contact in the run or in a coarser one."""
     touching = np.asarray(history["peak_pressure"] > 0)
     for result in results:
@@ -247,14 +244,12 @@ def _touching(history: History, results: list[CoarserResult]) -> NDArray[np.bool
     return touching
 
 
-def _before_first_cell(history: History, touching: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _before_first_cell(history: History, touching: Bools) -> Bools:
     """Times after the first touch at which the contact is still smaller than a cell."""
     return np.asarray(~np.logical_or.accumulate(touching) & (history["approach"] > 0))
 
 
-def _bound_by_first_contact(
-    values: dict[str, Array], history: History, touching: NDArray[np.bool_]
-) -> None:
+def _bound_by_first_contact(values: dict[str, Floats], history: History, touching: Bools) -> None:
     """Where the contact is smaller than a cell, take the scalars of the first cells as errors."""
     early = _before_first_cell(history, touching)
     if not early.any() or not (history["peak_pressure"] > 0).any():
@@ -264,9 +259,7 @@ def _bound_by_first_contact(
         values[name][early] = np.fmax(values[name][early], np.abs(history[name][first]))
 
 
-def _certainly_separated(
-    run: RunSetup, history: History, touching: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _certainly_separated(run: RunSetup, history: History, touching: Bools) -> Bools:
     """Times without contact in the run, and under a given approach without any next to them."""
     apart = np.asarray(history["peak_pressure"] == 0)
     load, times = run.problem.load, history["time"]

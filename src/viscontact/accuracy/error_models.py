@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from viscontact.accuracy.levels import RefinementLevels
+from viscontact.backend.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -25,7 +23,7 @@ class ErrorModel:
     #: error of the time steps: of ten runs with a third one, nine had less, in peaks four fifths.
     of_time_error: float = 0.0
 
-    def of(self, levels: RefinementLevels) -> NDArray[np.float64]:
+    def of(self, levels: RefinementLevels) -> Floats:
         """Error from the cells."""
         return self.factor * levels.by_cells(self.order)
 

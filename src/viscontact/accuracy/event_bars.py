@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.accuracy.levels import DIVIDED_STEP_FACTOR, RefinementLevels
+from viscontact.backend.arrays import Floats
 from viscontact.loads import MixedHistory
 from viscontact.simulation.provenance import event_attributes
 from viscontact.simulation.setup import RunSetup
@@ -36,9 +36,7 @@ def event_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, str |
     return event_attributes(load, [float(errors[each.segment - 1]) for each in load.events])
 
 
-def set_bars_at_events(
-    values: dict[str, NDArray[np.float64]], run: RunSetup, history: History
-) -> None:
+def set_bars_at_events(values: dict[str, Floats], run: RunSetup, history: History) -> None:
     """Set the bars of scalars where an event gives them their value: the solver's error remains."""
     load = run.problem.load
     for event in load.events if isinstance(load, MixedHistory) else ():

@@ -11,16 +11,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import MixedHistory
 from viscontact.simulation.load_events import EventSearch
 from viscontact.simulation.program_course import ProgramCourse
 from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE
-
-Array = NDArray[np.float64]
 
 #: Longest duration of a segment of a coarser run that ends on a condition, over that of the run.
 LONGEST = 2.0
@@ -34,12 +32,12 @@ EVENT_TOLERANCE = 1e-5
 class OwnEvents:
     """Instants of a coarser run of a program, and what they are compared with."""
 
-    own: Array  # instants of the run that its states are compared with, NaN where none is [s]
-    ends: Array  # ends of the segments in the coarser run, NaN where they ended in another way [s]
+    own: Floats  # instants of the run that its states are compared with, NaN where none is [s]
+    ends: Floats  # ends of the segments in the coarser run, NaN where they ended in another way [s]
 
 
 def own_events(
-    coarse: RunSetup, times: Array, on_state: Callable[[ContactState], None]
+    coarse: RunSetup, times: Floats, on_state: Callable[[ContactState], None]
 ) -> OwnEvents:
     """Carry the program of a run out on coarser cells, in steps to some of the run's times.
 
@@ -51,7 +49,7 @@ def own_events(
     assert own.program is not None
     shared = [_times_within(own, number, times) for number in range(len(own.controls))]
 
-    def step_ends(number: int, begin: float, end: float) -> Array:
+    def step_ends(number: int, begin: float, end: float) -> Floats:
         after = shared[number] - own.times[number]
         step = float(np.median(np.diff(after, prepend=0.0))) if after.size else end - begin
         beyond = np.arange(begin + after.max(initial=0.0) + step, end, step)
@@ -85,7 +83,7 @@ def own_events(
     return OwnEvents(compared, ends)
 
 
-def _times_within(own: MixedHistory, number: int, times: Array) -> Array:
+def _times_within(own: MixedHistory, number: int, times: Floats) -> Floats:
     """Times within a segment, with its end if its duration ended it [s]."""
     begin, end = own.times[number : number + 2]
     inside = times[(times > begin) & (times < end)]

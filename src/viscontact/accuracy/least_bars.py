@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import straight_ends
 from viscontact.accuracy.coarser_results import History
 from viscontact.accuracy.coarser_runs import creeps
 from viscontact.accuracy.moving_bars import RESISTANCES, entry_rise, least_resistance_bar
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.simulation.setup import RunSetup
-
-Array = NDArray[np.float64]
 
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
@@ -103,24 +101,24 @@ TINY = float(np.finfo(np.float64).tiny)
 class ContactKinds:
     """Kinds of contact over the times of a run."""
 
-    at_end: NDArray[np.bool_]
-    ended: NDArray[np.bool_]  # at the end, or has been there and keeps the error
-    of_spots: NDArray[np.bool_]  # consists of spots of few cells
-    singular: NDArray[np.bool_]  # the largest pressure has no limit
+    at_end: Bools
+    ended: Bools  # at the end, or has been there and keeps the error
+    of_spots: Bools  # consists of spots of few cells
+    singular: Bools  # the largest pressure has no limit
     #: Pressure rises to both ends of the contact along x, y; shape (2, times).
-    rises: NDArray[np.bool_]
-    drops: Array  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
+    rises: Bools
+    drops: Floats  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
     divided: bool  # a third run has divided the steps that the others take as the run does
 
     @property
-    def steep(self) -> NDArray[np.bool_]:
+    def steep(self) -> Bools:
         """Pressure is largest at a tip or near the rim, inside the body: it drops steeply there."""
         return np.asarray((self.drops > SMOOTH_DROP) & ~self.at_end)
 
 
 def least_bar(
-    run: RunSetup, name: str, kinds: ContactKinds, history: History, by_cells: Array
-) -> Array | float:
+    run: RunSetup, name: str, kinds: ContactKinds, history: History, by_cells: Floats
+) -> Floats | float:
     """Lower limit of the bars of a scalar over the run's times, in its unit.
 
     `by_cells` is its error from the cells by the differences between the grids.
@@ -146,7 +144,7 @@ def least_bar(
     return 0.0
 
 
-def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
+def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
     """Lower limit of the bar of the peak pressure, from its drop to the cells next to it [Pa]."""
     drops = kinds.drops
     relative = LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP)
@@ -156,7 +154,7 @@ def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Arra
     return np.asarray(relative * history["peak_pressure"])
 
 
-def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Array:
+def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Floats:
     """Parts of a cell [m]."""
     length = run.grid.cell_size[axis]
     few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
@@ -171,7 +169,7 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     return np.asarray(parts * length)
 
 
-def _tip_curvature(run: RunSetup, history: History) -> Array:
+def _tip_curvature(run: RunSetup, history: History) -> Floats:
     """Logarithm of the cells along x, y over the radius of a slender contact's tip; (2, times).
 
     The contact counts as an ellipse, whose tip at the end of its half axis a has the radius b²/a.
@@ -187,7 +185,7 @@ def _tip_curvature(run: RunSetup, history: History) -> Array:
     return np.asarray(np.where(touching, np.log1p(2 * cells) * (extents / longest) ** 2, 0.0))
 
 
-def _crest_cells(run: RunSetup, history: History, axis: int) -> Array:
+def _crest_cells(run: RunSetup, history: History, axis: int) -> Floats:
     """Least error of the crests of a rim that waves along the only period of a grid, in cells.
 
     A crest may lie half a cell beside the lines of cells. The rim counts as one cosine.
@@ -203,7 +201,7 @@ def _crest_cells(run: RunSetup, history: History, axis: int) -> Array:
     return np.asarray(CREST_PART * heights / grid.cell_size[axis])
 
 
-def _late_cells(run: RunSetup, history: History) -> Array:
+def _late_cells(run: RunSetup, history: History) -> Floats:
     """Least error of the rim of a shrinking contact, in cells."""
     radius = _half_breadth(run, history)
     if not creeps(run.problem.surface.creep, history["time"]):
@@ -229,7 +227,7 @@ def _thin_rim_cells(run: RunSetup, axis: int) -> float:
     return min(THIN_RIM_CELLS * _cells_over_thickness(run, axis), MOST_THIN_RIM)
 
 
-def _thin_area(run: RunSetup, history: History) -> Array:
+def _thin_area(run: RunSetup, history: History) -> Floats:
     """Least error of the area on thin layers [m²]."""
     strips = _fills_period(run, history)
     rims = [
@@ -240,7 +238,7 @@ def _thin_area(run: RunSetup, history: History) -> Array:
     return np.asarray(relative * history["contact_area"])
 
 
-def _late_area(run: RunSetup, history: History) -> Array:
+def _late_area(run: RunSetup, history: History) -> Floats:
     """Least error of the area of a shrinking contact [m²]."""
     girth = np.pi * (_cells_along(run, history) / 2 + _half_breadth(run, history))
     strips = _fills_period(run, history)
@@ -250,7 +248,7 @@ def _late_area(run: RunSetup, history: History) -> Array:
     return np.asarray(girth * _late_cells(run, history) * run.grid.cell_area)
 
 
-def _half_breadth(run: RunSetup, history: History) -> Array:
+def _half_breadth(run: RunSetup, history: History) -> Floats:
     """Shorter half axis of the contact as an ellipse, or half width of a strip, in cells."""
     cells = history["contact_area"] / run.grid.cell_area
     ellipse = np.asarray(cells / (np.pi / 2 * _cells_along(run, history)))
@@ -259,7 +257,7 @@ def _half_breadth(run: RunSetup, history: History) -> Array:
     return ellipse
 
 
-def _fills_period(run: RunSetup, history: History) -> NDArray[np.bool_]:
+def _fills_period(run: RunSetup, history: History) -> Bools:
     """Times at which the contact fills the only period of a grid, along x, y; (2, times)."""
     fills = [
         not run.grid.has_datum and repeats and np.nan_to_num(history[name]) >= size
@@ -268,13 +266,13 @@ def _fills_period(run: RunSetup, history: History) -> NDArray[np.bool_]:
     return np.array(np.broadcast_arrays(*fills), dtype=bool)
 
 
-def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
+def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Floats:
     """Cells in which the contact may end before the body does [m]: pressure falls to its ends."""
     uncertain = ~kinds.rises[axis] & (not run.grid.periodic[axis])
     return np.asarray(np.where(uncertain, LAST_CELLS * run.grid.cell_size[axis], 0.0))
 
 
-def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
+def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
     """Least error of the area where the rim is steep, or curved within long cells [m²]."""
     across, along = np.maximum(_cells_across(run, history), 1.0), _cells_along(run, history)
     smooth = LEAST_AREA_ERROR / across**2
@@ -284,7 +282,7 @@ def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Arr
     return np.asarray(relative * history["contact_area"])
 
 
-def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
+def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
     """Cells at straight ends in which the contact becomes wider, or ends before the body [m²]."""
     if min(straight_ends(run)) == np.inf:
         return np.zeros(len(kinds.at_end))
@@ -293,19 +291,19 @@ def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Arr
     return np.asarray(np.where(uncertain, relative * history["contact_area"], 0.0))
 
 
-def _cells_across(run: RunSetup, history: History) -> Array:
+def _cells_across(run: RunSetup, history: History) -> Floats:
     """Cells across the contact, infinite where a whole period is in contact: it has no rim."""
     covered = history["contact_area"] > (1 - ROUNDING) * run.grid.area
     return np.where(all(run.grid.periodic) & covered, np.inf, history["cells_across"])
 
 
-def _cells_along(run: RunSetup, history: History) -> Array:
+def _cells_along(run: RunSetup, history: History) -> Floats:
     """Cells on the longer extent of the contact, at least 1."""
     along = (np.nan_to_num(history[EXTENTS[k]]) / run.grid.cell_size[k] for k in (0, 1))
     return np.maximum(np.fmax(*along), 1.0)
 
 
-def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
+def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
     """Effect of the solver's tolerance of the moments, force times extent, on a symmetric body."""
     axis = "contact_length" if name.endswith("x") else "contact_width"
     extent = np.nan_to_num(history[axis])
@@ -314,7 +312,7 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
     return np.asarray(np.where(extent > 0, run.problem.solver_error * lever, 0.0))
 
 
-def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:
+def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
     """Usual error of a tilt on the cells along a contact that reaches a curved end."""
     given = name.startswith("eccentricity") or getattr(run.problem.load, name) is not None
     uncertain = kinds.ended & (min(straight_ends(run)) == np.inf) & (not given)
@@ -322,7 +320,7 @@ def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     return np.asarray(np.where(uncertain, relative * np.abs(history[name]), 0.0))
 
 
-def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:
+def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
     across = _cells_across(run, history)
     least = LEAST_ERRORS[name] + (LONG_CONTACT * _slenderness(history) if name == "approach" else 0)
@@ -336,7 +334,7 @@ def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     return np.asarray(np.maximum(relative, at_end) * np.abs(history[name]))
 
 
-def _slenderness(history: History) -> Array:
+def _slenderness(history: History) -> Floats:
     """Logarithm of the contact's longer extent over its shorter one; 0 without contact."""
     length, width = (np.nan_to_num(history[name]) for name in EXTENTS)
     touching = (length > 0) & (width > 0)

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_results import CoarserResult, History
-
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Bools, Floats, Numbers
 
 #: Error over the difference from quarters of the steps: 16/15 at second order, 4/3 at first, more
 #: where a law creeps within the first quarter.
@@ -32,8 +29,8 @@ class RefinementLevels:
     """One scalar on each grid at the run's times."""
 
     spacings: tuple[float, ...]  # cell size of each grid, in cells of the run; the run's own first
-    values: Array  # NaN where a grid has none; shape (grids, times)
-    by_steps: Array  # estimated error of the time steps
+    values: Floats  # NaN where a grid has none; shape (grids, times)
+    by_steps: Floats  # estimated error of the time steps
 
     @classmethod
     def of(cls, name: str, history: History, results: list[CoarserResult]) -> RefinementLevels:
@@ -54,7 +51,7 @@ class RefinementLevels:
         by_steps = np.where(np.isnan(known), left_out, known)
         return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
 
-    def by_cells(self, order: float) -> Array:
+    def by_cells(self, order: float) -> Floats:
         """Error from the cells at an order of convergence: the largest over the pairs of grids."""
         found = np.full(self.values.shape[1], np.nan)
         for i, j in itertools.combinations(range(len(self.spacings)), 2):
@@ -63,7 +60,7 @@ class RefinementLevels:
         return found
 
 
-def end_flags(times: Array, results: list[CoarserResult]) -> Array:
+def end_flags(times: Floats, results: list[CoarserResult]) -> Floats:
     """1 at times at which any coarser run has reached the end of the body, else 0.
 
     Between two of its instants, a coarser run is there where it is at one of them.
@@ -77,7 +74,7 @@ def end_flags(times: Array, results: list[CoarserResult]) -> Array:
     return flags
 
 
-def rises_to_ends(times: Array, results: list[CoarserResult]) -> NDArray[np.bool_]:
+def rises_to_ends(times: Floats, results: list[CoarserResult]) -> Bools:
     """Times at which pressure rises to both ends of the contact; along x, y; shape (2, times)."""
     found = np.full((2, len(times)), np.nan)
     for result in results:
@@ -87,7 +84,7 @@ def rises_to_ends(times: Array, results: list[CoarserResult]) -> NDArray[np.bool
     return np.array([moving_minimum(each) == 1 for each in found])
 
 
-def spots_across(times: Array, results: list[CoarserResult]) -> Array:
+def spots_across(times: Floats, results: list[CoarserResult]) -> Floats:
     """Least number of cells across spots in the coarser runs; NaN without contact."""
     spots = np.full(len(times), np.nan)
     for result in results:
@@ -98,7 +95,7 @@ def spots_across(times: Array, results: list[CoarserResult]) -> Array:
     return spots
 
 
-def peak_drops(times: Array, results: list[CoarserResult]) -> Array:
+def peak_drops(times: Floats, results: list[CoarserResult]) -> Floats:
     """Largest relative drop beside the peak on the finest coarser grid; NaN where unknown."""
     drops = np.full(len(times), np.nan)
     grids = [each for each in results if not each.divides_steps]
@@ -109,7 +106,7 @@ def peak_drops(times: Array, results: list[CoarserResult]) -> Array:
     return drops
 
 
-def aligned(name: str, times: Array, result: CoarserResult) -> Array:
+def aligned(name: str, times: Floats, result: CoarserResult) -> Floats:
     """A coarser run's scalar at the run's times, NaN where it has none."""
     theirs = result.scalars["time"]
     if not theirs.size:
@@ -118,7 +115,7 @@ def aligned(name: str, times: Array, result: CoarserResult) -> Array:
     return np.where(theirs[places] == times, result.scalars[name][places], np.nan)
 
 
-def _interpolated(times: Array, values: Array) -> Array:
+def _interpolated(times: Floats, values: Floats) -> Floats:
     """Values at all times from the known ones, linearly."""
     known = ~np.isnan(values)
     return np.interp(times, times[known], values[known]) if known.any() else values
@@ -128,14 +125,14 @@ def _interpolated(times: Array, values: Array) -> Array:
 WINDOW_STEPS = 3
 
 
-def _windows(values: NDArray[Any], reach: int) -> Array:
+def _windows(values: Numbers, reach: int) -> Floats:
     """Values at the times around each, NaN beyond the ends."""
     padded = np.full(len(values) + 2 * reach, np.nan)
     padded[reach : len(values) + reach] = values
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
 
 
-def moving_maximum(values: NDArray[Any], reach: int = WINDOW_STEPS) -> Array:
+def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
     """Maximum over a window of `reach` times on both sides; NaN where all are NaN.
 
     Examples
@@ -146,7 +143,7 @@ def moving_maximum(values: NDArray[Any], reach: int = WINDOW_STEPS) -> Array:
     return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
 
 
-def between_known(values: Array) -> Array:
+def between_known(values: Floats) -> Floats:
     """Larger one of the nearest known values on both sides; NaN where one of them is unknown.
 
     Examples
@@ -161,7 +158,7 @@ def between_known(values: Array) -> Array:
     return np.maximum(values[before], values[after])
 
 
-def moving_minimum(values: NDArray[Any]) -> Array:
+def moving_minimum(values: Numbers) -> Floats:
     """Minimum over a window of times; NaN where all are NaN.
 
     Examples
@@ -172,7 +169,7 @@ def moving_minimum(values: NDArray[Any]) -> Array:
     return np.asarray(np.fmin.reduce(_windows(values, WINDOW_STEPS), axis=1))
 
 
-def moving_mean(values: Array) -> Array:
+def moving_mean(values: Floats) -> Floats:
     """Mean over a window of times without NaN; NaN where all are NaN.
 
     Examples

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_results import History
+from viscontact.backend.arrays import Floats
 from viscontact.simulation.setup import RunSetup
-
-Array = NDArray[np.float64]
 
 #: Scalars that vanish for an elastic body.
 RESISTANCES = ("resistance_x", "resistance_y", "friction_coefficient", "motion_work")
@@ -16,7 +14,7 @@ RESISTANCES = ("resistance_x", "resistance_y", "friction_coefficient", "motion_w
 TINY = float(np.finfo(np.float64).tiny)
 
 
-def least_resistance_bar(run: RunSetup, name: str, history: History) -> Array:
+def least_resistance_bar(run: RunSetup, name: str, history: History) -> Floats:
     """Effect of the solver's tolerance of the gap: the force times the slope of the indentation.
 
     In the unit of the scalar, over the run's times.
@@ -35,7 +33,7 @@ def least_resistance_bar(run: RunSetup, name: str, history: History) -> Array:
     return np.asarray(np.cumsum(force * np.nan_to_num(ways)))
 
 
-def entry_rise(run: RunSetup, times: Array) -> Array:
+def entry_rise(run: RunSetup, times: Floats) -> Floats:
     """Possible relative rise of a peak at the leading edge of a moving contact on finer cells [-].
 
     The material in the first cell has been in contact for the time in which the body passes a

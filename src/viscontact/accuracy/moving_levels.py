@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_steps import fewer_times
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
-
-FloatArray = NDArray[np.float64]
 
 #: Least number of cells across the largest contact, and ratios of cells and of steps to the run's:
 #: the steps are whole cells on each of these grids.
@@ -55,8 +53,8 @@ def aligned_along(grid: Grid, fine: Grid, motion: Motion) -> Grid:
 
 
 def fewer_moving_times(
-    times: FloatArray, stops: FloatArray, motion: Motion, grid: Grid, step_ratio: int
-) -> FloatArray:
+    times: Floats, stops: Floats, motion: Motion, grid: Grid, step_ratio: int
+) -> Floats:
     """Times of steps of `step_ratio` as many cells of the grid; at rest about every second one.
 
     Of times that are not at whole cells every `step_ratio`-th, without those behind stops.

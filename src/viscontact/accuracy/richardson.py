@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Bools, Floats
 
 #: Bounds of the order of convergence: errors of a rim between cells are of about first order, those
 #: of smooth pressure of second.
@@ -31,9 +33,9 @@ class Richardson:
     (0.01, 2.0)
     """
 
-    error: NDArray[np.float64]  # estimated, without sign, in the unit of the values; inf: no limit
-    order: NDArray[np.float64]  # observed [-]; NaN where the values oscillate or do not change
-    converges: NDArray[np.bool_]  # False where differences do not decrease, as at a singularity
+    error: Floats  # estimated, without sign, in the unit of the values; inf: no limit
+    order: Floats  # observed [-]; NaN where the values oscillate or do not change
+    converges: Bools  # False where differences do not decrease, as at a singularity
 
 
 def richardson(values: ArrayLike, spacings: ArrayLike) -> Richardson:
@@ -73,9 +75,7 @@ def richardson(values: ArrayLike, spacings: ArrayLike) -> Richardson:
     return Richardson(np.where(endless, np.inf, error), order, ~endless)
 
 
-def _checked(
-    values: ArrayLike, spacings: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _checked(values: ArrayLike, spacings: ArrayLike) -> tuple[Floats, Floats]:
     found, lengths = np.asarray(values, dtype=float), np.asarray(spacings, dtype=float)
     if found.ndim == 0 or len(found) != 3:
         raise ValueError(f"values: wanted three sets of values, got shape {found.shape}")
@@ -84,9 +84,7 @@ def _checked(
     return found, lengths
 
 
-def _observed_order(
-    fine: NDArray[np.float64], coarse: NDArray[np.float64], lengths: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _observed_order(fine: Floats, coarse: Floats, lengths: Floats) -> Floats:
     """Order of the power law that both differences follow; NaN where there is none."""
     monotone = fine * coarse > 0
     wanted = np.where(monotone, np.abs(coarse), 1.0) / np.where(monotone, np.abs(fine), 1.0)
@@ -98,12 +96,12 @@ def _observed_order(
     return np.where(monotone, (low + high) / 2, np.nan)
 
 
-def _ratio(order: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+def _ratio(order: Floats, lengths: Floats) -> Floats:
     """(h3^p - h2^p)/(h2^p - h1^p), at p = 0 the ratio of the logarithms."""
     # Avoids 0/0: an order that close to 0 differs from it by less than rounding.
     power = np.where(np.abs(order) < 1e-9, 1e-9, order)
     first, second = (np.log(lengths[k + 1] / lengths[k]) for k in (0, 1))
-    ratio: NDArray[np.float64] = (
+    ratio: Floats = (
         (lengths[1] / lengths[0]) ** power * np.expm1(power * second) / np.expm1(power * first)
     )
     return ratio

@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.coarser_runs import MIN_ACROSS
@@ -25,11 +24,10 @@ from viscontact.accuracy.levels import (
     moving_mean,
 )
 from viscontact.accuracy.richardson import richardson
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.checks.singularities import DEPENDS_ON_MESH
 from viscontact.indenters import Indenter
 from viscontact.indenters.rounding import rounding_remedy
-
-Array = NDArray[np.float64]
 
 #: Least growth of a peak without a limit as cells shrink by a factor e, over the mean pressure:
 #: under a wedge it is 0.64, under a cone 1. So much must be found, and possible by the body's bend:
@@ -56,8 +54,8 @@ SINGULAR = (
 
 
 def peak_bars(
-    bars: Array, history: History, results: Sequence[CoarserResult], *, left_out: bool = False
-) -> Array:
+    bars: Floats, history: History, results: Sequence[CoarserResult], *, left_out: bool = False
+) -> Floats:
     """Bars of the peak pressure: widened at the body's end, and inf where it has no limit [Pa].
 
     `left_out` if the automatic grid was refined without it, as it had no limit on finer cells.
@@ -71,7 +69,7 @@ def peak_bars(
 
 
 def singular_warnings(
-    bars: Array, indenter: Indenter, issued: Sequence[str] = ()
+    bars: Floats, indenter: Indenter, issued: Sequence[str] = ()
 ) -> tuple[str, ...]:
     """Warning of infinite bars of the peak pressure, unless the run has issued one with the reason.
 
@@ -88,7 +86,7 @@ def singular_warnings(
     return (f"{SINGULAR}; {rounding_remedy(indenter)}",)
 
 
-def unbounded_peak(history: History, results: Sequence[CoarserResult]) -> NDArray[np.bool_]:
+def unbounded_peak(history: History, results: Sequence[CoarserResult]) -> Bools:
     """Times at which the peak pressure has no limit, by the body's shape or by the grids."""
     contact = np.asarray(history["peak_pressure"] > 0)
     if any(each.is_sharp for each in results):
@@ -99,8 +97,8 @@ def unbounded_peak(history: History, results: Sequence[CoarserResult]) -> NDArra
 
 
 def _grows_at_end(
-    times: Array, results: Sequence[CoarserResult], levels: RefinementLevels
-) -> NDArray[np.bool_]:
+    times: Floats, results: Sequence[CoarserResult], levels: RefinementLevels
+) -> Bools:
     """Times at which the largest pressure lies next to the body's end and grows with the cells."""
     finest = _finest(results)
     share = finest.end_pressures[:, 0] / _positive(finest.scalars["peak_pressure"])
@@ -117,7 +115,7 @@ def _grows_at_end(
 
 def _does_not_converge(
     history: History, results: Sequence[CoarserResult], levels: RefinementLevels
-) -> NDArray[np.bool_]:
+) -> Bools:
     """Times at which the peaks of three grids grow without converging, where the body bends."""
     order = np.argsort(levels.spacings)
     if len(order) < 3:
@@ -139,14 +137,14 @@ def _does_not_converge(
     return np.asarray(np.where(np.isnan(mean), between_known(mean), mean) > 0.5)
 
 
-def _end_excess(times: Array, results: Sequence[CoarserResult]) -> Array:
+def _end_excess(times: Floats, results: Sequence[CoarserResult]) -> Floats:
     """Relative excess of the peak near the body's end over the pressure farther from it [-]."""
     finest = _finest(results)
     inner = finest.end_pressures[:, 1] / _positive(finest.scalars["peak_pressure"])
     return _at(times, finest, np.clip(1 - inner, 0.0, 1.0))
 
 
-def _at_end(times: Array, results: Sequence[CoarserResult]) -> NDArray[np.bool_]:
+def _at_end(times: Floats, results: Sequence[CoarserResult]) -> Bools:
     """Times at which the contact reaches the body's end, or has done so shortly before or after."""
     return np.asarray(moving_maximum(end_flags(times, list(results))) > 0)
 
@@ -155,12 +153,12 @@ def _finest(results: Sequence[CoarserResult]) -> CoarserResult:
     return min(results, key=lambda each: each.spacing)
 
 
-def _at(times: Array, result: CoarserResult, values: Array) -> Array:
+def _at(times: Floats, result: CoarserResult, values: Floats) -> Floats:
     """Values at the instants of a coarser run, at a run's times; NaN where there are none."""
     scalars = {"time": result.scalars["time"], "values": values}
     return aligned("values", times, replace(result, scalars=scalars))
 
 
-def _positive(values: Array) -> Array:
+def _positive(values: Floats) -> Floats:
     """Values, NaN in place of zeros."""
     return np.where(values > 0, values, np.nan)

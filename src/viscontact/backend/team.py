@@ -14,8 +14,8 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.backend.transforms import largest_of
 
 #: Size of the lines that are worked on at once [bytes].
@@ -60,7 +60,7 @@ class Team:
         found = [share(0), *(other.result() for other in others)]
         return [found[place % shares][place // shares] for place in range(len(blocks))]
 
-    def each_part(self, work: Callable[..., object], *fields: NDArray[Any]) -> None:
+    def each_part(self, work: Callable[..., object], *fields: Numbers) -> None:
         """Work on fields of one shape part by part; `work` takes the same part of each.
 
         Fields are contiguous. A part is a row of numbers in a field's memory, or all of a small
@@ -82,7 +82,7 @@ class Team:
         self.each(lambda block: work(*(row[block] for row in rows)), blocks)
 
 
-def order_of(parts: Sequence[NDArray[Any]], number: np.dtype[Any], team: Team) -> float:
+def order_of(parts: Sequence[Numbers], number: np.dtype[Any], team: Team) -> float:
     """Return the factor to divide a field, given in parts, by before it is stored as `number`.
 
     In single precision, with its few exponents, that is its largest value; else 1.
@@ -103,11 +103,11 @@ class Workspace:
     def __init__(self) -> None:
         self._bytes = np.empty(0, np.uint8)
 
-    def array(self, shape: tuple[int, ...], kind: np.dtype[Any]) -> NDArray[Any]:
+    def array(self, shape: tuple[int, ...], kind: np.dtype[Any]) -> Numbers:
         """Return an array without particular values, which is valid until the next one is asked."""
         return self.arrays((shape, kind))[0]
 
-    def arrays(self, *wanted: tuple[tuple[int, ...], np.dtype[Any]]) -> list[NDArray[Any]]:
+    def arrays(self, *wanted: tuple[tuple[int, ...], np.dtype[Any]]) -> list[Numbers]:
         """Return arrays of shapes and kinds, beside each other, valid until the next call."""
         sizes = [math.prod(shape) * kind.itemsize for shape, kind in wanted]
         *begins, end = itertools.accumulate((size + -size % ALIGNMENT for size in sizes), initial=0)

@@ -8,11 +8,11 @@ rounding, not to the bit, so a run keeps the library that it began with.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
 
 import numpy as np
 import scipy  # its transforms are imported at their first use
-from numpy.typing import NDArray
+
+from viscontact.backend.arrays import Numbers
 
 try:
     import ducc0
@@ -20,7 +20,7 @@ except ImportError:
     ducc0 = None
 
 #: Real or complex fields, in single or double precision.
-Field = NDArray[Any]
+Field = Numbers
 
 
 class Transforms(ABC):

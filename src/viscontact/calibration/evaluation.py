@@ -7,8 +7,8 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.calibration.response import Experiment, Mounting, Response
 from viscontact.calibration.trial_log import Outcome, TrialLog
 from viscontact.calibration.unknowns import (
@@ -20,8 +20,6 @@ from viscontact.calibration.unknowns import (
 )
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.units.parsing import parse_any_quantity
-
-Array = NDArray[np.float64]
 
 #: Part of the largest force below which the approach may be that of a body without contact.
 TOUCH = 0.05
@@ -48,20 +46,20 @@ class Evaluation:
     known: dict[str, Outcome] = field(default_factory=dict)
     runs: int = 0
 
-    def residuals(self, point: Array, *, on_own_cells: bool = False) -> Array:
+    def residuals(self, point: Floats, *, on_own_cells: bool = False) -> Floats:
         """Fitted less measured values over the largest of each record, of the rows that count.
 
         FailedRunError if a run fails.
         """
         return self.many([point], on_own_cells=on_own_cells)[0]
 
-    def many(self, points: Sequence[Array], *, on_own_cells: bool = False) -> list[Array]:
+    def many(self, points: Sequence[Floats], *, on_own_cells: bool = False) -> list[Floats]:
         """Residuals at several points; runs that are not known yet are made at the same time."""
         values = [values_at(self.unknowns, point) for point in points]
         self._make([r for each in values for r in self._responses(each, on_own_cells)])
         return [np.concatenate(self._of_experiments(each, on_own_cells)) for each in values]
 
-    def fitted(self, point: Array, *, on_own_cells: bool) -> list[tuple[Array, NDArray[np.bool_]]]:
+    def fitted(self, point: Floats, *, on_own_cells: bool) -> list[tuple[Floats, Bools]]:
         """Fitted values of each record [N or m], and the mask of the rows that count."""
         values = values_at(self.unknowns, point)
         responses = self._responses(values, on_own_cells)
@@ -70,7 +68,7 @@ class Evaluation:
             self._compared(number, response, values) for number, response in enumerate(responses)
         ]
 
-    def _of_experiments(self, values: Mapping[str, str], on_own_cells: bool) -> list[Array]:
+    def _of_experiments(self, values: Mapping[str, str], on_own_cells: bool) -> list[Floats]:
         found = []
         for number, response in enumerate(self._responses(values, on_own_cells)):
             fitted, counted = self._compared(number, response, values)
@@ -99,7 +97,7 @@ class Evaluation:
 
     def _compared(
         self, number: int, response: Response, values: Mapping[str, str]
-    ) -> tuple[Array, NDArray[np.bool_]]:
+    ) -> tuple[Floats, Bools]:
         outcome, test = self.known[self._key(response)], response.experiment
         if isinstance(outcome, str):
             raise FailedRunError(outcome)

@@ -8,14 +8,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification.record import finite_column
 from viscontact.loads.history import Control
 from viscontact.tables import read_table
 from viscontact.units.formatting import format_quantity
-
-Array = NDArray[np.float64]
 
 _LEAST_ROWS = 5
 
@@ -49,9 +47,9 @@ class ContactRecord:
     (('force', 'approach'), 2.0)
     """
 
-    times: Array
-    force: Array | None = None
-    approach: Array | None = None
+    times: Floats
+    force: Floats | None = None
+    approach: Floats | None = None
     name: str = "record"
 
     def __post_init__(self) -> None:
@@ -91,7 +89,7 @@ class ContactRecord:
         names: tuple[Control, ...] = ("force", "approach")
         return tuple(name for name in names if getattr(self, name) is not None)
 
-    def column(self, name: str) -> Array:
+    def column(self, name: str) -> Floats:
         """Return force [N] or approach [m]."""
         values = getattr(self, name)
         assert values is not None  # named by `columns`

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
+from viscontact.backend.arrays import Floats
 from viscontact.calibration.record import ContactRecord, Drive, compared_column
 from viscontact.case import Case, CaseError, read_case
 from viscontact.errors import AccuracyWarning
@@ -20,8 +20,6 @@ from viscontact.loads.history import Control
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
-
-Array = NDArray[np.float64]
 
 #: Cells of the search across the longer and the shorter edge of the grid, at least, if the case has
 #: more.
@@ -49,7 +47,7 @@ class Experiment:
         return compared_column(self.drive, self.control)
 
     @property
-    def measured(self) -> Array:
+    def measured(self) -> Floats:
         """Values that are fitted [N or m]."""
         return self.record.column(self.compared)
 
@@ -74,7 +72,7 @@ class Response:
     mounting: Mounting  # counts if the reading of the approach is prescribed
     on_own_cells: bool
 
-    def __call__(self) -> tuple[Array, Array]:
+    def __call__(self) -> tuple[Floats, Floats]:
         """Simulate the run; ValueError, ConvergenceError or DomainError if it fails."""
         test = self.experiment
         cells = test.own_cells if self.on_own_cells else test.coarse_cells
@@ -106,7 +104,7 @@ def case_with(path: Path, settings: Mapping[str, str]) -> Case:
 
 def history_of(
     case: Case, record: ContactRecord, drive: Drive, mounting: Mounting
-) -> tuple[LoadHistory, Array, Array]:
+) -> tuple[LoadHistory, Floats, Floats]:
     """Load of the run of a record, its rows' times in the run, and all instants of the run [s]."""
     if drive == "case":
         rows = record.times
@@ -145,7 +143,7 @@ def cells_of(case: Case, record: ContactRecord, drive: Drive) -> tuple[Grid, Gri
 
 
 def _problem(
-    case: Case, load: LoadHistory, instants: Array, cells: Grid | AutomaticGrid | None
+    case: Case, load: LoadHistory, instants: Floats, cells: Grid | AutomaticGrid | None
 ) -> Problem:
     return Problem(
         *(case.indenter, case.material, load, cells, instants, case.indenter_material),
@@ -163,7 +161,7 @@ def _coarse(run: RunSetup) -> Grid:
     return coarser_grid(run.grid, aligned_spacing(run, ratio, True), True)
 
 
-def _halved(instants: Array) -> Array:
+def _halved(instants: Floats) -> Floats:
     """Instants with further ones in the middle of the steps, from time 0 on [s]."""
     whole = np.union1d([0.0], instants)
     return np.union1d(whole, (whole[1:] + whole[:-1]) / 2)

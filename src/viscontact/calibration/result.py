@@ -9,16 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.calibration.evaluation import Evaluation
 from viscontact.calibration.response import Experiment, case_with
 from viscontact.calibration.search import Optimum
 from viscontact.calibration.unknowns import Unknown, case_settings
 from viscontact.case import yaml_source
 from viscontact.units.parsing import split_quantity
-
-Array = NDArray[np.float64]
 
 _DIGITS = 6
 
@@ -82,7 +80,7 @@ class CaseFit:
     intervals: dict[str, tuple[float, float]]
     discretisation_errors: dict[str, float]
     confidence: float
-    correlation: Array
+    correlation: Floats
     curves: xr.Dataset
     settings: Mapping[str, str]
     notes: tuple[str, ...]
@@ -90,9 +88,9 @@ class CaseFit:
     case: Path
     fixed: Mapping[str, str]
     unknowns: tuple[Unknown, ...] = field(repr=False)
-    point: Array = field(repr=False)
-    reach: Array = field(repr=False)
-    shift: Array = field(repr=False)
+    point: Floats = field(repr=False)
+    reach: Floats = field(repr=False)
+    shift: Floats = field(repr=False)
 
     @property
     def residual(self) -> float:
@@ -202,7 +200,7 @@ def _far(unknown: Unknown, part: float) -> float:
     return unknown.si(part)
 
 
-def _curves(evaluation: Evaluation, point: Array) -> xr.Dataset:
+def _curves(evaluation: Evaluation, point: Floats) -> xr.Dataset:
     """Measured and fitted values of all records along the dimension ``row``."""
     fitted = evaluation.fitted(point, on_own_cells=True)
     pairs = zip(evaluation.experiments, fitted, strict=True)
@@ -210,9 +208,7 @@ def _curves(evaluation: Evaluation, point: Array) -> xr.Dataset:
     return xr.concat(parts, "row")
 
 
-def _curve(
-    number: int, experiment: Experiment, values: Array, counted: NDArray[np.bool_]
-) -> xr.Dataset:
+def _curve(number: int, experiment: Experiment, values: Floats, counted: Bools) -> xr.Dataset:
     """Rows of one record."""
     record, measured = experiment.record, experiment.measured
     residual = np.where(counted, (values - measured) / np.abs(measured).max(), np.nan)

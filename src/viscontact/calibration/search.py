@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 from scipy.stats import qmc
 
+from viscontact.backend.arrays import Floats
 from viscontact.calibration.evaluation import BudgetSpentError, Evaluation, FailedRunError
-
-Array = NDArray[np.float64]
 
 #: Step of the differences, in parts of the ranges: well above the tolerance of the solver.
 _STEP = 5e-4
@@ -43,10 +41,10 @@ class Optimum:
         False if the runs were used up before the search had ended.
     """
 
-    point: Array
-    shift: Array
-    residuals: Array
-    jacobian: Array
+    point: Floats
+    shift: Floats
+    residuals: Floats
+    jacobian: Floats
     complete: bool
 
     @property
@@ -55,7 +53,7 @@ class Optimum:
         return int(self.residuals.size - self.point.size)
 
     @property
-    def covariance(self) -> Array:
+    def covariance(self) -> Floats:
         """Covariance of the parts, from the scatter of the residuals."""
         variance = float(self.residuals @ self.residuals) / self.freedom
         _, singular, directions = np.linalg.svd(self.jacobian, full_matrices=False)
@@ -64,12 +62,12 @@ class Optimum:
         return np.asarray(variance * spread.T @ spread)
 
     @property
-    def correlation(self) -> Array:
+    def correlation(self) -> Floats:
         """Correlation of the parts."""
         errors = np.sqrt(np.diag(self.covariance))
         return np.asarray(self.covariance / np.outer(errors, errors))
 
-    def reach(self, confidence: float) -> Array:
+    def reach(self, confidence: float) -> Floats:
         """Half widths of the confidence intervals, in parts."""
         student = float(stdtrit(self.freedom, 0.5 + confidence / 2))
         return np.asarray(student * np.sqrt(np.diag(self.covariance)))
@@ -103,7 +101,7 @@ class _Descent:
         self._penalty = np.zeros(0)
         self._starts: list[tuple[float, tuple[float, ...]]] = []
         self.best = np.zeros(0)
-        self.jacobian: Array | None = None
+        self.jacobian: Floats | None = None
 
     def begin(self) -> None:
         """Rank the case's own values and some others in the ranges as starts."""
@@ -125,7 +123,7 @@ class _Descent:
                 break
         self.jacobian = self._jacobian(self.best)
 
-    def _descend(self, start: Array) -> None:
+    def _descend(self, start: Floats) -> None:
         # The first trust region is as large as the norm of the start: the origin is put near it.
         origin = start - _FIRST_REGION / np.sqrt(self._count)
         least_squares(
@@ -139,7 +137,7 @@ class _Descent:
             max_nfev=40,
         )
 
-    def _try(self, point: Array) -> Array | None:
+    def _try(self, point: Floats) -> Floats | None:
         try:
             residuals = self._evaluation.residuals(point)
         except FailedRunError:
@@ -149,11 +147,11 @@ class _Descent:
             self._least, self.best = squares, np.array(point)
         return residuals
 
-    def _residuals(self, point: Array) -> Array:
+    def _residuals(self, point: Floats) -> Floats:
         residuals = self._try(point)
         return self._penalty if residuals is None else residuals
 
-    def _jacobian(self, point: Array) -> Array:
+    def _jacobian(self, point: Floats) -> Floats:
         """Jacobian by differences that point away from the bounds."""
         steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
         try:
@@ -162,7 +160,7 @@ class _Descent:
             self.jacobian = self._differences(point, -steps)
         return self.jacobian
 
-    def _differences(self, point: Array, steps: Array) -> Array:
+    def _differences(self, point: Floats, steps: Floats) -> Floats:
         moved = [point + step * unit for step, unit in zip(steps, np.eye(point.size), strict=True)]
         here, *there = self._evaluation.many([point, *moved])
         columns = [(each - here) / step for each, step in zip(there, steps, strict=True)]
@@ -170,8 +168,8 @@ class _Descent:
 
 
 def _corrected(
-    evaluation: Evaluation, coarse: Array, jacobian: Array
-) -> tuple[Array, Array, Array]:
+    evaluation: Evaluation, coarse: Floats, jacobian: Floats
+) -> tuple[Floats, Floats, Floats]:
     """Least squares on the case's cells with steps half as long: point, its shift, residuals.
 
     Gauss-Newton steps with the Jacobian of the coarse cells, which is near enough. They are made

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.runs.directory.atomic_files import replacing
 
 #: Force and approach at the rows of a record [N, m], or the reason of a failed run.
-Outcome = tuple[NDArray[np.float64], NDArray[np.float64]] | str
+Outcome = tuple[Floats, Floats] | str
 
 
 class TrialLog:
@@ -71,6 +71,6 @@ def _outcome(path: Path, number: int, line: str) -> tuple[str, Outcome]:
     return str(key), (force, approach)
 
 
-def _plain(values: NDArray[np.float64]) -> list[float | None]:
+def _plain(values: Floats) -> list[float | None]:
     """Numbers as JSON has them: NaN is null."""
     return [None if math.isnan(value) else value for value in values.tolist()]

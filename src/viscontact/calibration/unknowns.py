@@ -7,16 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Floats
 from viscontact.case import Case
 from viscontact.case.aliases import value_at
 from viscontact.case.overrides import key_path
 from viscontact.runs.sweep.sampling import Range, bounded
 from viscontact.units.parsing import parse_any_quantity, parse_quantity
-
-Array = NDArray[np.float64]
 
 #: Unknowns that are no keys of the case.
 CONTACT_POINT, MACHINE_STIFFNESS = "contact_point", "machine_stiffness"
@@ -85,12 +81,12 @@ def unknowns_of(
     return tuple(found)
 
 
-def values_at(unknowns: Sequence[Unknown], point: Array) -> dict[str, str]:
+def values_at(unknowns: Sequence[Unknown], point: Floats) -> dict[str, str]:
     """Values at a point of the ranges, by name."""
     return {u.name: u.text(float(part)) for u, part in zip(unknowns, point, strict=True)}
 
 
-def case_settings(unknowns: Sequence[Unknown], point: Array) -> dict[str, str]:
+def case_settings(unknowns: Sequence[Unknown], point: Floats) -> dict[str, str]:
     """Values of the case at a point, by key, without those of the machine."""
     values = values_at(unknowns, point)
     return {key: value for key, value in values.items() if not is_of_machine(key)}

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from viscontact.backend.arrays import Floats
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.indenters.shapes import Shapes
@@ -96,7 +95,7 @@ class CaseFile(Section):
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
         return self
 
-    def instants(self) -> NDArray[np.float64] | AdaptiveTimes | CellTimes:
+    def instants(self) -> Floats | AdaptiveTimes | CellTimes:
         """Return the instants of the run [s], or the settings of steps that are chosen later."""
         assert self.time is not None  # refused otherwise
         motion = self.motion.built if self.motion else None

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from viscontact import grid
+from viscontact.backend.arrays import Floats
 from viscontact.case.quantities import (
     CellCount,
     Duration,
@@ -47,7 +47,7 @@ DEFAULT_TOLERANCE = 0.01
 
 
 #: Instants of a run [s], or settings of steps that are chosen later.
-Times = NDArray[np.float64] | AdaptiveTimes | CellTimes
+Times = Floats | AdaptiveTimes | CellTimes
 
 
 class Time(Section):
@@ -72,7 +72,7 @@ class Time(Section):
         f"{ADAPTIVE_TOLERANCE:g} if not",
     )
 
-    def instants(self) -> NDArray[np.float64] | AdaptiveTimes:
+    def instants(self) -> Floats | AdaptiveTimes:
         """Return the instants from 0 to the end [s], or the settings of adaptive steps."""
         if self.spacing == "adaptive":
             return adaptive_times(self.end, self.tolerance or ADAPTIVE_TOLERANCE)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.checks.load_support import LoadSupport
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, Roller, Sphere
@@ -126,9 +126,7 @@ def points_under_load(problem: Problem) -> list[tuple[float, LoadPoint]]:
     return [(0.0, load.at(0.0)), *sides]
 
 
-def check_touch(
-    problem: Problem, point: LoadPoint, open_gap: NDArray[np.float64], grid: Grid
-) -> None:
+def check_touch(problem: Problem, point: LoadPoint, open_gap: Floats, grid: Grid) -> None:
     """Refuse a clamped tilt that presses at time 0 already on a law that cannot follow."""
     if problem.compliance.instant > 0 or point.approach is None:
         return
@@ -142,9 +140,7 @@ def check_touch(
         )
 
 
-def check_balance(
-    points: Sequence[tuple[float, LoadPoint]], open_gap: NDArray[np.float64], grid: Grid
-) -> None:
+def check_balance(points: Sequence[tuple[float, LoadPoint]], open_gap: Floats, grid: Grid) -> None:
     """Refuse a resultant that acts outside the hull of what can touch."""
     solid = np.isfinite(open_gap)
     if not solid.any():

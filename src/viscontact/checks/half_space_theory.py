@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.checks.covers import Cover, cover_warnings
 from viscontact.checks.sampling import Sampling, local_approach, sampling_warnings
 from viscontact.checks.singularities import DEPENDS_ON_MESH, is_sharp
@@ -50,7 +50,7 @@ class Geometry:
     """Shape of the body on its grid, as the warnings about geometry need it."""
 
     indenter: Indenter
-    open_gap: NDArray[np.float64]  # initial gap, +inf outside the outline [m]
+    open_gap: Floats  # initial gap, +inf outside the outline [m]
     grid: Grid
     thickness: float = math.inf  # of the thinner body, inf if not given [m]
     indenter_gives: bool = False  # the indenter is deformable, so a half-space as well
@@ -63,7 +63,7 @@ class Geometry:
         return ("will be about", "will reach") if self.predicted else ("is", "reaches")
 
     @property
-    def steepness(self) -> NDArray[np.float64]:
+    def steepness(self) -> Floats:
         """Larger absolute slope from each cell to the next along either axis, not kept [-]."""
         steepness = np.zeros(self.grid.shape)
         np.maximum(steepness[:-1], self._slopes(0), out=steepness[:-1])
@@ -76,7 +76,7 @@ class Geometry:
         # Not `max`, which may pass over NaN.
         return float(np.max([self._slopes(axis).max(initial=0.0) for axis in (0, 1)]))
 
-    def _slopes(self, axis: int) -> NDArray[np.float64]:
+    def _slopes(self, axis: int) -> Floats:
         """Absolute slopes from each cell to the next along an axis, NaN outside the body [-]."""
         with np.errstate(invalid="ignore"):
             slopes = np.diff(self.open_gap, axis=axis)
@@ -85,7 +85,7 @@ class Geometry:
         return slopes
 
     @cached_property
-    def nearly_steep(self) -> NDArray[np.bool_]:
+    def nearly_steep(self) -> Bools:
         """Cells at which a little tilt makes the slope too steep."""
         return self.steepness > STEEP_SLOPE - LITTLE_TILT
 
@@ -95,7 +95,7 @@ class Geometry:
         return bool(np.isinf(self.open_gap).any())
 
     @cached_property
-    def end_cells(self) -> NDArray[np.bool_]:
+    def end_cells(self) -> Bools:
         """Cells next to the end of the body."""
         around = self.open_gap
         for axis, repeats in enumerate(self.grid.periodic):
@@ -112,9 +112,9 @@ class Geometry:
 def geometry_warnings(
     geometry: Geometry,
     rim: Rim,
-    motion: NDArray[np.float64],
-    displacement: NDArray[np.float64],
-    pressure: NDArray[np.float64],
+    motion: Floats,
+    displacement: Floats,
+    pressure: Floats,
 ) -> dict[str, str]:
     """Warn of large strains, ends of the bodies, and parts that the grid misses.
 
@@ -129,7 +129,7 @@ def geometry_warnings(
     )
 
 
-def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
+def strain_warnings(geometry: Geometry, rim: Rim, motion: Floats) -> dict[str, str]:
     """Warn of strains too large for linear theory: slope, width, approach."""
     warnings: dict[str, str] = {}
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
@@ -165,7 +165,7 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -
 
 
 def body_warnings(
-    geometry: Geometry, rim: Rim, pressure: NDArray[np.float64], *, has_limit: bool = False
+    geometry: Geometry, rim: Rim, pressure: Floats, *, has_limit: bool = False
 ) -> dict[str, str]:
     """Warn of bodies that end where a half-space continues: profile, end face, thickness.
 
@@ -198,7 +198,7 @@ def body_warnings(
 
 
 def warnings_of_covers(
-    geometry: Geometry, rim: Rim, motion: NDArray[np.float64], cell_size: tuple[float, float]
+    geometry: Geometry, rim: Rim, motion: Floats, cell_size: tuple[float, float]
 ) -> dict[str, str]:
     """Warn of large strains in covers, and of cells of a size (dx, dy) [m] too long for them."""
     has_datum = geometry.grid.has_datum or geometry.is_supported
@@ -237,7 +237,7 @@ def corner_warnings(
 
 
 def _end_warnings(
-    geometry: Geometry, rim: Rim, pressure: NDArray[np.float64], *, has_limit: bool
+    geometry: Geometry, rim: Rim, pressure: Floats, *, has_limit: bool
 ) -> dict[str, str]:
     """Warn of a contact that reaches the end of the profile: singular pressure, missing support."""
     at_end = float(pressure[geometry.end_cells].max(initial=0.0))
@@ -280,7 +280,7 @@ def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
     return False
 
 
-def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
+def _spans(contact: Bools, cells: int) -> bool:
     """True if a contact extends over a number of cells along both axes."""
     return all(int(contact.any(axis=axis).sum()) >= cells for axis in (0, 1))
 
@@ -302,7 +302,7 @@ def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
     return bool(np.isinf(geometry.open_gap[np.ix_(*block)]).any())
 
 
-def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> NDArray[np.intp]:
+def _around(lines: Integers, distance: int, grid: Grid, axis: int) -> Integers:
     """Lines of the grid from `distance` before the first given line to as many after the last."""
     count = grid.shape[axis]
     first, last = int(lines[0]) - distance, int(lines[-1]) + distance
@@ -311,7 +311,7 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
     return np.arange(max(first, 0), min(last + 1, count))
 
 
-def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
+def _steepest_slope(geometry: Geometry, rim: Rim, motion: Floats) -> float:
     """Steepest slope in contact; an upper bound where that is not steep."""
     tilt = float(np.abs(motion[1:]).max())
     if geometry.steepest + tilt <= STEEP_SLOPE:

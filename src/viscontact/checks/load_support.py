@@ -10,8 +10,8 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.grid import Grid
 from viscontact.units.formatting import format_quantity
 
@@ -32,7 +32,7 @@ class LoadSupport:
     load.eccentricity_x: the force acts at 20 mm at
     """
 
-    def __init__(self, solid: NDArray[np.bool_], grid: Grid) -> None:
+    def __init__(self, solid: Bools, grid: Grid) -> None:
         self._solid, self._grid = solid, grid
         self._spans = tuple(
             (float(centres[0]), float(centres[-1]))
@@ -61,7 +61,7 @@ class LoadSupport:
             )
 
     @cached_property
-    def _envelopes(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _envelopes(self) -> tuple[Floats, Floats]:
         """Corners of the hull's far and near side, as x and y [m]."""
         rows = np.flatnonzero(self._solid.any(axis=1))
         first = self._solid[rows].argmax(axis=1)
@@ -76,7 +76,7 @@ class LoadSupport:
         return near - rounding <= y <= far + rounding
 
 
-def _upper_envelope(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+def _upper_envelope(x: Floats, y: Floats) -> Floats:
     """Upper convex hull of points of ascending x (Andrew 1979).
 
     Not by SciPy's hulls, whose import takes a tenth of a second.

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Bools
 from viscontact.contact.rim import mean_chords
 
 #: Fewer cells across the largest contact than these cause a warning.
@@ -72,9 +70,7 @@ def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str
     }
 
 
-def cells_across_spots(
-    contact: NDArray[np.bool_], *, periodic: Sequence[bool] = (False, False)
-) -> float:
+def cells_across_spots(contact: Bools, *, periodic: Sequence[bool] = (False, False)) -> float:
     """Mean chord of a contact along the axis where it is smaller, in cells; 0 without contact.
 
     It shows what the extents of a contact hide: the spots of a rough surface, or a strip that lies

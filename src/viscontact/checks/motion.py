@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.loads.motion import Motion
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
@@ -233,7 +233,7 @@ def way_warnings(way: float, half_extent: float) -> dict[str, str]:
     }
 
 
-def loss_shares(compliance: SeriesCompliance, rate: float) -> NDArray[np.float64]:
+def loss_shares(compliance: SeriesCompliance, rate: float) -> Floats:
     """Shares of the retardation times in the loss compliance at an angular frequency [1/s].
 
     They add up to one with that of the fluidity.

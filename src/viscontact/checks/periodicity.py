@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
 from viscontact.loads import LoadHistory
@@ -30,7 +30,7 @@ TEXTURE_TOLERANCE = 1e-3
 
 def check_period(
     indenter: Indenter,
-    open_gap: NDArray[np.float64],
+    open_gap: Floats,
     grid: Grid,
     load: LoadHistory,
     *,
@@ -175,9 +175,7 @@ def _refuse_misfit(part: Indenter, grid: Grid) -> None:
             )
 
 
-def _refuse_map(
-    axis: str, lines: NDArray[np.float64], centres: NDArray[np.float64], period: float
-) -> None:
+def _refuse_map(axis: str, lines: Floats, centres: Floats, period: float) -> None:
     """Refuse a map that is not as long as the period along an axis, or does not cover its cells."""
     span = float(lines[-1] - lines[0])
     whole = span * lines.size / (lines.size - 1)

@@ -9,8 +9,8 @@ from functools import cached_property
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.cell_fields import height_over_neighbours
 from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
@@ -31,7 +31,7 @@ NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
 #: Rings that the points beyond the grid are grouped in; a ring that cannot touch is skipped.
 RINGS = 16
 
-Points = tuple[NDArray[np.float64], NDArray[np.float64]]
+Points = tuple[Floats, Floats]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +39,11 @@ class Sampling:
     """A body, and its gap at the points of a grid."""
 
     indenter: Indenter
-    open_gap: NDArray[np.float64]  # initial gap, +inf outside the outline [m]
+    open_gap: Floats  # initial gap, +inf outside the outline [m]
     grid: Grid
 
     @cached_property
-    def beyond(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def beyond(self) -> tuple[Floats, Floats, Floats]:
         """Points of the body outside the grid: x, y and gap [m]."""
         found = [_outside(self.grid, *points) for points in self._sampled_points()]
         x, y = (np.concatenate(coordinates) for coordinates in zip(*found, strict=True))
@@ -52,7 +52,7 @@ class Sampling:
         return x[solid], y[solid], gap[solid]
 
     @cached_property
-    def _rings(self) -> NDArray[np.float64]:
+    def _rings(self) -> Floats:
         """Largest distances along x and y and least gap of rings of points beyond the grid [m]."""
         x, y, gap = self.beyond
         distances = np.abs([x, y])  # from the pivot of the tilts, the origin
@@ -61,7 +61,7 @@ class Sampling:
         found = [[*distances[:, ring].max(axis=1), gap[ring].min()] for ring in rings]
         return np.reshape(found, (-1, 3)).T
 
-    def reaches_beyond(self, motion: NDArray[np.float64], depth: float) -> bool:
+    def reaches_beyond(self, motion: Floats, depth: float) -> bool:
         """True if the moved body lies deeper than a depth [m] at a point outside the grid."""
         far_x, far_y, least = self._rings
         # Called at every step; nearly always no ring comes close.
@@ -72,7 +72,7 @@ class Sampling:
         return bool((motion[0] + motion[1] * x + motion[2] * y - gap > depth).any())
 
     @cached_property
-    def missed(self) -> NDArray[np.float64]:
+    def missed(self) -> Floats:
         """Height of a map's points over the interpolated grid, or over neighbouring points [m].
 
         As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
@@ -110,7 +110,7 @@ class Sampling:
         yield self.indenter.sample_points
 
 
-def local_approach(grid: Grid, motion: NDArray[np.float64]) -> float:
+def local_approach(grid: Grid, motion: Floats) -> float:
     """Approach in the middle of a grid, which may be far from the pivot of the tilts [m].
 
     >>> local_approach(Grid((4, 4), (1.0, 1.0), centre=(100.0, 0.0)), np.array([2.0, -0.01, 0.0]))
@@ -145,8 +145,8 @@ def map_warnings(missed: float, cell: float, strain: float) -> dict[str, str]:
 def sampling_warnings(
     sampling: Sampling,
     rim: Rim,
-    motion: NDArray[np.float64],
-    displacement: NDArray[np.float64],
+    motion: Floats,
+    displacement: Floats,
 ) -> dict[str, str]:
     """Warn of parts of the body under load that the grid does not represent.
 
@@ -200,7 +200,7 @@ def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:
     }
 
 
-def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+def _outside(grid: Grid, x: Floats, y: Floats) -> Points:
     """The points that lie outside a grid, within the period along an axis that has one."""
     beyond = np.array(_from_middle(grid, x, y)) > 0.5
     repeats = np.array(grid.periodic)
@@ -208,13 +208,13 @@ def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Poin
     return x[outside], y[outside]
 
 
-def _from_middle(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+def _from_middle(grid: Grid, x: Floats, y: Floats) -> Points:
     """Distances of points from the grid's middle along x and y, in sizes of the grid."""
     (lx, ly), (middle_x, middle_y) = grid.size, grid.centre
     return np.abs(x - middle_x) / lx, np.abs(y - middle_y) / ly
 
 
-def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+def _mesh(x: Floats, y: Floats) -> Points:
     """All points of a mesh, as flat arrays."""
     along, across = np.meshgrid(x, y, indexing="ij")
     return along.ravel(), across.ravel()

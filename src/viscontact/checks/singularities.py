@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.body_edge import END_DEPTH, end_cells
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
@@ -29,16 +29,16 @@ MIN_ANGLE = 0.06
 class EndCells:
     """Cells next to the end of a body, and those farther than END_DEPTH cells from it."""
 
-    beside: NDArray[np.bool_]
-    inner: NDArray[np.bool_]
+    beside: Bools
+    inner: Bools
 
-    def pressures(self, pressure: NDArray[np.float64]) -> tuple[float, float]:
+    def pressures(self, pressure: Floats) -> tuple[float, float]:
         """Largest pressures in both [Pa]."""
         at_end, farther = (pressure[cells].max(initial=0.0) for cells in (self.beside, self.inner))
         return float(at_end), float(farther)
 
 
-def cells_at_end(open_gap: NDArray[np.float64]) -> EndCells:
+def cells_at_end(open_gap: Floats) -> EndCells:
     """Cells at the end of a body whose open gap is +inf outside it [m].
 
     Examples
@@ -53,7 +53,7 @@ def cells_at_end(open_gap: NDArray[np.float64]) -> EndCells:
     return EndCells(beside, ~near)
 
 
-def bend_at(open_gap: NDArray[np.float64], grid: Grid, place: tuple[int, int]) -> float:
+def bend_at(open_gap: Floats, grid: Grid, place: tuple[int, int]) -> float:
     """Largest change of the gap's slope from cell to cell, around a cell [rad].
 
     Notes
@@ -138,13 +138,13 @@ def strain_of(peak_pressure: float, compliance: float) -> float:
     return np.pi / 2 * peak_pressure * compliance
 
 
-def _samples(place: float, reach: float, cell: float) -> NDArray[np.float64]:
+def _samples(place: float, reach: float, cell: float) -> Floats:
     """Positions on an axis around a place, wide enough to compare slopes all over the reach [m]."""
     count = int(np.ceil(reach / cell * SAMPLES)) + AROUND // 2
     return np.asarray(place + np.arange(-count, count + 1) * cell / SAMPLES)
 
 
-def _angle(gap: NDArray[np.float64], axis: int, step: float) -> float:
+def _angle(gap: Floats, axis: int, step: float) -> float:
     """Angle of the sharpest corner on lines along an axis, 0 if all are round [rad]."""
     slopes = np.diff(np.moveaxis(gap, axis, 0), axis=0) / step
     aside = (AROUND - QUARTER) // 2

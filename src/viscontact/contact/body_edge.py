@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 
@@ -25,8 +25,8 @@ class Outline:
     Distances from the inner centre, in cells; NaN where the outline does not cross.
     """
 
-    along_x: NDArray[np.float64]  # shape (nx - 1, ny)
-    along_y: NDArray[np.float64]  # shape (nx, ny - 1)
+    along_x: Floats  # shape (nx - 1, ny)
+    along_y: Floats  # shape (nx, ny - 1)
 
 
 def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
@@ -48,7 +48,7 @@ def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
     )
 
 
-def end_cells(open_gap: NDArray[np.float64], depth: int) -> NDArray[np.bool_]:
+def end_cells(open_gap: Floats, depth: int) -> Bools:
     """Cells of a body within a number of cells of its end along x, and along y.
 
     The open gap is +inf outside the body [m]. The result has shape (2, nx, ny).
@@ -71,10 +71,10 @@ def end_cells(open_gap: NDArray[np.float64], depth: int) -> NDArray[np.bool_]:
 
 def _outline_crossings(
     indenter: Indenter,
-    inside: NDArray[np.bool_],
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    inside: Bools,
+    x: Floats,
+    y: Floats,
+) -> Floats:
     """Crossings along the first axis, in cells from the centre inside the body."""
     shape = inside.shape[0] - 1, inside.shape[1]
     i, j = np.nonzero(inside[:-1] != inside[1:])

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from viscontact.backend.arrays import Floats
 
 
-def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+def height_over_neighbours(gap: Floats, axis: int) -> Floats:
     """Half the height of each point over the mean of its two neighbours along an axis [m].
 
     The gap falls where the surface rises. 0 at dips, at the ends of a line and at holes (+inf).
@@ -24,7 +25,7 @@ def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.fl
     return height
 
 
-def is_even(field: NDArray[np.float64], axis: int) -> bool:
+def is_even(field: Floats, axis: int) -> bool:
     """Test whether a field's second half mirrors its first along an axis exactly.
 
     False for an odd number of cells.

@@ -9,8 +9,8 @@ linear program with one to three unknowns.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.rigid_balance import RigidPlane
 
 #: Exchanges of one cell for another; a few tens are needed.
@@ -28,9 +28,7 @@ SHIFT = np.array([0.0, 1.0e-11, 1.7e-11])
 FIRST_DISTANCE, FIRST_HEIGHT = 3.0, 1e6
 
 
-def touching_motion(
-    gap: NDArray[np.float64], plane: RigidPlane, free: NDArray[np.bool_]
-) -> NDArray[np.float64]:
+def touching_motion(gap: Floats, plane: RigidPlane, free: Bools) -> Floats:
     """Largest approach [m] without contact, and free tilts [rad] at which the body then touches.
 
     `gap` [m] is +inf where there is no body. A body that lies on one side of the pivot can be clear
@@ -72,7 +70,7 @@ def touching_motion(
     return motion
 
 
-def _first_corners(count: int) -> NDArray[np.float64]:
+def _first_corners(count: int) -> Floats:
     """Corners of a simplex around the pivot, as columns (1, x, y)."""
     corners = np.ones((count, count))
     corners[1:] = FIRST_DISTANCE * np.eye(count)[1:]
@@ -81,11 +79,11 @@ def _first_corners(count: int) -> NDArray[np.float64]:
 
 
 def just_clear(
-    gap: NDArray[np.float64],
+    gap: Floats,
     plane: RigidPlane,
-    begin: NDArray[np.float64],
-    clear: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    begin: Floats,
+    clear: Floats,
+) -> Floats:
     """First motion on the way from one to another at which no cell overlaps the surface.
 
     Examples

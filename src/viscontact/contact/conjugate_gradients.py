@@ -31,8 +31,8 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Singles
 from viscontact.contact.contact_residual import ContactResidual, contact_residual
 from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess
@@ -146,13 +146,13 @@ class BoundedCG:
 
     def _project(
         self,
-        vector: NDArray[np.float32],
-        active: NDArray[np.bool_],
-        inverse: NDArray[np.float64],
+        vector: Singles,
+        active: Bools,
+        inverse: Floats,
     ) -> None:
         """Step 3: restrict a direction to the active cells, and remove its force and moments."""
 
-        def restricted(block: RigidPlane) -> NDArray[np.float64]:
+        def restricted(block: RigidPlane) -> Floats:
             here = vector[block.rows]
             here *= active[block.rows]
             return block.sums_of_rows(here)
@@ -166,7 +166,7 @@ class BoundedCG:
 
         self.patch.plane.each(levelled)
 
-    def _conjugate(self, found: NDArray[np.float32], factor: float) -> None:
+    def _conjugate(self, found: Singles, factor: float) -> None:
         """Turn the preconditioned residual into the next direction, in its memory."""
 
         def conjugated(block: RigidPlane) -> None:
@@ -233,7 +233,7 @@ class BoundedCG:
         self._next_step = partial(self._step_part, best, step)
         return True
 
-    def _step_part(self, part: float, step: NDArray[np.float32], block: RigidPlane) -> None:
+    def _step_part(self, part: float, step: Singles, block: RigidPlane) -> None:
         """Step on a block by a part of the way to the pressure set aside, at most all of it."""
         length = min(part, 1.0) * self._force_unit
         pressure, displacement = self.iterate.values[:, block.rows]
@@ -244,7 +244,7 @@ class BoundedCG:
             pressure += np.multiply(step[block.rows], length, dtype=np.float64)
             np.maximum(pressure, 0.0, out=pressure)  # below zero by rounding
 
-    def _step_ahead(self) -> NDArray[np.float32]:
+    def _step_ahead(self) -> Singles:
         """Step from the iterate to the pressure set aside."""
         step = self._spare
 
@@ -255,7 +255,7 @@ class BoundedCG:
         self.patch.plane.each(subtract)
         return step
 
-    def _moved(self, length: float, step: NDArray[np.float32]) -> float:
+    def _moved(self, length: float, step: Singles) -> float:
         """Move the iterate along a step of known unit displacement; return its least pressure."""
         length *= self._force_unit
 
@@ -302,12 +302,12 @@ class BoundedCG:
         self.iterate.pressure[...] = ahead
         return True
 
-    def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
+    def _is_balanced(self, pressure: Floats) -> bool:
         """Cut off tension and balance by a plane factor; False where no factor does it."""
         patch = self.patch
         return balance(pressure, self.problem.constraints, patch.plane, patch.cell_area, patch.arm)
 
-    def _unit_displacement_of(self, step: NDArray[np.float32]) -> NDArray[np.float32]:
+    def _unit_displacement_of(self, step: Singles) -> Singles:
         """Unit displacement ``K step`` by a convolution on the patch [-], in kept memory."""
         self.convolutions += 1
         return self.patch.convolution.apply(step, into=self._change)
@@ -319,15 +319,13 @@ def _largest_displacement(problem: ContactProblem, iterate: Guess) -> float:
     return max(problem.displacement_scale, largest) or 1.0
 
 
-def _inner(
-    plane: RigidPlane, field: NDArray[np.float32], *others: NDArray[np.float32]
-) -> list[float]:
+def _inner(plane: RigidPlane, field: Singles, *others: Singles) -> list[float]:
     """Inner products with other fields, in double precision but for the rows.
 
     Not by BLAS, which would start threads.
     """
 
-    def of_rows(block: RigidPlane) -> NDArray[np.float64]:
+    def of_rows(block: RigidPlane) -> Floats:
         here = field[block.rows]
         rows = [np.einsum("ij,ij->i", here, other[block.rows]) for other in others]
         return np.array([row.sum(dtype=np.float64) for row in rows])

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Numbers
 from viscontact.contact.patch import Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Moments, RigidPlane, added
@@ -18,10 +17,10 @@ from viscontact.contact.rigid_balance import Moments, RigidPlane, added
 class ContactResidual:
     """Residual of the contact conditions for a given pressure."""
 
-    contact: NDArray[np.bool_]  # cells under pressure
-    inverse_gram: NDArray[np.float64]  # inverse Gram matrix of the planes over these cells
-    motion: NDArray[np.float64]  # rigid motion that fits best: approach [m], tilts [rad]
-    gap: NDArray[Any]  # gap with that motion, in the unit asked for
+    contact: Bools  # cells under pressure
+    inverse_gram: Floats  # inverse Gram matrix of the planes over these cells
+    motion: Floats  # rigid motion that fits best: approach [m], tilts [rad]
+    gap: Numbers  # gap with that motion, in the unit asked for
     error: float  # largest gap in contact or penetration over the largest displacement [-]
 
 
@@ -29,7 +28,7 @@ def contact_residual(
     problem: ContactProblem,
     patch: Patch,
     iterate: Guess,
-    into: tuple[NDArray[np.bool_], NDArray[Any]] | None = None,
+    into: tuple[Bools, Numbers] | None = None,
     unit: float = 1.0,
     first: Callable[[RigidPlane], None] | None = None,
 ) -> ContactResidual:
@@ -41,7 +40,7 @@ def contact_residual(
     shape = iterate.pressure.shape
     contact, gap = into or (np.empty(shape, bool), np.empty(shape))
 
-    def opened(block: RigidPlane) -> tuple[float, Moments, NDArray[np.float64]]:
+    def opened(block: RigidPlane) -> tuple[float, Moments, Floats]:
         rows = block.rows
         if first:
             first(block)

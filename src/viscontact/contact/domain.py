@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.contact.cell_fields import is_even
@@ -83,7 +83,7 @@ class ContactDomain:
         self.grid, self.response = grid, response
         #: Parts of a response that changes, with their weights; tables, and operators on blocks.
         self._parts: dict[SurfaceResponse, float] = {}
-        self._tables: dict[SurfaceResponse, NDArray[np.float64]] = {}
+        self._tables: dict[SurfaceResponse, Floats] = {}
         self._of_blocks: dict[tuple[int, int], PartOperators] = {}
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
@@ -112,9 +112,7 @@ class ContactDomain:
         is_whole = (last.rows, last.columns) == (self.whole.rows, self.whole.columns)
         self._last = self.whole if is_whole else self._patch(last.rows, last.columns)
 
-    def unit_displacement(
-        self, pressure: NDArray[np.float64], response: SurfaceResponse
-    ) -> NDArray[np.float64]:
+    def unit_displacement(self, pressure: Floats, response: SurfaceResponse) -> Floats:
         """Displacement per unit compliance [Pa m] under a part of the response, of all cells."""
         return self._on_block(self.shape).operator(response).apply(pressure)
 
@@ -144,11 +142,11 @@ class ContactDomain:
             else replace(last, plane=self._plane(last.rows, last.columns))
         )
 
-    def reduce_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def reduce_by_symmetry(self, field: Floats) -> Floats:
         """The independent part of a field on the grid."""
         return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
-    def expand_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def expand_by_symmetry(self, field: Floats) -> Floats:
         """The field on the whole grid of its independent part, in the same memory if it is all."""
         for axis in (0, 1):
             if self.mirrored[axis]:
@@ -169,7 +167,7 @@ class ContactDomain:
                 constraints = constraints.halved(axis)
         return constraints
 
-    def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
+    def patch_around(self, cells: Bools) -> Patch:
         """Patch that holds the given cells with some room to grow.
 
         The last patch if it fits well, the whole grid if a patch would save little.
@@ -188,7 +186,7 @@ class ContactDomain:
             self._last = self._patch(*roomy)
         return self._last
 
-    def _lines(self, occupied: NDArray[np.bool_] | np.bool_, axis: int) -> slice:
+    def _lines(self, occupied: Bools | np.bool_, axis: int) -> slice:
         """Lines of cells that a patch must hold: up to the mirror, and all of a period."""
         span = _span(occupied)
         if self.grid.periodic[axis]:
@@ -226,7 +224,7 @@ class ContactDomain:
             self._plane(rows, columns),
         )
 
-    def _influence_table(self) -> NDArray[np.float64]:
+    def _influence_table(self) -> Floats:
         """Influence coefficients between all cells of the grid.
 
         None for a periodic one, and for a half-space, where those of each block are soon computed.
@@ -238,7 +236,7 @@ class ContactDomain:
         pairs = zip(self.response.weights, self.response.parts, strict=True)
         return np.asarray(sum(weight * self._table_of(part) for weight, part in pairs))
 
-    def _table_of(self, response: SurfaceResponse) -> NDArray[np.float64]:
+    def _table_of(self, response: SurfaceResponse) -> Floats:
         """Influence table of a response, kept."""
         if response not in self._tables:
             self._tables[response] = _coefficients(self.grid, response)
@@ -276,7 +274,7 @@ class ContactDomain:
     def _operator_of(
         self,
         response: SurfaceResponse,
-        coefficients: NDArray[np.float64],
+        coefficients: Floats,
         shape: tuple[int, int],
         *,
         single: bool,
@@ -320,7 +318,7 @@ class ContactDomain:
         return self._of_blocks[shape]
 
 
-def _coefficients(grid: Grid, response: SurfaceResponse) -> NDArray[np.float64]:
+def _coefficients(grid: Grid, response: SurfaceResponse) -> Floats:
     """Influence coefficients of a grid that is not periodic along both axes [m]."""
     if not any(grid.periodic):
         return layered_influence_table(grid.shape, grid.cell_size, response)
@@ -337,9 +335,7 @@ def _arm(shape: tuple[int, int], grid: Grid) -> float:
     return float(max(free or extents))
 
 
-def mirrored_axes(
-    grid: Grid, open_gap: NDArray[np.float64], even_load: tuple[bool, bool]
-) -> tuple[bool, bool]:
+def mirrored_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) -> tuple[bool, bool]:
     """Symmetry of a problem across x = 0 and across y = 0: True if gap and load are even.
 
     Moments are about the origin, so that the grid must be centred on it along the axis.
@@ -354,7 +350,7 @@ def mirrored_axes(
     return along_x, along_y
 
 
-def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:
+def _span(occupied: Bools | np.bool_) -> slice:
     """Smallest slice that holds the marked lines."""
     index = np.flatnonzero(occupied)
     return slice(int(index[0]), int(index[-1]) + 1)

@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.conjugate_gradients import BoundedCG
 from viscontact.contact.contact_residual import contact_residual
 from viscontact.contact.domain import ContactDomain
@@ -39,9 +39,9 @@ class ContactSolution:
     """Pressure and motion that a solve has found, with the residual of the contact conditions."""
 
     #: Pressure [Pa] and unit displacement K p by a fresh convolution [Pa m]; shape (2, nx, ny).
-    values: NDArray[np.float64]
-    motion: NDArray[np.float64]  # approach [m] and tilts [rad]
-    gap: NDArray[np.float64]  # +inf outside the body [m]
+    values: Floats
+    motion: Floats  # approach [m] and tilts [rad]
+    gap: Floats  # +inf outside the body [m]
     residual: float  # largest gap in contact or penetration over the largest displacement [-]
     iterations: int  # search directions, without those on coarser grids
     convolutions: int  # on patches or on all cells, without those on coarser grids
@@ -141,7 +141,7 @@ def _solve_from(
 class _Search:
     """Motion that a search on a patch has found, and its cost."""
 
-    motion: NDArray[np.float64]
+    motion: Floats
     stagnated: bool
     iterations: int
     convolutions: int
@@ -169,7 +169,7 @@ def _search_on(
 def _is_balanced(
     problem: ContactProblem,
     domain: ContactDomain,
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     tolerance: float,
 ) -> bool:
     """True if force and moments of a pressure meet the constraints."""
@@ -178,9 +178,7 @@ def _is_balanced(
     return off <= tolerance
 
 
-def _cold_start(
-    problem: ContactProblem, domain: ContactDomain, memory: NDArray[np.float64]
-) -> Guess:
+def _cold_start(problem: ContactProblem, domain: ContactDomain, memory: Floats) -> Guess:
     """Nested iteration: the solution of a coarser grid, on the coarsest a Winkler foundation.
 
     It is put into the given memory, of shape (2, nx, ny).
@@ -202,9 +200,7 @@ def _cold_start(
     return Guess(memory, coarse.found.motion)
 
 
-def _winkler_guess(
-    problem: ContactProblem, domain: ContactDomain, memory: NDArray[np.float64]
-) -> Guess:
+def _winkler_guess(problem: ContactProblem, domain: ContactDomain, memory: Floats) -> Guess:
     """Balanced pressure on a Winkler foundation, as a first guess in the given memory."""
     whole = domain.whole
     pressure, motion = winkler_contact(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 
 #: Length of the means whose largest counts, as a part of the contact's. At a sharp end of the body
@@ -12,7 +12,7 @@ from viscontact.grid import Grid
 PART = 1 / 20
 
 
-def line_load(pressure: NDArray[np.float64], grid: Grid) -> NDArray[np.float64]:
+def line_load(pressure: Floats, grid: Grid) -> Floats:
     """Line load on the rows of cells, shape (nx,) [N/m], of a pressure on the grid [Pa].
 
     Examples
@@ -23,7 +23,7 @@ def line_load(pressure: NDArray[np.float64], grid: Grid) -> NDArray[np.float64]:
     return np.asarray(pressure.sum(axis=1) * grid.cell_size[1])
 
 
-def peak_line_load(load: NDArray[np.float64], grid: Grid, length: float) -> float:
+def peak_line_load(load: Floats, grid: Grid, length: float) -> float:
     """Largest mean line load over a twentieth of the contact's length along x [N/m].
 
     `length` is that of the contact [m].

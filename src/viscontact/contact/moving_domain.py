@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import Transforms
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.response_parts import Operator
@@ -30,8 +30,6 @@ from viscontact.halfspace.periodic_influence import periodic_influence_coefficie
 from viscontact.halfspace.preconditioner import MovingPreconditioner
 from viscontact.halfspace.spectral import MovingPeriodicConvolution, WaveFactor
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
-
-Array = NDArray[np.float64]
 
 #: Fewest cells of a coarser grid along an axis.
 COARSEST = 32
@@ -60,7 +58,7 @@ class MovingDomain(ContactDomain):
         mirrored: bool = False,
         added: float = 0.0,
         transforms: Transforms | None = None,
-        moving_table: NDArray[np.float64] | None = None,
+        moving_table: Floats | None = None,
     ) -> None:
         self.surface, self.axis = surface, axis
         self._added, self._moving_table = added, moving_table
@@ -122,7 +120,7 @@ class MovingDomain(ContactDomain):
         return 2 / np.pi * force * self.surface.drift
 
     def _on(
-        self, grid: Grid, added: float = 0.0, moving_table: NDArray[np.float64] | None = None
+        self, grid: Grid, added: float = 0.0, moving_table: Floats | None = None
     ) -> MovingDomain:
         return MovingDomain(
             grid,
@@ -134,31 +132,27 @@ class MovingDomain(ContactDomain):
             moving_table=moving_table,
         )
 
-    def _elastic_table(self, response: SurfaceResponse) -> NDArray[np.float64]:
+    def _elastic_table(self, response: SurfaceResponse) -> Floats:
         """Influence table of an elastic surface, kept."""
         if response not in self._tables:
             rest = MovingCompliance(1.0, np.empty(0), np.empty(0))
             self._tables[response] = self._table_of_term(response, rest)
         return self._tables[response]
 
-    def _table_of_term(
-        self, response: SurfaceResponse, compliance: MovingCompliance
-    ) -> NDArray[np.float64]:
+    def _table_of_term(self, response: SurfaceResponse, compliance: MovingCompliance) -> Floats:
         """Influence table of a term in motion."""
         if response not in self._samples:
             self._samples[response] = _coefficient_on(self.grid, self.axis, response)
         cells = self.grid.shape, self.grid.cell_size
         return moving_influence_table(*cells, compliance, self.axis, self._samples[response])
 
-    def _loss_of_term(
-        self, response: SurfaceResponse, moving: MovingCompliance
-    ) -> NDArray[np.float64]:
+    def _loss_of_term(self, response: SurfaceResponse, moving: MovingCompliance) -> Floats:
         """Table of the slope of the delayed displacement under a term."""
         rates = replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
         elastic = self._elastic_table(response)
         return rates.relaxed * elastic - self._table_of_term(response, rates)
 
-    def _influence_table(self) -> NDArray[np.float64]:
+    def _influence_table(self) -> Floats:
         if all(self.grid.periodic):
             return np.empty((0, 0))
         if self._moving_table is None:
@@ -175,7 +169,7 @@ class MovingDomain(ContactDomain):
         return self._moving_table + share * self._elastic_table(self._at_rest)
 
     @property
-    def _offsets(self) -> NDArray[np.float64]:
+    def _offsets(self) -> Floats:
         """Signed offsets along the motion of the entries of a table, as a column or a row [m]."""
         count, cell = self.grid.shape[self.axis], self.grid.cell_size[self.axis]
         offsets = cell * np.arange(1 - count, count, dtype=np.float64)
@@ -212,7 +206,7 @@ class MovingDomain(ContactDomain):
         )
 
     def _convolved(
-        self, table: NDArray[np.float64], shape: tuple[int, int], *, single: bool = False
+        self, table: Floats, shape: tuple[int, int], *, single: bool = False
     ) -> Operator:
         """Convolution with a table over a block of the domain's cells."""
         axis = self.axis
@@ -234,12 +228,12 @@ def _coefficient_on(grid: Grid, axis: int, response: SurfaceResponse) -> Coeffic
     """Influence coefficients of an elastic surface, with images across the motion if periodic."""
     across_cells, size = grid.shape[1 - axis], grid.size[axis]
 
-    def free(along: Array, across: Array, cell: tuple[float, float]) -> Array:
+    def free(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
         if response is HALF_SPACE:
             return influence_coefficient(along, across, cell)
         return layered_influence_coefficient(along[:, 0], across.size, cell, response)
 
-    def with_images(along: Array, across: Array, cell: tuple[float, float]) -> Array:
+    def with_images(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
         if response is not HALF_SPACE:
             turned = (cell[1], cell[0])
             half = periodic_layered_coefficient(
@@ -259,9 +253,9 @@ def _coefficient_on(grid: Grid, axis: int, response: SurfaceResponse) -> Coeffic
 
 def _remembered(coefficient: Coefficient) -> Coefficient:
     """Coefficients that are kept: displacement and loss ask for those of the same places."""
-    known: dict[bytes, Array] = {}
+    known: dict[bytes, Floats] = {}
 
-    def kept(along: Array, across: Array, cell: tuple[float, float]) -> Array:
+    def kept(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
         key = along.tobytes()  # all have the same places across, and cells
         if key not in known:
             known[key] = coefficient(along, across, cell)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Singles
 from viscontact.contact.response_parts import Operator
 from viscontact.contact.rigid_balance import RigidPlane
 from viscontact.halfspace.preconditioner import Preconditioner
@@ -37,7 +37,7 @@ class PatchOperators:
         """Approximate inverse of the convolution."""
         return self._preconditioner()
 
-    def near_stiffness(self, spare: NDArray[np.float32]) -> dict[tuple[int, int], np.float32]:
+    def near_stiffness(self, spare: Singles) -> dict[tuple[int, int], np.float32]:
         """Stiffness between a cell and those around it, by their offsets [1/m]; uses a field up."""
         if not self._near:
             rows, columns = (count // 2 for count in self._shape)
@@ -79,7 +79,7 @@ class Patch:
         """Approximate inverse of the convolution."""
         return self.operators.preconditioner
 
-    def cut(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def cut(self, field: Floats) -> Floats:
         """The patch's part of a field."""
         return field[self.rows, self.columns]
 

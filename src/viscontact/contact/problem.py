@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.patch import Patch
 from viscontact.contact.rigid_balance import Constraints
 
@@ -17,7 +17,7 @@ class ContactProblem:
 
     #: Indenter's gap plus the displacement from the load history, +inf outside the body [m]; shape
     #: (nx, ny).
-    open_gap: NDArray[np.float64]
+    open_gap: Floats
     compliance: float  # contact compliance of the new pressure [1/Pa]
     constraints: Constraints  # resultants or prescribed motions
     displacement_scale: float  # smallest displacement that errors are relative to [m]
@@ -42,29 +42,29 @@ class Guess:
     """Pressure, its unit displacement, and the body's rigid motion."""
 
     #: Pressure [Pa] and unit displacement K p of it [Pa m]; shape (2, nx, ny).
-    values: NDArray[np.float64]
-    motion: NDArray[np.float64]  # approach [m] and tilts along x and y [rad]
+    values: Floats
+    motion: Floats  # approach [m] and tilts along x and y [rad]
 
     @classmethod
     def of(
         cls,
-        pressure: NDArray[np.float64],
-        unit_displacement: NDArray[np.float64],
-        motion: NDArray[np.float64],
+        pressure: Floats,
+        unit_displacement: Floats,
+        motion: Floats,
     ) -> Guess:
         """Guess from a pressure [Pa] and its unit displacement [Pa m], which are copied."""
         return cls(np.stack([pressure, unit_displacement]), motion)
 
     @property
-    def pressure(self) -> NDArray[np.float64]:
+    def pressure(self) -> Floats:
         """Pressure [Pa]."""
-        pressure: NDArray[np.float64] = self.values[0]
+        pressure: Floats = self.values[0]
         return pressure
 
     @property
-    def unit_displacement(self) -> NDArray[np.float64]:
+    def unit_displacement(self) -> Floats:
         """Unit displacement K p of that pressure [Pa m]."""
-        displacement: NDArray[np.float64] = self.values[1]
+        displacement: Floats = self.values[1]
         return displacement
 
     def within(self, patch: Patch) -> Guess:

@@ -8,14 +8,14 @@ out on any grid, since the convolution is symmetric; it is used where little is 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 
 
 def resistance_by_slope(
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     grid: Grid,
     indenter: Indenter,
     tilts: tuple[float, float],
@@ -51,7 +51,7 @@ def resistance_by_slope(
     return found[0], found[1]
 
 
-def reaches_end(pressure: NDArray[np.float64], grid: Grid, indenter: Indenter) -> tuple[bool, bool]:
+def reaches_end(pressure: Floats, grid: Grid, indenter: Indenter) -> tuple[bool, bool]:
     """Test whether the contact reaches an end of the body along x, and along y.
 
     The pressure on an edge is singular, and its force along the surface is in neither form.
@@ -72,7 +72,7 @@ def reaches_end(pressure: NDArray[np.float64], grid: Grid, indenter: Indenter) -
     return along_x, along_y
 
 
-def is_even(pressure: NDArray[np.float64]) -> tuple[bool, bool]:
+def is_even(pressure: Floats) -> tuple[bool, bool]:
     """Test whether a pressure is even about the middle of the grid along x, and along y.
 
     An even contact has no force along that axis, at sharp ends either.
@@ -87,7 +87,7 @@ def is_even(pressure: NDArray[np.float64]) -> tuple[bool, bool]:
 
 
 def resistance_by_displacement(
-    pressure: NDArray[np.float64], displacement: NDArray[np.float64], grid: Grid
+    pressure: Floats, displacement: Floats, grid: Grid
 ) -> tuple[float, float]:
     """Resistance along x and y [N] from the slopes of the surface under the pressure.
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
@@ -34,7 +34,7 @@ class PartOperators:
         self._operators: dict[SurfaceResponse, Any] = {}
         self._single: Any = None
         self._preconditioner: Preconditioner | None = None
-        self._ratios: dict[SurfaceResponse, NDArray[np.float64]] = {}
+        self._ratios: dict[SurfaceResponse, Floats] = {}
 
     def operator(self, part: SurfaceResponse) -> Operator:
         """Operator of one part, in double precision."""

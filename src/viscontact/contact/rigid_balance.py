@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import DTypeLike
 
+from viscontact.backend.arrays import Bools, Floats, Numbers
 from viscontact.backend.team import Team, blocks_of
 from viscontact.loads import LoadPoint
 
@@ -69,20 +70,20 @@ class Constraints:
         return Constraints((force, moments[0], moments[1]), (approach, tilts[0], tilts[1]))
 
     @cached_property
-    def free(self) -> NDArray[np.bool_]:
+    def free(self) -> Bools:
         """The motions that the balances determine."""
         return np.array([resultant is not None for resultant in self.resultants])
 
     @cached_property
-    def targets(self) -> NDArray[np.float64]:
+    def targets(self) -> Floats:
         """Resultants, zero where the motion is prescribed."""
         return np.array([resultant or 0.0 for resultant in self.resultants])
 
-    def with_prescribed(self, motion: NDArray[np.float64]) -> NDArray[np.float64]:
+    def with_prescribed(self, motion: Floats) -> Floats:
         """A motion with its prescribed components set."""
         return np.where(self.free, motion, np.array(self.motions))
 
-    def imbalance(self, sums: NDArray[np.float64], arm: float) -> float:
+    def imbalance(self, sums: Floats, arm: float) -> float:
         """Largest relative error of the balances of resultants `sums` [N, N m, N m].
 
         Moments are divided by `arm` [m]; errors are relative to the force or its target, the
@@ -109,8 +110,8 @@ class RigidPlane:
 
     def __init__(
         self,
-        x: NDArray[np.float64],
-        y: NDArray[np.float64],
+        x: Floats,
+        y: Floats,
         cell_size: tuple[float, float],
         mirrored: tuple[bool, bool] = (False, False),
         team: Team | None = None,
@@ -127,21 +128,19 @@ class RigidPlane:
         self._units = np.outer(unit, unit)
 
     @property
-    def extents(self) -> NDArray[np.float64]:
+    def extents(self) -> Floats:
         """Largest values of 1, x and y over the cells [-, m, m]."""
         return np.array([1.0, np.abs(self._x).max(), np.abs(self._y).max()])
 
-    def height(self, coefficients: NDArray[np.float64]) -> float:
+    def height(self, coefficients: Floats) -> float:
         """Upper limit of the plane's absolute values."""
         return float(np.abs(coefficients) @ self.extents)
 
-    def column(self, row: int, column: int) -> NDArray[np.float64]:
+    def column(self, row: int, column: int) -> Floats:
         """Values of 1, x and y of one cell [-, m, m]."""
         return np.array([1.0, self._x[row], self._y[column]])
 
-    def field(
-        self, coefficients: NDArray[np.float64], kind: DTypeLike = np.float64
-    ) -> NDArray[Any]:
+    def field(self, coefficients: Floats, kind: DTypeLike = np.float64) -> Numbers:
         """The plane on the cells: one column for all of them if it is level along y."""
         along_x = (coefficients[0] + coefficients[1] * self._x).astype(kind, copy=False)
         if coefficients[2] == 0:
@@ -163,11 +162,11 @@ class RigidPlane:
             for rows in lines
         ]
 
-    def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def sums(self, values: Floats) -> Floats:
         """Sums of a field against 1, x and y."""
         return added(self.each(lambda block: block.sums_of_rows(values[block.rows])))
 
-    def sums_of_rows(self, values: NDArray[Any]) -> NDArray[np.float64]:
+    def sums_of_rows(self, values: Numbers) -> Floats:
         """Sums of the rows of one block against 1, x and y, at once."""
         # Not as matrix products: BLAS would start threads, which cost more than they save. Of a
         # matrix `einsum` takes half the time of `sum`.
@@ -177,7 +176,7 @@ class RigidPlane:
         moment_y = 0.0 if self._mirrored[1] else np.einsum("ij->j", values) @ self._y
         return np.array([along_x.sum(), moment_x, moment_y])
 
-    def inverse_gram(self, weight: NDArray[Any], free: NDArray[np.bool_]) -> NDArray[np.float64]:
+    def inverse_gram(self, weight: Numbers, free: Bools) -> Floats:
         """Pseudo-inverse of the weighted sums of (1, x, y) (1, x, y)ᵀ over the free coefficients.
 
         Where the cells determine only some coefficients (one cell, or a line of cells) the others
@@ -186,14 +185,12 @@ class RigidPlane:
         moments = self.each(lambda block: block.moments_of_rows(weight[block.rows]))
         return self.inverse_of(moments, free)
 
-    def inverse_of(
-        self, moments: Sequence[Moments], free: NDArray[np.bool_]
-    ) -> NDArray[np.float64]:
+    def inverse_of(self, moments: Sequence[Moments], free: Bools) -> Floats:
         """The same of the moments of all blocks."""
         total = moments[0] if len(moments) == 1 else tuple(map(sum, zip(*moments, strict=True)))
         return _inverse(total, free) * self._units
 
-    def moments_of_rows(self, weight: NDArray[Any]) -> Moments:
+    def moments_of_rows(self, weight: Numbers) -> Moments:
         """Sums of the rows' weights times 1, x, y, x², xy, y² in cells; no squares if mirrored."""
         column, row = self._column, self._row
         # Sums of up to 2^24 are exact in single precision, which takes half the time.
@@ -215,12 +212,12 @@ class RigidPlane:
         return tuple(map(float, (n, x, y, xx, xy, yy)))
 
 
-def added(parts: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+def added(parts: Sequence[Floats]) -> Floats:
     """Sum of the sums of all blocks."""
     return parts[0] if len(parts) == 1 else np.asarray(np.sum(parts, axis=0))
 
 
-def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _inverse(moments: tuple[float, ...], free: Bools) -> Floats:
     """Rank-revealing inverse: eliminates the mean first, if it is free, then the slopes.
 
     In plain numbers, as it is called in every iteration, and arrays of three are slow.
@@ -257,12 +254,12 @@ def _pseudo_inverse(
 
 
 def restore_balance(
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
     arm: float,
-) -> NDArray[np.float64] | None:
+) -> Floats | None:
     """Cut off tension, and multiply by a plane so that force and moments match the constraints.
 
     None if the cells under pressure cannot carry the resultants. `arm` [m] scales moments as in
@@ -273,7 +270,7 @@ def restore_balance(
 
 
 def balance(
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
@@ -282,12 +279,12 @@ def balance(
     """Balance a pressure as `restore_balance` does, in its own memory; False if it cannot be."""
     target = constraints.targets / cell_area
 
-    def cut(block: RigidPlane) -> tuple[NDArray[np.float64], Moments]:
+    def cut(block: RigidPlane) -> tuple[Floats, Moments]:
         here = pressure[block.rows]
         np.maximum(here, 0.0, out=here)
         return block.sums_of_rows(here), block.moments_of_rows(here)
 
-    def scaled(block: RigidPlane) -> tuple[NDArray[np.float64], float]:
+    def scaled(block: RigidPlane) -> tuple[Floats, float]:
         here = pressure[block.rows]
         here *= block.field(factor)
         return block.sums_of_rows(here), float(here.min())

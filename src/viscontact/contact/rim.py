@@ -13,11 +13,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.contact.body_edge import Outline
 from viscontact.contact.rim_crossings import MARGIN, locate_rim, places
 from viscontact.grid import Grid
@@ -41,13 +40,13 @@ class Rim:
     """
 
     grid: Grid
-    contact: NDArray[np.bool_]  # cells under pressure in the block
+    contact: Bools  # cells under pressure in the block
     #: Distance from the inner centre, in cells, as in `Outline`; negative where that centre lies
     #: just outside, and of any size on a chord that crosses the line outside the cells.
-    along_x: NDArray[np.float64]
-    along_y: NDArray[np.float64]
-    rows: NDArray[np.intp]  # position of the block in the grid
-    columns: NDArray[np.intp]
+    along_x: Floats
+    along_y: Floats
+    rows: Integers  # position of the block in the grid
+    columns: Integers
     segment: float  # area between rim and chords per quarter turn [cells]
 
     @property
@@ -83,7 +82,7 @@ class Rim:
         return min(ended or extents)
 
     @cached_property
-    def _touched(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _touched(self) -> tuple[Integers, Integers]:
         """Rows and columns of the block that have contact."""
         rows, columns = (np.flatnonzero(self.contact.any(axis=axis)) for axis in (1, 0))
         return rows, columns
@@ -100,7 +99,7 @@ class Rim:
         ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
         return min(touched[k] for k in ends) if ends else max(counts)
 
-    def cut(self, field: NDArray[Any]) -> NDArray[Any]:
+    def cut(self, field: Numbers) -> Numbers:
         """The block's part of a field on the grid."""
         if any(self.grid.periodic):
             return field[np.ix_(self.rows, self.columns)]
@@ -109,9 +108,7 @@ class Rim:
         return field[rows, columns]
 
 
-def mean_chords(
-    contact: NDArray[np.bool_], *, periodic: Sequence[bool] = (False, False)
-) -> NDArray[np.float64]:
+def mean_chords(contact: Bools, *, periodic: Sequence[bool] = (False, False)) -> Floats:
     """Mean numbers of consecutive cells in contact along x and along y.
 
     Along a periodic axis the last cell of a line is followed by the first.
@@ -132,8 +129,8 @@ def mean_chords(
 
 def trace_rim(
     grid: Grid,
-    contact: NDArray[np.bool_],
-    gap: NDArray[np.float64],
+    contact: Bools,
+    gap: Floats,
     outline: Outline | None = None,
 ) -> Rim:
     """Locate the rim of a contact between cell centres.
@@ -171,7 +168,7 @@ def trace_rim(
     return Rim(grid, contact, along_x, along_y, first, second, _mean_segment(contact, gap))
 
 
-def _block(contact: NDArray[np.bool_], axis: int) -> slice:
+def _block(contact: Bools, axis: int) -> slice:
     """The contact's span along an axis, and the open cells on both sides."""
     touched = np.flatnonzero(contact.any(axis=1 - axis))
     if len(touched) == 0:
@@ -179,9 +176,7 @@ def _block(contact: NDArray[np.bool_], axis: int) -> slice:
     return slice(max(int(touched[0]) - MARGIN, 0), int(touched[-1]) + 1 + MARGIN)
 
 
-def _trace_around(
-    grid: Grid, contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: Outline | None
-) -> Rim:
+def _trace_around(grid: Grid, contact: Bools, gap: Floats, outline: Outline | None) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
     segment = _mean_segment(contact, gap, periodic=grid.periodic)
     (rows, wide_rows, inner_rows), (columns, wide_columns, inner_columns) = (
@@ -200,9 +195,7 @@ def _trace_around(
     return Rim(grid, contact[inner], along_x[inner], along_y[inner], rows, columns, segment)
 
 
-def _lines_around(
-    contact: NDArray[np.bool_], axis: int, *, repeats: bool
-) -> tuple[NDArray[np.intp], NDArray[np.intp], slice]:
+def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers, Integers, slice]:
     """Lines of the block, more of a period from which its rim is extrapolated, and its place."""
     if not repeats:
         lines = np.arange(contact.shape[axis])[_block(contact, axis)]
@@ -211,7 +204,7 @@ def _lines_around(
     return lines, _beyond(lines, contact.shape[axis]), slice(MARGIN, -MARGIN)
 
 
-def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
+def _turn(contact: Bools, axis: int) -> Integers:
     """Lines of a contact, and an open one on both sides unless it fills the period."""
     touched = np.flatnonzero(contact.any(axis=1 - axis))
     count = contact.shape[axis]
@@ -225,14 +218,14 @@ def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
     return np.asarray((np.arange(-1, extent + 2) + touched[begins]) % count)
 
 
-def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+def _beyond(lines: Integers, count: int) -> Integers:
     """Given lines, and more before and behind them."""
     return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
 
 
 def _mean_segment(
-    contact: NDArray[np.bool_],
-    gap: NDArray[np.float64],
+    contact: Bools,
+    gap: Floats,
     *,
     periodic: Sequence[bool] = (False, False),
 ) -> float:
@@ -278,9 +271,7 @@ def _enclosed_squares(rim: Rim) -> float:
     return float(np.count_nonzero(count == 4) + enclosed.sum())
 
 
-def _extent(
-    touched: NDArray[np.intp], contact: NDArray[np.bool_], crossings: NDArray[np.float64]
-) -> float:
+def _extent(touched: Integers, contact: Bools, crossings: Floats) -> float:
     """Extent along the first axis, in cells: the farthest crossings both ways of touched rows."""
     if not touched.size:
         return 0.0

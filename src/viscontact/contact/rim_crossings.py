@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.contact.straight_edge import edge_law
 from viscontact.grid import Grid
-
-Array = NDArray[np.float64]
-
-#: Positions of cells in the padded fields of a block, read row by row.
-Cells = NDArray[np.intp]
 
 #: Open cells beside the contact from which its rim is extrapolated.
 MARGIN = 3
@@ -31,25 +25,25 @@ class _Intervals:
     """Intervals between neighbouring centres in which contact changes, along x, then along y."""
 
     count_along_x: int
-    start: Cells  # cell before the interval
-    inner: Cells  # cell in contact
-    outwards: Cells  # step to the open cell
-    across: Cells  # step to the next line
+    start: Integers  # cell before the interval
+    inner: Integers  # cell in contact
+    outwards: Integers  # step to the open cell
+    across: Integers  # step to the next line
 
     @property
-    def outer(self) -> Cells:
+    def outer(self) -> Integers:
         """Open cells."""
         return self.inner + self.outwards
 
-    def some(self, chosen: NDArray[np.intp]) -> _Intervals:
+    def some(self, chosen: Integers) -> _Intervals:
         """Some of the intervals, in their order."""
         each = (cells[chosen] for cells in (self.start, self.inner, self.outwards, self.across))
         return _Intervals(int(np.searchsorted(chosen, self.count_along_x)), *each)
 
 
 def locate_rim(
-    grid: Grid, contact: NDArray[np.bool_], gap: Array, ends: tuple[Array, Array] | None
-) -> tuple[Array, Array]:
+    grid: Grid, contact: Bools, gap: Floats, ends: tuple[Floats, Floats] | None
+) -> tuple[Floats, Floats]:
     """Distances from the inner centres, in cells, where contact changes along x and along y.
 
     `ends` are the distances to the body's outline; NaN, or none at all, is the middle.
@@ -74,26 +68,26 @@ def locate_rim(
     return along_x[:-1], along_y[:, :-1]
 
 
-def places(where: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def places(where: Bools) -> tuple[Integers, Integers]:
     """Rows and columns of the true entries; `np.nonzero` takes eight times as long."""
     return np.divmod(np.flatnonzero(where), where.shape[1])
 
 
-def _padded(field: NDArray[Any], outside: float) -> NDArray[Any]:
+def _padded(field: Numbers, outside: float) -> Numbers:
     """Field of a block with a value around it; `np.pad` takes several times as long."""
     padded = np.full([count + 2 * PADDING for count in field.shape], outside, field.dtype)
     padded[PADDING:-PADDING, PADDING:-PADDING] = field
     return padded
 
 
-def _put(fields: Array, intervals: _Intervals, values: Array) -> None:
+def _put(fields: Floats, intervals: _Intervals, values: Floats) -> None:
     """Write values of intervals to the fields along x and along y."""
     split = intervals.count_along_x
     fields[0, intervals.start[:split]] = values[:split]
     fields[1, intervals.start[split:]] = values[split:]
 
 
-def _changes(contact: NDArray[np.bool_]) -> _Intervals:
+def _changes(contact: Bools) -> _Intervals:
     """Intervals in which contact changes."""
     rows, columns = zip(
         places(contact[1:] != contact[:-1]), places(contact[:, 1:] != contact[:, :-1]), strict=True
@@ -110,8 +104,8 @@ def _changes(contact: NDArray[np.bool_]) -> _Intervals:
 
 
 def _by_gaps(
-    grid: Grid, intervals: _Intervals, contact: NDArray[np.bool_], gap: Array
-) -> tuple[Array, Array]:
+    grid: Grid, intervals: _Intervals, contact: Bools, gap: Floats
+) -> tuple[Floats, Floats]:
     """Distances from the inner centres by the gaps further out, and slopes of the rim.
 
     The middle, if the second gap is not wider (a groove of one cell, the body's end).
@@ -139,7 +133,7 @@ def _by_gaps(
     return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope
 
 
-def _body_ends(ends: tuple[Array, Array], intervals: _Intervals, width: int) -> Array:
+def _body_ends(ends: tuple[Floats, Floats], intervals: _Intervals, width: int) -> Floats:
     """Distances to the body's outline, the middle where it is not known."""
     row, column = (each - PADDING for each in np.divmod(intervals.start, width))
     split = intervals.count_along_x
@@ -150,9 +144,7 @@ def _body_ends(ends: tuple[Array, Array], intervals: _Intervals, width: int) -> 
     return np.where(np.isnan(found), 0.5, found)
 
 
-def _by_chords(
-    fields: Array, intervals: _Intervals, contact: NDArray[np.bool_], opens: NDArray[np.bool_]
-) -> Array:
+def _by_chords(fields: Floats, intervals: _Intervals, contact: Bools, opens: Bools) -> Floats:
     """Distances of chords between the nearest crossings along the other axis, NaN without both.
 
     The gap increases towards the next line where it `opens`, else towards the line before.

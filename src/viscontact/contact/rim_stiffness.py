@@ -11,11 +11,9 @@ left remains positive definite.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Numbers, Singles
 from viscontact.contact.patch import Patch
 from viscontact.contact.rigid_balance import RigidPlane
 
@@ -37,9 +35,7 @@ class RimStiffness:
         self._patch = patch
         self._stiffness = np.zeros(patch.shape, np.float32)  # [1/m]
 
-    def follow(
-        self, active: NDArray[np.bool_], last: NDArray[np.bool_], spare: NDArray[np.float32]
-    ) -> None:
+    def follow(self, active: Bools, last: Bools, spare: Singles) -> None:
         """Find the stiffness for other active cells than the last ones; `spare` is used up."""
         changed = np.flatnonzero(active != last)
         if len(changed) > FEW_CHANGES * active.size:
@@ -54,7 +50,7 @@ class RimStiffness:
             near = near_rows[inside], near_columns[inside]
             np.add.at(self._stiffness, near, sign[inside] * stiffness)
 
-    def correct(self, found: NDArray[Any], residual: NDArray[Any]) -> None:
+    def correct(self, found: Numbers, residual: Numbers) -> None:
         """Take the correction from a preconditioned residual, in its memory."""
 
         def corrected(block: RigidPlane) -> None:

@@ -17,8 +17,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.contact_residual import ContactResidual, contact_residual
 from viscontact.contact.moving_domain import MovingDomain
 from viscontact.contact.patch import Patch
@@ -88,7 +88,7 @@ def newton_search(
 
 
 def _measured(
-    problem: ContactProblem, domain: MovingDomain, pressure: NDArray[np.float64], before: Guess
+    problem: ContactProblem, domain: MovingDomain, pressure: Floats, before: Guess
 ) -> tuple[Guess, ContactResidual]:
     """Balanced pressure with its displacement and best motion, and its residual."""
     convolved = Guess.of(pressure, domain.convolution.apply(pressure), before.motion)
@@ -105,15 +105,13 @@ def _displacement(problem: ContactProblem, iterate: Guess) -> float:
 class _LinearSystem:
     """Equations of a set of cells in contact on a patch, on changes without force or moments."""
 
-    def __init__(self, problem: ContactProblem, patch: Patch, cells: NDArray[np.bool_]) -> None:
+    def __init__(self, problem: ContactProblem, patch: Patch, cells: Bools) -> None:
         self.cells, self.convolutions = cells, 0
         self._patch, self._compliance = patch, problem.compliance
         self._weight = cells.astype(float)
         self._inverse = patch.plane.inverse_gram(self._weight, problem.constraints.free)
 
-    def closed(
-        self, gap: NDArray[np.float64], accuracy: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def closed(self, gap: Floats, accuracy: float) -> tuple[Floats, Floats]:
         """Change of pressure that closes the gap on the set, and the gap after it.
 
         By GMRES, preconditioned from the right, until the norm of the gap on the set is
@@ -123,10 +121,10 @@ class _LinearSystem:
         residual = self._projected(gap)[cells]
         norm = _norm(residual)
         goal = max(REDUCTION * norm, accuracy)
-        factors: NDArray[np.float64] = np.empty(0)
+        factors: Floats = np.empty(0)
         basis = [residual / norm] if norm else []
-        directions: list[NDArray[np.float64]] = []
-        images: list[NDArray[np.float64]] = []
+        directions: list[Floats] = []
+        images: list[Floats] = []
         hessenberg = np.zeros((MAX_VECTORS + 1, MAX_VECTORS))
         left = norm
         while left > goal and len(directions) < MAX_VECTORS:
@@ -154,9 +152,7 @@ class _LinearSystem:
         gap -= plane.field(self._inverse @ plane.sums(np.where(cells, gap, 0.0)))
         return change, gap
 
-    def _searched(
-        self, vector: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _searched(self, vector: Floats) -> tuple[Floats, Floats]:
         """Preconditioned direction of pressure [Pa], and its displacement [m]."""
         field = np.zeros(self.cells.shape)
         field[self.cells] = vector
@@ -164,7 +160,7 @@ class _LinearSystem:
         self.convolutions += 1
         return direction, self._compliance * self._patch.convolution.apply(direction)
 
-    def _projected(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _projected(self, field: Floats) -> Floats:
         """Part of a field on the set that has no force and moments."""
         plane, weight = self._patch.plane, self._weight
         field = np.where(self.cells, field, 0.0)
@@ -172,9 +168,7 @@ class _LinearSystem:
         return field
 
 
-def _least_squares(
-    hessenberg: NDArray[np.float64], norm: float
-) -> tuple[NDArray[np.float64], float]:
+def _least_squares(hessenberg: Floats, norm: float) -> tuple[Floats, float]:
     """Factors of the directions with the least residual, and its norm."""
     right = np.zeros(len(hessenberg))
     right[0] = norm
@@ -183,11 +177,11 @@ def _least_squares(
 
 
 def _feasible(
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     problem: ContactProblem,
     domain: MovingDomain,
-    active: NDArray[np.bool_],
-) -> NDArray[np.float64] | None:
+    active: Bools,
+) -> Floats | None:
     """Pressure without tension, balanced by a plane factor, else by adding a plane."""
     whole, constraints = domain.whole, problem.constraints
     others = constraints, whole.plane, whole.cell_area
@@ -198,7 +192,7 @@ def _feasible(
     return balanced
 
 
-def _norm(field: NDArray[np.float64]) -> float:
+def _norm(field: Floats) -> float:
     # Not by BLAS, which would start threads.
     """Euclidean norm."""
     flat = field.ravel()

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 #: Normals (m, n) of edges: m steps across the edge for a cell along the line, n for one beside it.
 NORMALS = ((1, 0), (10, 1), (5, 1), (3, 1), (2, 1), (3, 2), (4, 3), (5, 4), (10, 9), (1, 1))
@@ -62,7 +61,7 @@ class EdgeLaw:
     slopes: tuple[float, ...] = (0.0,)  # slopes of the edge, in cells
     offsets: tuple[float, ...] = (0.0,)  # mean errors of the distance at these slopes [cells]
 
-    def distance(self, first: Array, second: Array, third: Array) -> Array:
+    def distance(self, first: Floats, second: Floats, third: Floats) -> Floats:
         """Distance from the rim of the first of three open centres along a line, in cells.
 
         The gaps increase outwards; a third of NaN is unknown.
@@ -82,7 +81,7 @@ class EdgeLaw:
         curvature = np.minimum(np.maximum(curvature, -MAX_CURVATURE), MAX_CURVATURE)
         return np.asarray(self.threshold + t - curvature * shift)
 
-    def offset(self, slope: Array) -> Array:
+    def offset(self, slope: Floats) -> Floats:
         """Mean error of the distance where the rim moves by `slope` cells per line, in cells."""
         return np.interp(np.abs(slope), self.slopes, self.offsets)
 
@@ -114,9 +113,9 @@ class _StraightEdge:
 
     spacing: float  # of lattice planes parallel to the edge
     threshold: float
-    growth: Array  # b_l
+    growth: Floats  # b_l
 
-    def gaps(self, beyond: Array) -> Array:
+    def gaps(self, beyond: Floats) -> Floats:
         """Gaps at distances from the threshold, over their first slope."""
         steps = np.arange(len(self.growth))[:, None] * self.spacing
         return np.asarray(self.growth @ np.maximum(beyond - steps, 0.0))
@@ -152,7 +151,7 @@ def _straight_edge(m: int, n: int, cell_ratio: float, *, periodic: bool) -> _Str
     return _StraightEdge(float(spacing), float(threshold), growth)
 
 
-def _symbol(phase_x: Array, phase_y: Array, cell_ratio: float, *, periodic: bool) -> Array:
+def _symbol(phase_x: Floats, phase_y: Floats, cell_ratio: float, *, periodic: bool) -> Floats:
     """1/|q| of the half-space on cells of unit length at phases per cell along both axes.
 
     On a periodic grid the coefficients have the exact symbol. Elsewhere they belong to rectangles

@@ -8,8 +8,8 @@ under a stiff foundation do not determine the tilt, the many cells of a soft one
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.clearance import ROUNDING, just_clear, touching_motion
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 
@@ -24,12 +24,12 @@ MAX_NEWTON = 40
 
 
 def winkler_contact(
-    open_gap: NDArray[np.float64],
+    open_gap: Floats,
     compliance: float,
     constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Balanced pressure [Pa] and rigid motion of a body on a Winkler foundation.
 
     The stiffness of the springs is matched to the half-space by the size of the contact, 1/(J
@@ -54,11 +54,11 @@ def winkler_contact(
 
 
 def _tilted(
-    gap: NDArray[np.float64],
-    given: NDArray[np.float64],
+    gap: Floats,
+    given: Floats,
     plane: RigidPlane,
-    free: NDArray[np.bool_],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    free: Bools,
+) -> tuple[Floats, Floats]:
     """Tilts and overlap [m] under a prescribed motion; the body tilts no more than necessary."""
     touching = touching_motion(gap, plane, free)
     turned = touching * np.array([0.0, 1.0, 1.0])
@@ -72,12 +72,12 @@ def _tilted(
 
 
 def project_onto_balance(
-    pressure: NDArray[np.float64],
-    cells: NDArray[np.bool_],
+    pressure: Floats,
+    cells: Bools,
     constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Nearest non-negative pressure [Pa] with the prescribed resultants.
 
     A plane is added and tension cut off, as on springs that are already compressed. Only the given
@@ -104,11 +104,11 @@ def project_onto_balance(
 
 
 def _balanced(
-    gap: NDArray[np.float64],
-    target: NDArray[np.float64],
+    gap: Floats,
+    target: Floats,
     plane: RigidPlane,
-    free: NDArray[np.bool_],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    free: Bools,
+) -> tuple[Floats, Floats]:
     """Motion and overlap on a foundation that is stiffened step by step to the final one."""
     solid = np.isfinite(gap)
     bearing = solid.astype(float)
@@ -125,13 +125,13 @@ def _balanced(
 
 
 def _newton_solve(
-    gap: NDArray[np.float64],
-    motion: NDArray[np.float64],
-    target: NDArray[np.float64],
+    gap: Floats,
+    motion: Floats,
+    target: Floats,
     plane: RigidPlane,
-    free: NDArray[np.bool_],
-    bearing: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    free: Bools,
+    bearing: Floats,
+) -> tuple[Floats, Floats]:
     """Motion of least energy and its overlap, by a damped Newton method.
 
     The cells in contact on the last, softer foundation (`bearing`) add a little stiffness, so that
@@ -154,11 +154,11 @@ def _newton_solve(
 
 
 def _energy(
-    gap: NDArray[np.float64],
-    motion: NDArray[np.float64],
-    target: NDArray[np.float64],
+    gap: Floats,
+    motion: Floats,
+    target: Floats,
     plane: RigidPlane,
-) -> tuple[float, NDArray[np.float64]]:
+) -> tuple[float, Floats]:
     """Energy of a motion, over the stiffness, and the overlap [m]."""
     overlap = np.maximum(plane.field(motion) - gap, 0.0)
     return float(np.square(overlap).sum() / 2 - target @ motion), overlap

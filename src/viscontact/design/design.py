@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.case import Case, CaseError, read_case
 from viscontact.case.errors import dotted
 from viscontact.design.conclusions import (
@@ -282,7 +282,7 @@ def _checked(
     return own
 
 
-def require_instant(instants: NDArray[np.float64], time: float) -> None:
+def require_instant(instants: Floats, time: float) -> None:
     """Raise ValueError if a time [s] is none of the instants."""
     near = float(instants[np.abs(instants - time).argmin()])
     if not np.isclose(near, time, rtol=1e-9, atol=0):

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.runs.sweep.sampling import Range, bounded
 from viscontact.units.parsing import split_quantity
 
@@ -81,7 +81,7 @@ class Space:
         """Numbers of the parameters that are ranges, which a local search can change."""
         return tuple(n for n, each in enumerate(self.parameters) if isinstance(each, Interval))
 
-    def settings(self, point: Sequence[float] | NDArray[np.float64]) -> dict[str, str]:
+    def settings(self, point: Sequence[float] | Floats) -> dict[str, str]:
         """Values of the case at a point, by key."""
         pairs = zip(self.parameters, point, strict=True)
         return {each.key: each.value(float(np.clip(part, 0.0, 1.0))) for each, part in pairs}

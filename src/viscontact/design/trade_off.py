@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.design.evaluation import Evaluation
 from viscontact.design.goals import Goal
 from viscontact.design.objectives import Objective
@@ -61,12 +61,12 @@ def searched_trade_off(space: Space, evaluation: Evaluation) -> list[tuple[Searc
     return found
 
 
-def costs_of(trials: Sequence[Trial], goals: Sequence[Goal]) -> NDArray[np.float64]:
+def costs_of(trials: Sequence[Trial], goals: Sequence[Goal]) -> Floats:
     """Costs of all goals in some trials, of shape (trials, goals)."""
     return np.array([[goal.cost(each.worst(goal).value) for goal in goals] for each in trials])
 
 
-def not_dominated(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
+def not_dominated(costs: Floats) -> Bools:
     """Rows of which no other one is as good in every cost and better in one.
 
     >>> not_dominated(np.array([[1.0, 3.0], [2.0, 2.0], [2.0, 4.0], [np.nan, 0.0]])).tolist()

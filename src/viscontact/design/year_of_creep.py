@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.case import Case
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.loads import ApproachHistory, ForceHistory
@@ -35,7 +35,7 @@ def creeps_on(case: Case) -> bool:
     return held and bool(case.compliance(YEAR) > (1 + CREEP) * case.compliance.instant)
 
 
-def year_of_instants(case: Case) -> NDArray[np.float64]:
+def year_of_instants(case: Case) -> Floats:
     """Instants of a case, and others up to a year, a day and a week among them [s]."""
     adaptive = case.adaptive
     own = case.instants if adaptive is None else np.geomspace(FIRST, 1, STEPS) * adaptive.end

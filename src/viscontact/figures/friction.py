@@ -7,15 +7,13 @@ import math
 import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.plot.motion.friction import friction_limits, limit_speeds
 from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.units.formatting import ReadableUnit, format_compact
-
-Floats = NDArray[np.float64]
 
 NAME = "friction_coefficient"
 #: Room above and below the values, as a factor.

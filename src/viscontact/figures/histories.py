@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Singles
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers, words
 from viscontact.figures.run_scale import RunScale, run_scale
 from viscontact.results.recorded_case import prescribes_approach
@@ -24,8 +24,6 @@ from viscontact.results.stated_errors import (
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
 from viscontact.units.formatting import ReadableUnit
-
-Floats = NDArray[np.float64]
 
 #: Names of the frames of a linear and a logarithmic axis.
 LINEAR, LOGARITHMIC = "linear", "log"
@@ -204,7 +202,7 @@ def _event_lines(ds: xr.Dataset, scale: RunScale, look: Look, *, log: bool) -> l
     ]
 
 
-def _band(ds: xr.Dataset, name: str, unit: ReadableUnit) -> NDArray[np.float32]:
+def _band(ds: xr.Dataset, name: str, unit: ReadableUnit) -> Singles:
     """Edges of the band: a closed polygon for each run of instants whose error is known."""
     values, errors = drawn_values(ds, name), errors_of(ds, name)
     low, high = unit(values - errors), unit(values + errors)

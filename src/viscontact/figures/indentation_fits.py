@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import plotly.graph_objects as go
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.identification import ContactPoint, IndentationFit
 from viscontact.identification.contact_point import deflection_in_contact
-
-Floats = NDArray[np.float64]
 
 #: Most points of a measured curve; of longer ones, every so many.
 _MOST = 3000

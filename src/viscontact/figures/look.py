@@ -13,8 +13,9 @@ import numpy as np
 import plotly.graph_objects as go
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Singles
 from viscontact.results.formatting import format_with_error, format_with_error_in
 from viscontact.units.formatting import ReadableUnit, format_number, without_trailing_zeros
 from viscontact.units.systems import AUTOMATIC, unit_in
@@ -160,7 +161,7 @@ def _in_steps(packed: Part, step: float) -> Part:
     return packed | {"dtype": "u2", "bdata": written, "step": step}
 
 
-def numbers(values: ArrayLike) -> NDArray[np.float32]:
+def numbers(values: ArrayLike) -> Singles:
     """Numbers to seven digits, which a page holds in four bytes each; NaN interrupts a line."""
     found = np.asarray(values, dtype=np.float32)
     # Plotly packs no empty array; a single NaN draws nothing either.

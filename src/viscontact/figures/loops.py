@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
-from numpy.typing import NDArray
 
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.results.recorded_case import case_of, recorded_object
@@ -16,8 +15,6 @@ from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import drawn_values, errors_of, is_rounding
 from viscontact.results.worst_values import LoadCycle, last_cycle
 from viscontact.units.formatting import format_quantity
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 import plotly.graph_objects as go
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.figures.shown_fields import BodyPlace, ShownFields
 from viscontact.plot.pressure.rim_polygons import rim_curves
@@ -16,8 +16,6 @@ from viscontact.results.run_axis import TIME
 from viscontact.results.snapshots import Snapshot, headings_of, labels_of
 from viscontact.units.formatting import ReadableUnit, format_compact
 from viscontact.units.systems import AUTOMATIC
-
-Floats = NDArray[np.float64]
 
 #: More cells than these along an axis are joined.
 MOST_CELLS = 256

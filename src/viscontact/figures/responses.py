@@ -9,8 +9,8 @@ from html import escape
 import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.plot.sweeps.key_axis import KeyAxis, is_number, key_labels
 from viscontact.results.largest_values import (
@@ -23,8 +23,6 @@ from viscontact.results.largest_values import (
 from viscontact.results.variables import SCALARS
 from viscontact.results.verdicts import limits_of
 from viscontact.units.formatting import ReadableUnit, format_compact, format_quantity
-
-Floats = NDArray[np.float64]
 
 #: Most keys of runs that are no grid, and most curves in the legend.
 _MOST_KEYS, _MOST_CURVES = 4, 10
@@ -106,7 +104,7 @@ class _Runs:
     places: Floats
     values: Floats
     errors: Floats
-    missing: NDArray[np.bool_]
+    missing: Bools
     names: list[str]
     label: str
     colour: str

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.figures.look import Look, Part
 from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.units.formatting import ReadableUnit, clock_ticks, format_compact
-
-Floats = NDArray[np.float64]
 
 #: Decades between the instant 0 and the first step on a logarithmic axis.
 _BEFORE = 0.5

@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.figures.pressure_map import nearest_to
 from viscontact.figures.shown_fields import ShownFields
@@ -19,7 +19,6 @@ from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import ReadableUnit, format_compact
 
-Floats = NDArray[np.float64]
 #: Positions [m] and values [SI] of a curve.
 Curve = tuple[Floats, Floats]
 

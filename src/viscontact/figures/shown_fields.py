@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.pressure_map import has_many_spots
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
@@ -117,6 +117,6 @@ def _marked(ds: xr.Dataset, snapshots: Sequence[Snapshot]) -> tuple[bool, ...]:
     return tuple(bool(marked[np.abs(instants - each.time).argmin()]) for each in snapshots)
 
 
-def _between(positions: NDArray[np.float64], limits: tuple[float, float]) -> slice:
+def _between(positions: Floats, limits: tuple[float, float]) -> slice:
     within = np.flatnonzero((positions >= limits[0]) & (positions <= limits[1]))
     return slice(int(within[0]), int(within[-1]) + 1)

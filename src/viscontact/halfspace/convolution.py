@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from copy import copy
 from functools import partial
-from typing import Any, Self, TypeAlias
+from typing import Self, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.team import Team, Workspace, blocks_of, order_of
 from viscontact.backend.transforms import (
     Field,
@@ -23,7 +23,7 @@ from viscontact.backend.transforms import (
 from viscontact.halfspace.kernel_spectrum import kernel_spectrum, padded_length
 
 #: Work on a block of lines, in a workspace of its own.
-_Work: TypeAlias = Callable[[slice, NDArray[Any]], None]
+_Work: TypeAlias = Callable[[slice, Numbers], None]
 
 
 class Convolution:
@@ -64,7 +64,7 @@ class Convolution:
 
     def __init__(
         self,
-        coefficients: NDArray[np.float64],
+        coefficients: Floats,
         *,
         mirrored: tuple[bool, bool] = (False, False),
         periodic: tuple[bool, bool] = (False, False),
@@ -137,7 +137,7 @@ class Convolution:
         self._each(self._lines, 0, partial(self._back, result, size, half))
         return result
 
-    def _half_spectrum(self) -> NDArray[Any]:
+    def _half_spectrum(self) -> Numbers:
         """Array for the spectrum along the first axis; in the padded lines if they hold it."""
         if len(self._waves) == 1:
             return _cut(self._padded[0][1], self._second, slice(self.shape[self._second]))
@@ -161,9 +161,9 @@ class Convolution:
         self,
         pressure: Field,
         size: float,
-        half: NDArray[Any],
+        half: Numbers,
         lines: slice,
-        padded: NDArray[Any],
+        padded: Numbers,
     ) -> None:
         """Transform lines of the pressure along the first axis."""
         first, second, transforms = self._first, self._second, self._transforms
@@ -177,7 +177,7 @@ class Convolution:
         else:
             transforms.real_forward(padded, spectrum, first)
 
-    def _multiply(self, half: NDArray[Any], waves: slice, padded: NDArray[Any]) -> None:
+    def _multiply(self, half: Numbers, waves: slice, padded: Numbers) -> None:
         """Transform waves along the second axis, multiply them by the symbol, transform back."""
         first, second, transforms = self._first, self._second, self._transforms
         spectrum = _cut(half, first, waves)
@@ -204,9 +204,9 @@ class Convolution:
         self,
         result: Field,
         size: float,
-        half: NDArray[Any],
+        half: Numbers,
         lines: slice,
-        padded: NDArray[Any],
+        padded: Numbers,
     ) -> None:
         """Transform lines back along the first axis, into the result."""
         first, second, transforms = self._first, self._second, self._transforms
@@ -221,10 +221,10 @@ class Convolution:
 
     def _along_second(
         self,
-        cosine: Callable[[NDArray[Any], int], NDArray[Any]],
-        fourier: Callable[[NDArray[Any], int], NDArray[Any]],
-        spectrum: NDArray[Any],
-    ) -> NDArray[Any]:
+        cosine: Callable[[Numbers, int], Numbers],
+        fourier: Callable[[Numbers, int], Numbers],
+        spectrum: Numbers,
+    ) -> Numbers:
         """Transform in place along the second axis; cosines act on real and imaginary parts."""
         if not self._even[self._second]:
             return fourier(spectrum, self._second)
@@ -243,6 +243,6 @@ def _put(axis: int, along: int, across: int) -> tuple[int, int]:
     return (along, across) if axis == 0 else (across, along)
 
 
-def _cut(field: NDArray[Any], axis: int, part: slice) -> NDArray[Any]:
+def _cut(field: Numbers, axis: int, part: slice) -> Numbers:
     """Part of a field along an axis, in the same memory."""
     return field[part] if axis == 0 else field[:, part]

@@ -25,14 +25,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.halfspace.surface_response import SurfaceResponse
-
-Array = NDArray[Any]
 
 #: Wave number times thickness beyond which a layer is a half-space to rounding.
 DEEP = 20.0
@@ -109,7 +106,7 @@ class ElasticStack(SurfaceResponse):
         q = LONG_WAVE / sum(layer.thickness for layer in self.layers)
         return float(2 / q * self.ratio(np.array(q)))
 
-    def ratio(self, wave_number: Array) -> Array:
+    def ratio(self, wave_number: Numbers) -> Numbers:
         """L at wave numbers [1/m]."""
         q = np.asarray(wave_number)
         waves = _Waves.beneath(self.base, q.shape)
@@ -125,7 +122,7 @@ def _softness(poisson_ratio: float) -> float:
     return (1 - 2 * poisson_ratio) / (2 - 2 * poisson_ratio)
 
 
-def wave_matrix(poisson_ratio: float) -> Array:
+def wave_matrix(poisson_ratio: float) -> Numbers:
     """Matrix A of the waves in a material."""
     a, b = poisson_ratio / (1 - poisson_ratio), _softness(poisson_ratio)
     c = 2 / (1 - poisson_ratio)
@@ -141,7 +138,7 @@ class _Waves:
     tractions.
     """
 
-    vectors: Array
+    vectors: Numbers
     shear_modulus: float
 
     @classmethod
@@ -154,7 +151,7 @@ class _Waves:
         vectors[..., 2, 0] = vectors[..., 3, 1] = 1.0
         return cls(vectors, 1.0)
 
-    def above(self, layer: ElasticLayer, q: Array) -> _Waves:
+    def above(self, layer: ElasticLayer, q: Numbers) -> _Waves:
         """Waves at the upper side of a layer."""
         softer = np.array([1.0, 1.0, 0.0, 0.0]) * (layer.shear_modulus / self.shear_modulus - 1)
         vectors = self.vectors * (1 + softer)[:, None]
@@ -169,13 +166,13 @@ class _Waves:
         return _Waves(moved, layer.shear_modulus)
 
 
-def decaying(poisson_ratio: float) -> Array:
+def decaying(poisson_ratio: float) -> Numbers:
     """Two waves that decay with depth: those of e^-ζ, the columns of (A - 1)²."""
     grown = wave_matrix(poisson_ratio) - np.eye(4)
     return np.asarray((grown @ grown)[:, 2:])
 
 
-def normal_compliance(vectors: Array) -> Array:
+def normal_compliance(vectors: Numbers) -> Numbers:
     """Normal displacement per normal traction without shear traction, of a plane of vectors."""
     (w1, w2), (t1, t2), (s1, s2) = (
         (vectors[..., row, 0], vectors[..., row, 1]) for row in (1, 2, 3)
@@ -183,7 +180,7 @@ def normal_compliance(vectors: Array) -> Array:
     return np.asarray((w1 * t2 - w2 * t1) / (s1 * t2 - s2 * t1))
 
 
-def sliding(compliance: Array) -> Array:
+def sliding(compliance: Numbers) -> Numbers:
     """Waves above an interface without friction: it slides, and yields to normal traction."""
     vectors = np.zeros((*compliance.shape, 4, 2), compliance.dtype)
     vectors[..., 0, 0] = vectors[..., 3, 1] = 1.0
@@ -191,7 +188,7 @@ def sliding(compliance: Array) -> Array:
     return vectors
 
 
-def transfer(depth: Array, poisson_ratio: float) -> Array:
+def transfer(depth: Numbers, poisson_ratio: float) -> Numbers:
     """The matrix exp(-A ζ) e^-ζ that carries a wave up through a layer of ζ = q h; (..., 4, 4)."""
     a = wave_matrix(poisson_ratio)
     n = a @ a - np.eye(4)
@@ -204,7 +201,7 @@ def transfer(depth: Array, poisson_ratio: float) -> Array:
     return np.asarray(sum(f[..., None, None] * m for f, m in zip(factors, matrices, strict=True)))
 
 
-def _odd_difference(depth: Array) -> Array:
+def _odd_difference(depth: Numbers) -> Numbers:
     """Series of ζ cosh ζ - sinh ζ = Σ 2k ζ^(2k+1)/(2k+1)!, which cancels for small ζ."""
     total, term = np.zeros_like(depth), depth
     for k in range(1, 9):

@@ -21,8 +21,9 @@ sums, which lose digits, in place of the inverse hyperbolic sines.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team, blocks_of
 
 #: Beyond this many cell edges the difference of four corner terms cancels, by a factor of about
@@ -47,9 +48,7 @@ SIXTH = np.array(
 ) / [[112], [720], [720], [112]]
 
 
-def influence_coefficient(
-    x: ArrayLike, y: ArrayLike, cell_size: tuple[float, float]
-) -> NDArray[np.float64]:
+def influence_coefficient(x: ArrayLike, y: ArrayLike, cell_size: tuple[float, float]) -> Floats:
     """Displacement [m] at offsets x, y [m] from the centre of a cell, per unit p and unit J.
 
     Positive into the half-space; the shape is that of ``x + y``. Closed form near the cell,
@@ -73,7 +72,7 @@ def influence_coefficient(
 
 def influence_table(
     shape: tuple[int, int], cell_size: tuple[float, float], team: Team | None = None
-) -> NDArray[np.float64]:
+) -> Floats:
     """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
 
     All other offsets follow by symmetry; the table of a smaller block is its leading part. The
@@ -92,9 +91,7 @@ def influence_table(
     return table
 
 
-def _closed_form(
-    x: NDArray[np.float64], y: NDArray[np.float64], cell_size: tuple[float, float]
-) -> NDArray[np.float64]:
+def _closed_form(x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
     a, b = cell_size[0] / 2, cell_size[1] / 2
     # The double integral is the double difference of its primitive over the corners.
     return (
@@ -105,7 +102,7 @@ def _closed_form(
     )
 
 
-def _corner(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+def _corner(x: Floats, y: Floats) -> Floats:
     """F(x, y) = x asinh(y/|x|) + y asinh(x/|y|): primitive of 1/r in x and y, odd in both."""
     # On an axis (x = 0 or y = 0) the singular asinh is multiplied by 0: its limit is 0.
     along_y = np.arcsinh(np.divide(y, np.abs(x), out=np.zeros_like(y), where=x != 0))
@@ -113,9 +110,7 @@ def _corner(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float6
     return np.asarray(x * along_y + y * along_x)
 
 
-def _series(
-    x_squared: NDArray[np.float64], squared: NDArray[np.float64], cell_size: tuple[float, float]
-) -> NDArray[np.float64]:
+def _series(x_squared: Floats, squared: Floats, cell_size: tuple[float, float]) -> Floats:
     """∫∫ dA/r by Taylor's series of 1/r about the centre of the cell, of x² and r²."""
     a2, b2 = cell_size[0] ** 2 / 4, cell_size[1] ** 2 / 4
     second = np.array([a2, b2]) @ SECOND

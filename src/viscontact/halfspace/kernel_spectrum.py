@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers, Numbers
 from viscontact.backend.team import blocks_of
 from viscontact.backend.transforms import Transforms, fast_length
 
@@ -24,13 +23,13 @@ def padded_length(cells: int, *, unpadded: bool, exact: bool) -> int:
 
 
 def kernel_spectrum(
-    coefficients: NDArray[np.float64],
+    coefficients: Floats,
     lengths: Sequence[int],
     mirrored: tuple[bool, bool],
     first: int,
     transforms: Transforms,
     signed: int | None = None,
-) -> NDArray[Any]:
+) -> Numbers:
     """Transform of a kernel, real if the kernel is even along both axes.
 
     `coefficients` at the offsets 0, 1, 2, ... along an even axis; along a `signed` one at the
@@ -44,7 +43,7 @@ def kernel_spectrum(
     >>> kernel_spectrum(kernel, (3, 1), (False, False), 1, transforms).ravel().tolist()
     [6.0, 3.0]
     """
-    spectrum: NDArray[Any] = coefficients
+    spectrum: Numbers = coefficients
     for axis in sorted((0, 1), key=lambda each: each == signed):  # real as long as possible
         length, entries = lengths[axis], spectrum.shape[axis]
         if axis == signed:
@@ -59,7 +58,7 @@ def kernel_spectrum(
     return np.ascontiguousarray(spectrum)
 
 
-def _of_reals(field: NDArray[np.float64], axis: int, transforms: Transforms) -> NDArray[Any]:
+def _of_reals(field: Floats, axis: int, transforms: Transforms) -> Numbers:
     """First half of the spectra of real lines along an axis, with the middle."""
     shape = list(field.shape)
     shape[axis] = shape[axis] // 2 + 1
@@ -67,8 +66,8 @@ def _of_reals(field: NDArray[np.float64], axis: int, transforms: Transforms) -> 
 
 
 def _of_even(
-    field: NDArray[np.float64], axis: int, length: int, transforms: Transforms, *, mirrored: bool
-) -> NDArray[np.float64]:
+    field: Floats, axis: int, length: int, transforms: Transforms, *, mirrored: bool
+) -> Floats:
     """Transform of the lines of an even kernel along an axis, a block of lines at a time."""
     offsets = _distances(length, field.shape[axis], even=mirrored)
     shape = list(field.shape)
@@ -86,7 +85,7 @@ def _of_even(
     return found
 
 
-def _distances(padded: int, cells: int, *, even: bool) -> NDArray[np.intp]:
+def _distances(padded: int, cells: int, *, even: bool) -> Integers:
     """Offsets of a centred even kernel in the order of the transform: 0, 1, 2, ... (2, 1).
 
     Offsets beyond the block fall on padding, which is never read; they are clipped.
@@ -95,7 +94,7 @@ def _distances(padded: int, cells: int, *, even: bool) -> NDArray[np.intp]:
     return np.minimum(index if even else np.minimum(index, padded - index), cells - 1)
 
 
-def _signed_offsets(padded: int, entries: int) -> NDArray[np.intp]:
+def _signed_offsets(padded: int, entries: int) -> Integers:
     """Entries of a kernel at signed offsets in the order of the transform: 0, 1, ... (-2, -1)."""
     index, middle = np.arange(padded), entries // 2
     return np.clip(np.where(index <= middle, index, index - padded), -middle, middle) + middle

@@ -26,15 +26,13 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.influence import FAR, influence_coefficient
 from viscontact.halfspace.periodic_influence import periodic_influence_coefficient
 from viscontact.halfspace.smooth_kernel import SmoothKernel, smooth_kernel
 from viscontact.halfspace.strip_influence import strip_coefficient
 from viscontact.halfspace.surface_response import SurfaceResponse
-
-Array = NDArray[np.float64]
 
 #: Gauss nodes over each piece of a triangle, and along each edge of a cell far away.
 CORNER_RULE = np.polynomial.legendre.leggauss(24)
@@ -60,7 +58,7 @@ NEAR, LEAST_IMAGES = 40.0, 6
 
 def layered_influence_table(
     shape: tuple[int, int], cell_size: tuple[float, float], response: SurfaceResponse
-) -> Array:
+) -> Floats:
     """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
 
     Per unit contact compliance of the half-space that the response is relative to.
@@ -77,8 +75,8 @@ def layered_influence_table(
 
 
 def layered_influence_coefficient(
-    x: Array, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
-) -> Array:
+    x: Floats, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
+) -> Floats:
     """Influence coefficients [m] at any offsets x [m] and of j < ny cells along y, shape (nx, ny).
 
     Per unit contact compliance of the half-space that the response is relative to.
@@ -95,7 +93,7 @@ def periodic_layered_table(
     cell_size: tuple[float, float],
     response: SurfaceResponse,
     datum: float,
-) -> Array:
+) -> Floats:
     """Influence coefficients [m] of a period along x at offsets of i and j cells, shape (nx, ny).
 
     On a rigid base they need no datum; on a half-space displacement is zero at the distance `datum`
@@ -116,11 +114,11 @@ def periodic_layered_table(
 
 def periodic_layered_coefficient(
     nx: int,
-    y: Array,
+    y: Floats,
     cell_size: tuple[float, float],
     response: SurfaceResponse,
     datum: float,
-) -> Array:
+) -> Floats:
     """Influence coefficients [m] in a period of nx cells along x, at any offsets y [m].
 
     At offsets of 0 to nx/2 cells along x, shape (nx // 2 + 1, y); see `periodic_layered_table`.
@@ -157,11 +155,11 @@ def periodic_layered_coefficient(
 def _images_beyond(
     last: float,
     far: tuple[float, float],
-    offsets: tuple[Array, Array],
+    offsets: tuple[Floats, Floats],
     cell_size: tuple[float, float],
     period: float,
     response: SurfaceResponse,
-) -> Array:
+) -> Floats:
     """Sum of the rest over the images beyond a distance `last`, mean over cells [1/m].
 
     `far`: where the decay as c/r³ begins [m], and c [m²]; `offsets`: x and y of the cells [m].
@@ -172,7 +170,7 @@ def _images_beyond(
     excess = response.long_waves - response.short_waves
     north = y + nodes[:, None] * cell_size[1] / 2
 
-    def rest(along: Array | float) -> Array:
+    def rest(along: Floats | float) -> Floats:
         r = np.hypot(along, north)
         return np.asarray(weights @ (kernel.value(r) - excess / (np.pi * r)) / 2)
 
@@ -216,8 +214,8 @@ def _reach_of_rest(response: SurfaceResponse, period: float) -> tuple[float, flo
 
 
 def correction_coefficient(
-    x: Array, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
-) -> Array:
+    x: Floats, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
+) -> Floats:
     """Integrals of Δ over cells at any offsets x [m] and of j < ny cells along y [m]."""
     (dx, dy), x = cell_size, np.abs(x)
     # Tables are kept: one for all grids of similar extent.
@@ -235,7 +233,7 @@ def correction_coefficient(
     return table
 
 
-def _gauss(kernel: SmoothKernel, x: Array, y: Array, cell_size: tuple[float, float]) -> Array:
+def _gauss(kernel: SmoothKernel, x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
     """Gauss rule over cells around x, y."""
     (dx, dy), total = cell_size, np.zeros((x.size, y.size))
     for node_x, weight_x in zip(*CELL_RULE, strict=True):
@@ -245,7 +243,7 @@ def _gauss(kernel: SmoothKernel, x: Array, y: Array, cell_size: tuple[float, flo
     return np.asarray(total * (dx * dy / 4))
 
 
-def _by_corners(kernel: SmoothKernel, x: Array, ny: int, cell_size: tuple[float, float]) -> Array:
+def _by_corners(kernel: SmoothKernel, x: Floats, ny: int, cell_size: tuple[float, float]) -> Floats:
     """Double differences of F over the corners of cells around x and of j < ny cells along y."""
     dx, dy = cell_size
     edges = np.concatenate([x + dx / 2, x - dx / 2])
@@ -258,7 +256,7 @@ def _by_corners(kernel: SmoothKernel, x: Array, ny: int, cell_size: tuple[float,
     return np.diff(over_x, axis=1, prepend=-over_x[:, :1])
 
 
-def _triangles(kernel: SmoothKernel, near: Array, along: Array) -> Array:
+def _triangles(kernel: SmoothKernel, near: Floats, along: Floats) -> Floats:
     """T(X, Y) of ascending X (`near`, rows) and Y (`along`, columns)."""
     # Pieces from zero on, each short enough for the rule.
     first = math.asinh(float(along[0]) / float(near[0]))

@@ -32,16 +32,14 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers, Numbers
 from viscontact.halfspace.elastic_stack import ElasticStack
 from viscontact.halfspace.sampled_cells import SampledCells, sampled_cells
 from viscontact.halfspace.smooth_kernel import DEGREE, LONGEST_WAVE, MIRRORED, STEP, extended
 from viscontact.halfspace.stack_waves import StackWaves, WaveStresses, layer_at, stack_waves
 from viscontact.halfspace.stress_influence import stress_coefficients
 from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
-
-Array = NDArray[np.float64]
 
 #: Direction of the ray of integration, and step of the logarithm of the wave number on it.
 ANGLE, LOG_STEP = np.pi / 8, 0.07
@@ -87,7 +85,7 @@ class LayeredStress(StressResponse):
         assert self.stack.base is not None  # depths in a rigid one are refused
         return self.stack.base.poisson_ratio
 
-    def waves(self, wave_number: Array) -> Callable[[float], WaveStresses]:
+    def waves(self, wave_number: Floats) -> Callable[[float], WaveStresses]:
         """Stresses of waves over the depth."""
         waves = stack_waves(self.stack, wave_number.ravel())
 
@@ -98,7 +96,7 @@ class LayeredStress(StressResponse):
 
         return at
 
-    def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
+    def coefficients(self, x_edges: Floats, y_edges: Floats, depth: float) -> Floats:
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
         x, y = (_sampled(np.asarray(edges) / self._length) for edges in (x_edges, y_edges))
         table = self._table(depth, float(np.hypot(np.abs(x.edges).max(), np.abs(y.edges).max())))
@@ -139,7 +137,7 @@ class _Table:
 
 
 @lru_cache(maxsize=4)
-def _hankel(count: int) -> tuple[NDArray[Any], tuple[NDArray[Any], NDArray[Any]]]:
+def _hankel(count: int) -> tuple[Numbers, tuple[Numbers, Numbers]]:
     """Wave numbers on the ray, and H0 and H1 with the weights of its integral; (r, q)."""
     r = np.sinh(STEP * np.arange(0.5, count))
     log_longest = np.log(LONGEST_WAVE / r[-1])
@@ -150,19 +148,17 @@ def _hankel(count: int) -> tuple[NDArray[Any], tuple[NDArray[Any], NDArray[Any]]
     return q, (h0, h1)
 
 
-def _without_tiny(values: NDArray[Any]) -> NDArray[Any]:
+def _without_tiny(values: Numbers) -> Numbers:
     """Values with zeros in place of those that would make products slow by underflow."""
     return np.where(np.abs(values) < TINY, 0.0, values)
 
 
 @lru_cache(maxsize=256)
-def _gauss(count: int) -> tuple[Array, Array]:
+def _gauss(count: int) -> tuple[Floats, Floats]:
     return np.polynomial.legendre.leggauss(count)
 
 
-def _transformed(
-    amplitudes: NDArray[Any], count: int, q: NDArray[Any], hankel: tuple[Any, Any]
-) -> _Table:
+def _transformed(amplitudes: Numbers, count: int, q: Numbers, hankel: tuple[Any, Any]) -> _Table:
     amplitudes = _without_tiny(amplitudes)
     t = STEP * np.arange(0.5, count)  # none at r = 0, where H1 is singular
     r = np.sinh(t)
@@ -180,14 +176,14 @@ def _transformed(
     return _Table(transforms, rate.antiderivative())
 
 
-def _sampled(edges: Array) -> SampledCells:
+def _sampled(edges: Floats) -> SampledCells:
     """Cells that stand for a row, as the correction is analytic to a distance of one length."""
     widths = np.diff(edges)
     is_even = np.allclose(widths, widths[0], rtol=1e-6, atol=0.0)
     return sampled_cells(edges, 1.0 if is_even else 0.0)
 
 
-def _corner_terms(table: _Table, x: Array, y: Array) -> Array:
+def _corner_terms(table: _Table, x: Floats, y: Floats) -> Floats:
     """Corner terms of all components; a cell's stress is their double difference; (6, nx, ny)."""
     (x_sizes, x_places), (y_sizes, y_places) = (
         np.unique(np.abs(each), return_inverse=True) for each in (x, y)
@@ -208,7 +204,7 @@ def _corner_terms(table: _Table, x: Array, y: Array) -> Array:
     return np.asarray(found[:, x_places[:, None], y_places[None, :]] * signs)
 
 
-def _legs(table: _Table, near: Array, along: Array) -> Array:
+def _legs(table: _Table, near: Floats, along: Floats) -> Floats:
     """Integrals over y' from 0 to ascending y (`along`) at x (`near`); (transforms, x, y)."""
     scale = np.hypot(near, 1.0)
     ends = np.arcsinh(along[None, :] / scale[:, None])
@@ -227,7 +223,7 @@ def _legs(table: _Table, near: Array, along: Array) -> Array:
     return np.asarray(np.cumsum(pieces, axis=2))
 
 
-def _nodes(half: Array) -> NDArray[np.int_]:
+def _nodes(half: Floats) -> Integers:
     """Nodes of Gauss's rule over intervals of t, of a function analytic to a distance of π/2."""
     slope = np.pi / 2 / np.maximum(half, 1e-9)
     gained = np.log10(slope + np.sqrt(1 + slope**2))

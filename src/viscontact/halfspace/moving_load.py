@@ -26,15 +26,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.halfspace.influence import influence_coefficient
 from viscontact.units.formatting import format_quantity
 
 #: Influence coefficients at offsets along and across the motion [m], for cells of two edges [m].
-Coefficient: TypeAlias = Callable[
-    [NDArray[np.float64], NDArray[np.float64], tuple[float, float]], NDArray[np.float64]
-]
+Coefficient: TypeAlias = Callable[[Floats, Floats, tuple[float, float]], Floats]
 
 
 def _gauss_rule(count: int) -> tuple[Any, Any, Any]:
@@ -73,10 +71,10 @@ class MovingCompliance:
     """
 
     instant: float  # J0 [1/Pa]
-    amplitudes: NDArray[np.float64]  # Ji [1/Pa]
-    lengths: NDArray[np.float64]  # li = V λi [m]
+    amplitudes: Floats  # Ji [1/Pa]
+    lengths: Floats  # li = V λi [m]
     #: Way after which the same material returns to the load [m]; inf for a half-space.
-    periods: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    periods: Floats = field(default_factory=lambda: np.empty(0))
     #: Creep beyond the series, ∫ J'(t) dt/(V t): the slope that it gives to the surface around a
     #: line contact, over 2/π times the force on a unit of length [1/(Pa m)].
     drift: float = 0.0
@@ -85,7 +83,7 @@ class MovingCompliance:
         if not self.periods.size:
             object.__setattr__(self, "periods", np.full(self.lengths.shape, np.inf))
 
-    def of_period(self, period: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def of_period(self, period: float) -> tuple[Floats, Floats]:
         """Amplitudes [1/Pa] and lengths [m] of the modes of material with this period [m]."""
         chosen = self.periods == period
         return self.amplitudes[chosen], self.lengths[chosen]
@@ -102,14 +100,14 @@ class MovingCompliance:
             self, instant=factor * self.instant, amplitudes=amplitudes, drift=factor * self.drift
         )
 
-    def at_wave_number(self, wave_number: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def at_wave_number(self, wave_number: Floats) -> Complexes:
         """Factor of a wave exp(i k ξ) along the motion, for wave numbers k [1/m]; in 1/Pa."""
         total = np.full(np.shape(wave_number), self.instant, complex)
         for amplitude, length in zip(self.amplitudes, self.lengths, strict=True):
             total += amplitude / (1 - 1j * wave_number * length)
         return total
 
-    def loss_at_wave_number(self, wave_number: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def loss_at_wave_number(self, wave_number: Floats) -> Complexes:
         """Factor of a wave in Σ (Ji/li) (q - Ei q), the slope of the delayed part [1/(Pa m)]."""
         total = np.zeros(np.shape(wave_number), complex)
         for amplitude, length in zip(self.amplitudes, self.lengths, strict=True):
@@ -124,7 +122,7 @@ def moving_influence_table(
     compliance: MovingCompliance,
     axis: int,
     coefficient: Coefficient = influence_coefficient,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Displacement per unit pressure of a cell that moves along an axis [m/Pa].
 
     Positive into the half-space. Entry k of the 2 n - 1 along the axis is at k - (n - 1) cells from
@@ -144,7 +142,7 @@ def moving_influence_table(
     offsets = np.arange(count, dtype=np.float64) * cell[0]
     across = np.arange(shape[1 - axis], dtype=np.float64) * cell[1]
     half = compliance.instant * coefficient(offsets[:, None], across[None, :], cell)
-    table: NDArray[np.float64] = np.concatenate([half[:0:-1], half])
+    table: Floats = np.concatenate([half[:0:-1], half])
     for period in np.unique(compliance.periods):  # none without modes
         modes = compliance.of_period(period)
         table += _delayed(modes, period, count, across, cell, coefficient)
@@ -152,13 +150,13 @@ def moving_influence_table(
 
 
 def _delayed(
-    modes: tuple[NDArray[np.float64], NDArray[np.float64]],
+    modes: tuple[Floats, Floats],
     period: float,
     count: int,
-    across: NDArray[np.float64],
+    across: Floats,
     cell: tuple[float, float],
     coefficient: Coefficient,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Delayed part Σ Ji Ei L at signed offsets along the motion, shape (2 count - 1, across)."""
     amplitudes, lengths = modes
     last = (count - 1) * cell[0]
@@ -173,7 +171,7 @@ def _delayed(
     samples = [values[::-1] for values in samples[:behind]][::-1] + samples
     table = np.zeros((2 * count - 1, len(across)))
     delayed = np.zeros((len(lengths), len(across)))
-    known: dict[tuple[int, float], NDArray[np.float64]] = {}  # most panels are alike
+    known: dict[tuple[int, float], Floats] = {}  # most panels are alike
     # E at an edge is the integral over its panel, plus exp(-h/l) E at the next edge.
     for start, end, values in reversed(list(zip(edges, edges[1:], samples, strict=False))):
         width = round((end - start) / cell[0], 12)
@@ -193,7 +191,7 @@ def _delayed(
     return table
 
 
-def _panel_edges(count: int, cell: float, reach: float, end: float) -> NDArray[np.float64]:
+def _panel_edges(count: int, cell: float, reach: float, end: float) -> Floats:
     """Edges of the panels from 0 on, those of the table included, to a reach or before an end."""
     graded = cell / 2 * (1 - 0.5 ** np.arange(GRADED_PANELS))
     edges = np.concatenate([graded, [cell / 2], cell - graded[::-1], [1.5 * cell]])
@@ -204,14 +202,14 @@ def _panel_edges(count: int, cell: float, reach: float, end: float) -> NDArray[n
 
 
 def _panel_samples(
-    edges: NDArray[np.float64],
-    across: NDArray[np.float64],
+    edges: Floats,
+    across: Floats,
     cell: tuple[float, float],
     coefficient: Coefficient,
-) -> list[NDArray[np.float64]]:
+) -> list[Floats]:
     """L at the nodes of each panel: of the short rule on panels that are small and far."""
     far = (edges[:-1] >= FAR_CELLS * cell[0]) & (np.diff(edges) <= (1 + EDGE_ROUNDING) * cell[0])
-    found: list[NDArray[np.float64]] = [np.empty(0)] * len(far)
+    found: list[Floats] = [np.empty(0)] * len(far)
     for chosen, (nodes, _, _) in ((far, SHORT), (~far, LONG)):
         panels = np.flatnonzero(chosen)
         places = edges[panels, None] + np.diff(edges)[panels, None] * (1 + nodes) / 2
@@ -221,7 +219,7 @@ def _panel_samples(
     return found
 
 
-def _panel_weights(ratio: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+def _panel_weights(ratio: Floats, count: int) -> Floats:
     """Weights at the nodes of a panel from 0 to h for ∫ exp(-z/l) f(z) dz/l; ratio is h/(2 l).
 
     Exact for polynomials that Gauss' rule interpolates: exp(-a ξ) in Legendre polynomials has the

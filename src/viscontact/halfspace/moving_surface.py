@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.surface_response import HALF_SPACE, SummedResponse, SurfaceResponse
 
@@ -93,5 +93,5 @@ class MovingSurface:
         )
 
 
-def _joined(parts: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+def _joined(parts: list[Floats]) -> Floats:
     return np.concatenate(parts)

@@ -23,8 +23,8 @@ import math
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.influence import influence_coefficient
 
 #: Gauss's rule over an edge of a cell, on [-1, 1], for what is smooth over it.
@@ -40,7 +40,7 @@ MIDDLE_FACTORS = ((1, 1 / 24), (3, -7 / 5760), (5, 31 / 967680), (7, -127 / 1548
 
 def periodic_influence_table(
     shape: tuple[int, int], cell_size: tuple[float, float], datum: float
-) -> NDArray[np.float64]:
+) -> Floats:
     """Influence coefficients [m] of a period along x at offsets of i and j cells, shape (nx, ny).
 
     Displacement is zero at the distance `datum` [m] of a line load. One cell along x is a strip
@@ -62,12 +62,12 @@ def periodic_influence_table(
 
 
 def periodic_influence_coefficient(
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
+    x: Floats,
+    y: Floats,
     cell_size: tuple[float, float],
     period: float,
     datum: float,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Influence coefficients [m] of a cell with its images along x at offsets x, y [m].
 
     `x` is at most half a period. Displacement is zero at the distance `datum` [m] of a line load.
@@ -80,13 +80,13 @@ def periodic_influence_coefficient(
 
 
 def _far_images(
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
+    x: Floats,
+    y: Floats,
     cell_size: tuple[float, float],
     period: float,
     images: int,
     datum: float,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Mean over the cell of the sums beyond the images on both sides, times its area over π."""
     dx, dy = cell_size
     total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
@@ -99,9 +99,7 @@ def _far_images(
     return np.asarray(total * dx * dy / np.pi)
 
 
-def _tail(
-    along: NDArray[np.float64], across: NDArray[np.float64], period: float, datum: float
-) -> NDArray[np.float64]:
+def _tail(along: Floats, across: Floats, period: float, datum: float) -> Floats:
     """Sum of 1/r from half a period after a place on, less its logarithm's upper limit [1/m]."""
     r = np.hypot(along, across)
     found = -np.log((along + r) / datum) / period

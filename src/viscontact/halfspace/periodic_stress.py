@@ -24,12 +24,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.sampled_cells import SampledCells, sampled_cells
 from viscontact.halfspace.stress_response import StressResponse
-
-Array = NDArray[np.float64]
 
 #: Images on either side that are summed one by one.
 IMAGES = 4
@@ -42,11 +40,11 @@ def periodic_stress_coefficients(
     first: float,
     cells: int,
     edge: float,
-    y_edges: NDArray[np.float64],
+    y_edges: Floats,
     depth: float,
     response: StressResponse,
     places: int | None = None,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Stress per unit pressure on cells that repeat along x with a period of `cells` edges [-].
 
     At points at x = first, first + edge, ... from a cell's centre [m], within half a period or so;
@@ -65,7 +63,7 @@ def periodic_stress_coefficients(
     """
     count = cells if places is None else places
 
-    def at(x_edges: Array, across: Array) -> Array:
+    def at(x_edges: Floats, across: Floats) -> Floats:
         # The edges rise along x, so that the first difference has the other sign.
         return -response.coefficients(x_edges, across, depth)
 
@@ -80,13 +78,13 @@ def periodic_stress_coefficients(
 
 
 def _beyond(
-    at: Callable[[Array, Array], Array],
+    at: Callable[[Floats, Floats], Floats],
     x: SampledCells,
     y: SampledCells,
     edge: float,
     cells: int,
     depth: float,
-) -> Array:
+) -> Floats:
     """Stresses of all images but the cell itself, shape (6, samples along x, along y)."""
     period = cells * edge
     images = np.arange(-IMAGES - 2, IMAGES + 3, dtype=np.float64)
@@ -106,7 +104,7 @@ def _beyond(
     return np.asarray(found)
 
 
-def _weights(part: float) -> NDArray[np.float64]:
+def _weights(part: float) -> Floats:
     """Weights of the images from one side to the other, the corrections of both ends included."""
     slope, third = (1 - part**2) / 24, -(17 - 10 * part**2 - 7 * part**4) / 5760
     end = np.array([-third, -slope + 3 * third, slope - 3 * third, third])

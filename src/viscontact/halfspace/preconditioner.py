@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Field, Transforms
 from viscontact.halfspace.moving_load import MovingCompliance
@@ -44,19 +44,19 @@ class Preconditioner:
         if response is not HALF_SPACE:
             self._set_ratios(response.ratio(self.waves))
 
-    def with_ratios(self, ratios: NDArray[np.float64]) -> Self:
+    def with_ratios(self, ratios: Floats) -> Self:
         """The same block of another surface, of the ratios L at `waves`."""
         other = copy(self)
         other._set_ratios(ratios)
         return other
 
     @property
-    def waves(self) -> NDArray[np.float64]:
+    def waves(self) -> Floats:
         """Wave numbers between which the response of layers is interpolated [1/m]."""
         return self._interpolation[0]
 
     @cached_property
-    def _interpolation(self) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.float64]]:
+    def _interpolation(self) -> tuple[Floats, Integers, Floats]:
         """Wave numbers, the one before each entry of a spectrum, and its place behind that."""
         q = 2 * self._spectra.half_wave_numbers
         least, largest = q[q > 0].min(), q.max()
@@ -65,7 +65,7 @@ class Preconditioner:
         before = np.minimum(place.astype(np.intp), count - 1)
         return np.geomspace(least, largest, count + 1), before, place - before
 
-    def _set_ratios(self, ratios: NDArray[np.float64]) -> None:
+    def _set_ratios(self, ratios: Floats) -> None:
         """Divide |q|/2 by L, whose logarithm is linear in that of the wave number."""
         # Of a sum of several terms, rounding may be negative where nothing is left.
         known = np.log(np.maximum(np.abs(ratios), np.finfo(float).tiny))
@@ -76,7 +76,7 @@ class Preconditioner:
         symbol[0, 0] = min([*symbol[0, 1:2], *symbol[1:2, 0]])
         self._symbol = symbol.astype(np.float32)
 
-    def _interpolated(self, known: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _interpolated(self, known: Floats) -> Floats:
         """Values at all wave numbers, linear in the logarithm, from those at `waves`."""
         _, before, part = self._interpolation
         return np.asarray(known[before] + np.diff(known)[before] * part)
@@ -124,7 +124,7 @@ class MovingPreconditioner(Preconditioner):
             symbol[0, 0] = min(abs(each) for each in (*symbol[0, 1:2], *symbol[1:2, 0]))
         self._symbol = symbol.astype(np.complex64)
 
-    def _ratios_of(self, response: SurfaceResponse) -> NDArray[np.float64]:
+    def _ratios_of(self, response: SurfaceResponse) -> Floats:
         """L at all wave numbers; that of a term may be negative [-]."""
         known = response.ratio(self.waves)
         if (known > 0).all():

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats, Integers
 
 #: Points of a polynomial. Over a length that is as long as the distance of its middle from a
 #: singularity beside it, or twice as long as that from its end to one ahead of it, the error falls
@@ -27,23 +26,23 @@ class SampledCells:
     (27, 1.649545837)
     """
 
-    edges: Array  # [m]
-    cells: NDArray[np.int_]  # which of the intervals between the edges are cells
-    weights: Array | None = None  # of their values, for all, shape (all, samples); None for all
+    edges: Floats  # [m]
+    cells: Integers  # which of the intervals between the edges are cells
+    weights: Floats | None = None  # of their values, for all, shape (all, samples); None for all
 
     @property
-    def centres(self) -> Array:
+    def centres(self) -> Floats:
         """Middles of the cells [m]."""
         return np.asarray(self.edges[self.cells] + self.edges[self.cells + 1]) / 2
 
-    def at_all(self, values: Array, *, axis: int) -> Array:
+    def at_all(self, values: Floats, *, axis: int) -> Floats:
         """Values at all cells along an axis, the second or the third of three, from these."""
         if self.weights is None:
             return values
         return np.asarray(values @ self.weights.T if axis == 2 else self.weights @ values)
 
 
-def sampled_cells(edges: Array, length: float) -> SampledCells:
+def sampled_cells(edges: Floats, length: float) -> SampledCells:
     """Chebyshev's points of parts of a length [m], as cells, or all of some cells if these are few.
 
     J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46 (2004) 501, eqs. 4.2 and 5.4.
@@ -63,7 +62,7 @@ def sampled_cells(edges: Array, length: float) -> SampledCells:
     return SampledCells(pairs, 2 * np.arange(weights.shape[1]), weights)
 
 
-def _barycentric(places: Array, points: Array) -> Array:
+def _barycentric(places: Floats, points: Floats) -> Floats:
     """Weights of values at Chebyshev's points, for the polynomial at some places."""
     signs = (-1.0) ** np.arange(points.size)
     signs[[0, -1]] /= 2

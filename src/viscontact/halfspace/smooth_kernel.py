@@ -24,11 +24,9 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.surface_response import SurfaceResponse
-
-Array = NDArray[np.float64]
 
 #: Direction of the ray of integration, and step of the logarithm of the wave number on it.
 RAY, LOG_STEP = np.exp(1j * np.pi / 8), 0.07
@@ -56,7 +54,7 @@ class SmoothKernel:
     value_spline: scipy.interpolate.BSpline
     moment_spline: scipy.interpolate.BSpline
 
-    def value(self, r: Array) -> Array:
+    def value(self, r: Floats) -> Floats:
         """Δ at distances [1/m]."""
         near = np.minimum(r, self.reach)
         farther = np.maximum(r / self.reach, 1.0)
@@ -64,7 +62,7 @@ class SmoothKernel:
             self.value_spline(np.arcsinh(near / self.length)) / (self.length * farther)
         )
 
-    def moment(self, r: Array) -> Array:
+    def moment(self, r: Floats) -> Floats:
         """Moment ∫_0^r Δ r' dr' [m]."""
         near = np.minimum(r, self.reach)
         found = self.moment_spline(np.arcsinh(near / self.length)) * self.length
@@ -98,7 +96,7 @@ def smooth_kernel(response: SurfaceResponse, reach: float) -> SmoothKernel:
     return SmoothKernel(length, reach, value, integral)
 
 
-def _ray_integral(response: SurfaceResponse, length: float, r: Array) -> Array:
+def _ray_integral(response: SurfaceResponse, length: float, r: Floats) -> Floats:
     """Δ at distances in units of `length`, times `length`."""
     log_longest = np.log(LONGEST_WAVE / r[-1])
     count = int(np.ceil((np.log(SHORTEST_WAVE) - log_longest) / LOG_STEP))
@@ -109,7 +107,7 @@ def _ray_integral(response: SurfaceResponse, length: float, r: Array) -> Array:
     )
 
 
-def extended(t: Array, values: Array, sign: int) -> tuple[Array, Array]:
+def extended(t: Floats, values: Floats, sign: int) -> tuple[Floats, Floats]:
     """Even (1) or odd (-1) function with some of its entries at negative arguments."""
     before = slice(MIRRORED - 1, None, -1)
     return np.append(-t[before], t), np.concatenate([sign * values[before], values])

@@ -16,8 +16,8 @@ from copy import copy
 from typing import Any, Self, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats, Numbers
 from viscontact.backend.team import Team, Workspace, blocks_of, order_of
 from viscontact.backend.transforms import (
     Field,
@@ -30,7 +30,7 @@ from viscontact.backend.transforms import (
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Factor of waves by their wave numbers along the motion [1/m].
-WaveFactor: TypeAlias = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+WaveFactor: TypeAlias = Callable[[Floats], Complexes]
 
 
 class PeriodicConvolution:
@@ -73,7 +73,7 @@ class PeriodicConvolution:
         mean = response.mean_displacement
         self._has_datum = bool(np.isfinite(mean))
         symbol[0, 0] = mean if self._has_datum else 0.0
-        self._symbol: NDArray[Any] = symbol.astype(number)
+        self._symbol: Numbers = symbol.astype(number)
 
     def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
         """Weighted sum of operators on the same block, in the precision of this one."""
@@ -94,7 +94,7 @@ class PeriodicConvolution:
         return self._spectra.filtered(pressure, self._symbol, into)
 
 
-def _ratios(response: SurfaceResponse, half: NDArray[np.float64]) -> NDArray[np.float64]:
+def _ratios(response: SurfaceResponse, half: Floats) -> Floats:
     """L at half wave numbers, of which the infinite ones stand for others [-]."""
     waves, places = np.unique(half, return_inverse=True)
     waves[-1] = waves[0]  # in place of infinity
@@ -162,7 +162,7 @@ class Spectra:
         self._wave_rows = blocks_of(len(waves[0]), len(waves[1]) * kind.itemsize)
 
     @property
-    def half_wave_numbers(self) -> NDArray[np.float64]:
+    def half_wave_numbers(self) -> Floats:
         """|q|/2 at each entry of a spectrum, a new array [1/m]."""
         x, y = self.wave_numbers
         return np.asarray(np.hypot(x[:, None], y[None, :]) / 2)
@@ -170,7 +170,7 @@ class Spectra:
     def filtered(
         self,
         field: Field,
-        symbol: NDArray[Any],
+        symbol: Numbers,
         into: Field | None = None,
     ) -> Field:
         """Field whose spectrum is that of the given field times a symbol."""
@@ -188,12 +188,12 @@ class Spectra:
         self._team.each(lambda here: restore_of_order(size, back[here], found[here]), rows)
         return found
 
-    def factor_along(self, axis: int, factor: WaveFactor) -> NDArray[np.complex128]:
+    def factor_along(self, axis: int, factor: WaveFactor) -> Complexes:
         """Factor of each entry of a spectrum by its wave number along an axis [1/m]."""
         values = np.asarray(factor(self.wave_numbers[axis]), dtype=np.complex128)
         return self.real_at_shortest(axis, values[:, None] if axis == 0 else values[None, :])
 
-    def real_at_shortest(self, axis: int, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def real_at_shortest(self, axis: int, values: Complexes) -> Complexes:
         """Factors, made real where a wave along an axis is its own mirror image.
 
         That is the shortest one of an even number of cells.
@@ -204,7 +204,7 @@ class Spectra:
             values[shortest] = values[shortest].real
         return values
 
-    def _forth(self, block: NDArray[Any], spectrum: NDArray[Any]) -> NDArray[Any]:
+    def _forth(self, block: Numbers, spectrum: Numbers) -> Numbers:
         for axis in self._even:
             block = self._transforms.cosine_forward(block, axis)
         if self._fourier:
@@ -213,7 +213,7 @@ class Spectra:
             block = self._transforms.complex_forward(block, axis)
         return block
 
-    def _back(self, spectrum: NDArray[Any], block: NDArray[Any]) -> NDArray[Any]:
+    def _back(self, spectrum: Numbers, block: Numbers) -> Numbers:
         for axis in self._fourier[1:]:
             spectrum = self._transforms.complex_inverse(spectrum, axis)
         if self._fourier:
@@ -222,7 +222,7 @@ class Spectra:
             spectrum = self._transforms.cosine_inverse(spectrum, axis)
         return spectrum
 
-    def _waves(self, axis: int, cells: int, edge: float) -> NDArray[np.float64]:
+    def _waves(self, axis: int, cells: int, edge: float) -> Floats:
         """Waves per length along an axis, |q|/(2π), in the order of its transform [1/m]."""
         if axis in self._even:
             return np.arange(cells) / (2 * cells * edge)

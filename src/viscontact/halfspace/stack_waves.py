@@ -14,11 +14,10 @@ which they were made orthonormal on the way up: nothing grows with depth, and no
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.halfspace.elastic_stack import (
     ElasticStack,
     decaying,
@@ -28,8 +27,6 @@ from viscontact.halfspace.elastic_stack import (
     wave_matrix,
 )
 from viscontact.units.formatting import format_quantity
-
-Array = NDArray[Any]
 
 #: Wave number times thickness beyond which a wave does not reach the lower side, to rounding.
 VANISHED = 45.0
@@ -45,23 +42,23 @@ class WaveStresses:
     Tension is positive. All are to be multiplied by `decay`.
     """
 
-    along: Array  # X, normal stress along the wave
-    across: Array | float  # Y, normal stress parallel to its crests
-    normal: Array  # S, normal stress on planes parallel to the surface
-    shear: Array  # T, shear stress on these, a quarter of a wave ahead
-    decay: Array | float = 1.0
+    along: Numbers  # X, normal stress along the wave
+    across: Numbers | float  # Y, normal stress parallel to its crests
+    normal: Numbers  # S, normal stress on planes parallel to the surface
+    shear: Numbers  # T, shear stress on these, a quarter of a wave ahead
+    decay: Numbers | float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
 class _LayerWaves:
     """Waves within a layer, or within the base, whose thickness is infinite."""
 
-    lower: Array  # at a layer's lower side times e^(q h), at the base's surface; shape (n, 4)
+    lower: Numbers  # at a layer's lower side times e^(q h), at the base's surface; shape (n, 4)
     top: float  # depth of its upper side [m]
     thickness: float  # [m]
     poisson_ratio: float
 
-    def amplitudes(self, q: Array, depth: float) -> tuple[Array, ...]:
+    def amplitudes(self, q: Numbers, depth: float) -> tuple[Numbers, ...]:
         """U, W (times μ q), T and S at a depth [m]."""
         below = q * (depth - self.top)
         if np.isinf(self.thickness):  # decaying waves: (A + 1)² = 0
@@ -78,7 +75,7 @@ class _LayerWaves:
 class StackWaves:
     """Waves in all parts of a stack under pressure waves of unit amplitude."""
 
-    q: Array  # wave numbers [1/m], shape (n,)
+    q: Numbers  # wave numbers [1/m], shape (n,)
     parts: tuple[_LayerWaves, ...]
 
     def stresses(self, depth: float) -> WaveStresses:
@@ -89,7 +86,7 @@ class StackWaves:
         stretch = (2 * along + nu * normal) / (1 - nu)
         return WaveStresses(stretch, nu * (stretch + normal), normal, shear)
 
-    def displacements(self, depth: float) -> tuple[Array, Array]:
+    def displacements(self, depth: float) -> tuple[Numbers, Numbers]:
         """Displacements along the wave and into the body, times shear modulus and wave number."""
         part = self.parts[_place([each.top for each in self.parts], depth)]
         along, into, _, _ = part.amplitudes(self.q, depth)
@@ -115,7 +112,7 @@ def interface_depths(stack: ElasticStack) -> list[float]:
     return [float(each) for each in np.cumsum([layer.thickness for layer in stack.layers])]
 
 
-def stack_waves(stack: ElasticStack, q: Array) -> StackWaves:
+def stack_waves(stack: ElasticStack, q: Numbers) -> StackWaves:
     """Waves of wave numbers q [1/m], shape (n,), not zero, real or complex.
 
     If all parts are of one material, the stresses are those of a half-space, e^(-q z) times
@@ -130,7 +127,7 @@ def stack_waves(stack: ElasticStack, q: Array) -> StackWaves:
     planes = _planes(stack, q)
     # Down, from the vector of the surface whose tractions are given.
     tops, found = [0.0, *interface_depths(stack)], []
-    normal: Array = -np.ones_like(q)
+    normal: Numbers = -np.ones_like(q)
     weights = _without_shear(planes[0].upper, normal)
     for index, (layer, plane) in enumerate(zip(stack.layers, planes, strict=False)):
         own = _solved(plane.triangle, weights)
@@ -151,12 +148,12 @@ def stack_waves(stack: ElasticStack, q: Array) -> StackWaves:
 class _Plane:
     """Vectors that are allowed at the sides of a layer: e^(-A ζ - ζ) lower = upper triangle."""
 
-    lower: Array  # (n, 4, 2)
-    upper: Array
-    triangle: Array  # (n, 2, 2)
+    lower: Numbers  # (n, 4, 2)
+    upper: Numbers
+    triangle: Numbers  # (n, 2, 2)
 
 
-def _planes(stack: ElasticStack, q: Array) -> list[_Plane]:
+def _planes(stack: ElasticStack, q: Numbers) -> list[_Plane]:
     """Planes of the layers, from the surface down, and of the surface of an elastic base."""
     found: list[_Plane] = []
     if stack.base is None:
@@ -178,16 +175,16 @@ def _planes(stack: ElasticStack, q: Array) -> list[_Plane]:
     return found[::-1]
 
 
-def _without_shear(vectors: Array, normal: Array) -> Array:
+def _without_shear(vectors: Numbers, normal: Numbers) -> Numbers:
     """Weights of vectors, (n, 2, 1), for a normal traction and no shear traction."""
     return _solved(vectors[:, 2:], np.stack([np.zeros_like(normal), normal], axis=-1)[..., None])
 
 
-def _solved(matrices: Array, right: Array) -> Array:
+def _solved(matrices: Numbers, right: Numbers) -> Numbers:
     return np.asarray(np.linalg.solve(matrices, right))
 
 
-def _reached(depth: Array) -> Array:
+def _reached(depth: Numbers) -> Numbers:
     """Wave number times thickness, no larger than where waves have vanished."""
     return depth * np.minimum(1.0, VANISHED / depth.real)
 

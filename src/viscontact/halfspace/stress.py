@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.halfspace.stress_influence import COMPONENTS
@@ -33,22 +34,22 @@ class Stress:
     (1.7321, 1.0)
     """
 
-    components: NDArray[np.float64]
+    components: Floats
 
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
+    def __getitem__(self, name: str) -> Floats:
         """A component by name, such as ``"zz"`` [Pa]."""
-        component: NDArray[np.float64] = self.components[COMPONENTS.index(name)]
+        component: Floats = self.components[COMPONENTS.index(name)]
         return component
 
     @property
-    def von_mises(self) -> NDArray[np.float64]:
+    def von_mises(self) -> Floats:
         """Von Mises equivalent stress [Pa], shape (...)."""
         xx, yy, zz, yz, xz, xy = self.components
         normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
         return np.asarray(np.sqrt(normal / 2 + 3 * (yz**2 + xz**2 + xy**2)))
 
     @property
-    def principal(self) -> NDArray[np.float64]:
+    def principal(self) -> Floats:
         """Principal stresses in descending order [Pa], shape (3, ...)."""
         xx, yy, zz, yz, xz, xy = self.components
         rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
@@ -56,14 +57,14 @@ class Stress:
         return np.moveaxis(np.linalg.eigvalsh(tensors)[..., ::-1], -1, 0)
 
     @property
-    def max_shear(self) -> NDArray[np.float64]:
+    def max_shear(self) -> Floats:
         """Largest shear stress over all planes, half the difference of principal stresses [Pa]."""
         principal = self.principal
         return np.asarray((principal[0] - principal[2]) / 2)
 
 
 def stress_on_section(
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     grid: Grid,
     depths: ArrayLike,
     body: float | StressResponse,
@@ -142,7 +143,7 @@ def stress_on_section(
 
 
 def stress_on_plane(
-    pressure: NDArray[np.float64], grid: Grid, depth: float, body: float | StressResponse
+    pressure: Floats, grid: Grid, depth: float, body: float | StressResponse
 ) -> Stress:
     """Stress on a plane parallel to the surface, at the cell centres, of shape (..., nx, ny).
 
@@ -190,7 +191,7 @@ def _response(body: float | StressResponse) -> StressResponse:
     return body if isinstance(body, StressResponse) else HalfSpaceStress(body)
 
 
-def _checked(depths: ArrayLike, response: StressResponse) -> NDArray[np.float64]:
+def _checked(depths: ArrayLike, response: StressResponse) -> Floats:
     below = np.atleast_1d(np.asarray(depths, dtype=float))
     if below.ndim != 1 or not (np.isfinite(below) & (below >= 0)).all():
         raise ValueError(f"depths must be numbers of metres, 0 or positive, got {depths!r}")

@@ -7,7 +7,8 @@ alone, the stresses do not depend on the modulus.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from viscontact.backend.arrays import Floats
 
 #: Least square of a distance that is divided by [m²].
 _TINY = float(np.finfo(np.float64).tiny)
@@ -17,11 +18,11 @@ COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
 def stress_coefficients(
-    x_edges: NDArray[np.float64],
-    y_edges: NDArray[np.float64],
+    x_edges: Floats,
+    y_edges: Floats,
     depth: float,
     poisson_ratio: float,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Stress at a point per unit pressure on each cell of a block [-], tension positive.
 
     Components xx, yy, zz, yz, xz, xy, shape (6, nx, ny). `x_edges` and `y_edges` are the point's
@@ -60,9 +61,7 @@ def stress_coefficients(
     return found
 
 
-def _corner_terms(
-    x: NDArray[np.float64], y: NDArray[np.float64], z: float, poisson_ratio: float
-) -> tuple[NDArray[np.float64], ...]:
+def _corner_terms(x: Floats, y: Floats, z: float, poisson_ratio: float) -> tuple[Floats, ...]:
     """Corner terms of all components; a cell's stress is their double difference.
 
     Without what depends on x or on y alone, such as y/(y² + z²) in σyz, which the differences

@@ -14,14 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.backend.transforms import as_reals, fast_length
 from viscontact.grid import Grid
 from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.halfspace.stress_response import StressResponse
-
-Array = NDArray[np.float64]
 
 #: Called with how many depths are done, and of how many.
 Progress = Callable[[int, int], None]
@@ -44,13 +42,13 @@ _ALIGNED = 1e-7
 
 
 def along_lines(
-    pressure: Array,
+    pressure: Floats,
     grid: Grid,
-    depths: Array,
+    depths: Floats,
     response: StressResponse,
     y: float,
     progress: Progress | None = None,
-) -> Array:
+) -> Floats:
     """Stresses on the plane of given y [m], shape (6, fields, depths, nx), by fields of pressure.
 
     On grids that are not periodic along both axes.
@@ -94,12 +92,12 @@ def part_of(progress: Progress | None, index: int, count: int) -> Progress | Non
 class _Lines:
     """Lines of cells by ascending distance from a plane, those of one distance together."""
 
-    distances: Array  # [m], of the plane from the lines; equally spaced
-    even: Array  # sum of the pressures of both sides, shape (fields, nx, lines) [Pa]
-    odd: Array  # difference of the pressures of both sides [Pa]
+    distances: Floats  # [m], of the plane from the lines; equally spaced
+    even: Floats  # sum of the pressures of both sides, shape (fields, nx, lines) [Pa]
+    odd: Floats  # difference of the pressures of both sides [Pa]
 
 
-def _lines_beside(pressure: Array, grid: Grid, y: float) -> _Lines:
+def _lines_beside(pressure: Floats, grid: Grid, y: float) -> _Lines:
     """Lines of cells beside the plane of given y, without those that bear nothing."""
     count, dy = grid.shape[1], grid.cell_size[1]
     beside = (y - grid.y[0]) / dy
@@ -129,7 +127,9 @@ def _lines_beside(pressure: Array, grid: Grid, y: float) -> _Lines:
     return _Lines((np.arange(even.shape[2]) + nearest_half / 2) * dy, even, odd)
 
 
-def _kernel(grid: Grid, lines: _Lines, reach: int, depth: float, response: StressResponse) -> Array:
+def _kernel(
+    grid: Grid, lines: _Lines, reach: int, depth: float, response: StressResponse
+) -> Floats:
     """Stress per unit pressure at distances of 0 to `reach` cells; (6, reach + 1, lines)."""
     (nx, ny), (dx, dy) = grid.shape, grid.cell_size
     x_edges = (np.arange(reach + 2, dtype=np.float64) - 0.5) * dx
@@ -144,7 +144,7 @@ def _kernel(grid: Grid, lines: _Lines, reach: int, depth: float, response: Stres
     return response.coefficients(x_edges, y_edges, depth)
 
 
-def _transformed(kernel: Array, padded: int) -> NDArray[np.complex128]:
+def _transformed(kernel: Floats, padded: int) -> Complexes:
     """Transforms along x of the components in pairs, shape (padded // 2 + 1, 4, lines)."""
     last = kernel.shape[1]
     whole = np.zeros((padded, 4, kernel.shape[2]))
@@ -159,15 +159,13 @@ def _transformed(kernel: Array, padded: int) -> NDArray[np.complex128]:
     return np.asarray(scipy.fft.rfft(whole, axis=0, overwrite_x=True))
 
 
-def _spectra(fields: Array, padded: int) -> Array:
+def _spectra(fields: Floats, padded: int) -> Floats:
     """Transforms along x, complex numbers as pairs; shape (padded // 2 + 1, lines, 2 fields)."""
     spectrum = scipy.fft.rfft(fields, padded, axis=1).transpose(1, 2, 0)
     return as_reals(np.ascontiguousarray(spectrum)).reshape(*spectrum.shape[:2], -1)
 
 
-def _products(
-    kernel: NDArray[np.complex128], even: Array, odd: Array
-) -> list[NDArray[np.complex128]]:
+def _products(kernel: Complexes, even: Floats, odd: Floats) -> list[Complexes]:
     """Sums over the lines of the products of the transforms; by component (frequencies, fields)."""
     real, imaginary = np.ascontiguousarray(kernel.real), np.ascontiguousarray(kernel[:, :2].imag)
     normal = (real[:, :3] @ even).view(np.complex128)

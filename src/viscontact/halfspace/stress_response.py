@@ -7,23 +7,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.stack_waves import WaveStresses
 from viscontact.halfspace.stress_influence import stress_coefficients
-
-Array = NDArray[np.float64]
 
 
 class StressResponse(ABC):
     """Stresses per unit pressure in a body that is homogeneous along its surface."""
 
     @abstractmethod
-    def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
+    def coefficients(self, x_edges: Floats, y_edges: Floats, depth: float) -> Floats:
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
 
     @abstractmethod
-    def waves(self, wave_number: Array) -> Callable[[float], WaveStresses]:
+    def waves(self, wave_number: Floats) -> Callable[[float], WaveStresses]:
         """Stresses over the depth [m] under a wave of pressure, of wave numbers > 0 [1/m]."""
 
     @abstractmethod
@@ -42,11 +40,11 @@ class HalfSpaceStress(StressResponse):
 
     poisson_ratio: float
 
-    def coefficients(self, x_edges: Array, y_edges: Array, depth: float) -> Array:
+    def coefficients(self, x_edges: Floats, y_edges: Floats, depth: float) -> Floats:
         """Love's closed form [-]."""
         return stress_coefficients(x_edges, y_edges, depth, self.poisson_ratio)
 
-    def waves(self, wave_number: Array) -> Callable[[float], WaveStresses]:
+    def waves(self, wave_number: Floats) -> Callable[[float], WaveStresses]:
         """Johnson 1985, section 13.2: each wave decays as exp(-q z)."""
 
         def at(depth: float) -> WaveStresses:

@@ -6,28 +6,24 @@ turned to its direction; the mean pressure causes no strain along the surface.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats, Numbers
 from viscontact.backend.transforms import as_reals
 from viscontact.grid import Grid
 from viscontact.halfspace.stress_lines import Progress
 from viscontact.halfspace.stress_response import StressResponse
 
-Array = NDArray[np.float64]
-
 
 def waves_on_section(
-    pressure: Array,
+    pressure: Floats,
     grid: Grid,
-    depths: Array,
+    depths: Floats,
     response: StressResponse,
     y: float,
     progress: Progress | None = None,
-) -> Array:
+) -> Floats:
     """Stresses on the plane of given y [m], shape (6, fields, depths, nx), by fields of pressure.
 
     Waves along the section by a transform, waves across it by a sum, of those in both directions at
@@ -62,9 +58,7 @@ def waves_on_section(
     return found
 
 
-def waves_on_plane(
-    pressure: Array, grid: Grid, depth: float, response: StressResponse
-) -> NDArray[Any]:
+def waves_on_plane(pressure: Floats, grid: Grid, depth: float, response: StressResponse) -> Numbers:
     """Stresses on the plane of a depth [m], shape (6, fields, nx, ny), by fields of pressure."""
     along = 2 * np.pi * scipy.fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
     across = 2 * np.pi * scipy.fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
@@ -99,7 +93,7 @@ def lateral_at_rest(response: StressResponse, depth: float) -> float:
     return nu / (1 - nu)
 
 
-def _both_directions(pressure: Array, offset: float, across: Array) -> tuple[Array, Array]:
+def _both_directions(pressure: Floats, offset: float, across: Floats) -> tuple[Floats, Floats]:
     """Sum and difference of the waves of both signs of ky at a section, complex numbers as pairs.
 
     By kx, ky and the pair, ordered as (fields, kx, ky, 2); `offset` is the section's distance from
@@ -116,7 +110,7 @@ def _both_directions(pressure: Array, offset: float, across: Array) -> tuple[Arr
     return as_reals(even), as_reals(odd)
 
 
-def _summed(weights: Array, waves: Array) -> NDArray[np.complex128]:
+def _summed(weights: Floats, waves: Floats) -> Complexes:
     """Sums over the waves across the section; (kx, fields)."""
     sums = np.einsum("ky,fkyr->kfr", weights, waves)
     return np.ascontiguousarray(sums).view(np.complex128)[..., 0]

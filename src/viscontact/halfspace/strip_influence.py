@@ -21,12 +21,10 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.smooth_kernel import DEGREE, LOG_STEP, LONGEST_WAVE, RAY, STEP
 from viscontact.halfspace.surface_response import SurfaceResponse
-
-Array = NDArray[np.float64]
 
 #: Largest wave number times the shortest length, at which the rest has decayed.
 SHORTEST_WAVE = 45.0
@@ -35,7 +33,7 @@ SHORTEST_WAVE = 45.0
 REACH = 1e8
 
 
-def strip_coefficient(y: Array, width: float, response: SurfaceResponse) -> Array:
+def strip_coefficient(y: Floats, width: float, response: SurfaceResponse) -> Floats:
     """Displacement [m] at offsets y [m] from a strip under unit pressure, less that of L(0).
 
     Per unit contact compliance. On a rigid base, where L(0) = 0, it is all of the displacement: in
@@ -49,7 +47,7 @@ def strip_coefficient(y: Array, width: float, response: SurfaceResponse) -> Arra
     return _primitive(y + width / 2, response) - _primitive(y - width / 2, response)
 
 
-def _primitive(y: Array, response: SurfaceResponse) -> Array:
+def _primitive(y: Floats, response: SurfaceResponse) -> Floats:
     """P at offsets [m], odd [m]."""
     length, spline = response.length, _smooth_part(response)
     distance = np.abs(y)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from viscontact.backend.arrays import Numbers
 
 
 class SurfaceResponse(ABC):
@@ -37,7 +37,7 @@ class SurfaceResponse(ABC):
         """
 
     @abstractmethod
-    def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
+    def ratio(self, wave_number: Numbers) -> Numbers:
         """L at wave numbers [1/m], not zero; analytic, so that they may be complex [-]."""
 
     @property
@@ -61,7 +61,7 @@ class HalfSpaceResponse(SurfaceResponse):
     long_waves = 1.0
     length = math.inf
 
-    def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
+    def ratio(self, wave_number: Numbers) -> Numbers:
         """L at wave numbers [1/m]."""
         return np.ones_like(wave_number)
 
@@ -100,7 +100,7 @@ class SummedResponse(SurfaceResponse):
         """The shortest of the parts' [m]."""
         return min(part.length for part in self.parts)
 
-    def ratio(self, wave_number: NDArray[Any]) -> NDArray[Any]:
+    def ratio(self, wave_number: Numbers) -> Numbers:
         """L at wave numbers [1/m]."""
         pairs = zip(self.weights, self.parts, strict=True)
         return np.asarray(sum(weight * part.ratio(wave_number) for weight, part in pairs))

@@ -7,11 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact import laws
-
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -24,16 +22,16 @@ class Candidate:
     starts: tuple[tuple[float, ...], ...]
 
     @property
-    def bounded(self) -> Array:
+    def bounded(self) -> Floats:
         """Mask of the parameters that are exponents, between 0 and 1."""
         return np.array([name == "exponent" for name in self.names])
 
-    def free(self, values: Array) -> Array:
+    def free(self, values: Floats) -> Floats:
         """Parameters on an unbounded scale: ln p, or ln(p/(1 - p)) of exponents."""
         below_one = np.where(self.bounded, 1.0 - values, 1.0)
         return np.asarray(np.log(values) - np.log(below_one))
 
-    def values(self, free: Array) -> Array:
+    def values(self, free: Floats) -> Floats:
         """Parameters from the unbounded scale."""
         with np.errstate(over="ignore"):
             grown = np.exp(free)

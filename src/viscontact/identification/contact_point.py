@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.record import IndentationRecord, elastic_force
 from viscontact.indenters import Indenter
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
-
-Array = NDArray[np.float64]
 
 _CANDIDATES = 100  # of the contact point in the first search
 _LEAST_BASELINE = 0.05  # of the loading rows: fewer do not determine a line
@@ -74,7 +72,7 @@ class ContactPoint:
         )
 
     @property
-    def bending(self) -> Array:
+    def bending(self) -> Floats:
         """Deflection less the baseline, of each row [m]."""
         return self.curve.deflection - self.offset - self.slope * self.curve.position
 
@@ -148,7 +146,7 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
     middle, extent = float(z.mean()), float(np.ptp(z))
     scale = float(np.ptp(d))
 
-    def model(free: Array) -> Array:
+    def model(free: Floats) -> Floats:
         offset, slope, contact, logarithm = free
         bending = deflection_in_contact(
             indenter, np.exp(logarithm), curve.spring_constant, z - middle - extent * contact
@@ -181,8 +179,8 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
 
 
 def deflection_in_contact(
-    indenter: Indenter, contact_modulus: float, spring_constant: float, way: Array
-) -> Array:
+    indenter: Indenter, contact_modulus: float, spring_constant: float, way: Floats
+) -> Floats:
     """Bending of a cantilever whose base moves on after first contact with an elastic body.
 
     Parameters
@@ -215,7 +213,7 @@ def deflection_in_contact(
     return np.asarray(way - depth)
 
 
-def _per_depth(indenter: Indenter, depth: Array) -> Array:
+def _per_depth(indenter: Indenter, depth: Floats) -> Floats:
     safe = np.maximum(depth, np.finfo(np.float64).tiny ** 0.25)
     return elastic_force(indenter, safe) / safe
 
@@ -225,7 +223,7 @@ def _exponent(indenter: Indenter) -> float:
     return float(np.log2(two / one))
 
 
-def _within_reach(z: Array, d: Array, reach: float) -> tuple[Array, Array]:
+def _within_reach(z: Floats, d: Floats, reach: float) -> tuple[Floats, Floats]:
     """Rows before the deflection stays above a part of its largest change."""
     level = d[0] + reach * (d.max() - d[0])
     end = d.size if reach == 1 else int(np.flatnonzero(d <= level)[-1]) + 1
@@ -233,7 +231,7 @@ def _within_reach(z: Array, d: Array, reach: float) -> tuple[Array, Array]:
 
 
 def _first_search(
-    indenter: Indenter, spring_constant: float, z: Array, d: Array
+    indenter: Indenter, spring_constant: float, z: Floats, d: Floats
 ) -> tuple[float, float, float, float]:
     """Offset [m], slope, contact position [m] and modulus [Pa] of the best candidate."""
     least = max(int(_LEAST_BASELINE * z.size), 4)
@@ -257,13 +255,13 @@ def _first_search(
 
 def _scaled(
     start: tuple[float, float, float, float], middle: float, extent: float, scale: float
-) -> Array:
+) -> Floats:
     offset, slope, contact, modulus = start
     free = [(offset + slope * middle) / scale, slope * extent / scale]
     return np.array([*free, (contact - middle) / extent, np.log(modulus)])
 
 
-def _require_contact(found: ContactPoint, z: Array) -> None:
+def _require_contact(found: ContactPoint, z: Floats) -> None:
     bent = found.bending[: z.size].max()
     if not z[3] < found.position < z[-4]:
         raise ValueError(_no_contact("the contact point lies at an end of the loading part"))

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification.record import finite_column
 from viscontact.tables import Table
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
-
-Array = NDArray[np.float64]
 
 _LEAST_ROWS = 20
 
@@ -49,9 +47,9 @@ class ForceCurve:
     (1e-06, 21)
     """
 
-    times: Array
-    position: Array
-    deflection: Array
+    times: Floats
+    position: Floats
+    deflection: Floats
     spring_constant: float
 
     def __post_init__(self) -> None:
@@ -131,7 +129,7 @@ def tabulated_curve(
     return ForceCurve(table["time"], table["position"], deflection, spring_constant)
 
 
-def _falls(position: Array, deflection: Array) -> bool:
+def _falls(position: Floats, deflection: Floats) -> bool:
     """True if the position falls on the way to the largest deflection."""
     peak = int(
         np.argmax(np.abs(deflection - np.median(deflection[: max(deflection.size // 10, 3)])))

@@ -7,11 +7,11 @@ from functools import partial
 from warnings import warn
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
 from viscontact import reference
+from viscontact.backend.arrays import Floats
 from viscontact.errors import AccuracyWarning
 from viscontact.identification.candidates import Candidate, candidate
 from viscontact.identification.indentation_fit import IndentationFit, compared
@@ -19,8 +19,6 @@ from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Elastic
 from viscontact.materials.material import Material
 from viscontact.units.numbers import whole
-
-Array = NDArray[np.float64]
 
 _ELEMENTS = 60  # relative error of the force about 1e-4, far below the scatter of any record
 _STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
@@ -106,7 +104,7 @@ def fit_indentation(
     measured, counted = compared(record, given)
     scale = float(np.abs(measured).max())
 
-    def residuals(free: Array) -> Array:
+    def residuals(free: Floats) -> Floats:
         response = _exact_response(
             record, given, material(shape.build(*shape.values(free).tolist()))
         )
@@ -130,7 +128,7 @@ def fit_indentation(
     )
 
 
-def _candidate(law: str, terms: int, modulus: float, times: Array) -> Candidate:
+def _candidate(law: str, terms: int, modulus: float, times: Floats) -> Candidate:
     """Candidate law; refused if the record has fewer than two rows per parameter."""
     shape = candidate(law, terms, modulus, float(np.ptp(times)))
     if times.size < 2 * len(shape.names):
@@ -141,7 +139,7 @@ def _candidate(law: str, terms: int, modulus: float, times: Array) -> Candidate:
     return shape
 
 
-def _exact_response(record: IndentationRecord, given: str, material: Material) -> Array:
+def _exact_response(record: IndentationRecord, given: str, material: Material) -> Floats:
     """Exact solution for the other quantity of a record [N or m]."""
     contact = reference.press_axisymmetric(
         record.profile,
@@ -173,7 +171,7 @@ def _apparent_modulus(record: IndentationRecord, poisson_ratio: float | None) ->
     return contact_modulus * (1 - nu) / 2
 
 
-def _descended(residuals: Callable[[Array], Array], shape: Candidate) -> tuple[Array, Array]:
+def _descended(residuals: Callable[[Floats], Floats], shape: Candidate) -> tuple[Floats, Floats]:
     starts = [shape.free(np.array(start)) for start in shape.starts]
     tried = [_sum_of_squares(residuals, start) for start in starts]
     best = int(np.argmin(tried))
@@ -182,7 +180,7 @@ def _descended(residuals: Callable[[Array], Array], shape: Candidate) -> tuple[A
     start = starts[best]
     penalty = residuals(start)  # exceeded where there is no solution
 
-    def guarded(free: Array) -> Array:
+    def guarded(free: Floats) -> Floats:
         try:
             return residuals(free)
         except ValueError:
@@ -200,14 +198,14 @@ def _descended(residuals: Callable[[Array], Array], shape: Candidate) -> tuple[A
     return ended.x, ended.jac
 
 
-def _differences(function: Callable[[Array], Array], free: Array) -> Array:
+def _differences(function: Callable[[Floats], Floats], free: Floats) -> Floats:
     """Jacobian by forward differences in the logarithms of the parameters."""
     here = function(free)
     steps = _STEP * np.eye(free.size)
     return np.stack([(function(free + step) - here) / _STEP for step in steps], axis=1)
 
 
-def _sum_of_squares(residuals: Callable[[Array], Array], free: Array) -> float:
+def _sum_of_squares(residuals: Callable[[Floats], Floats], free: Floats) -> float:
     try:
         return float(np.sum(residuals(free) ** 2))
     except ValueError:
@@ -215,8 +213,8 @@ def _sum_of_squares(residuals: Callable[[Array], Array], free: Array) -> float:
 
 
 def _confidence(
-    shape: Candidate, found: Array, residuals: Array, jacobian: Array, confidence: float
-) -> tuple[list[tuple[float, float]], Array]:
+    shape: Candidate, found: Floats, residuals: Floats, jacobian: Floats, confidence: float
+) -> tuple[list[tuple[float, float]], Floats]:
     """Intervals of the parameters and the correlation of their logarithms."""
     freedom = residuals.size - found.size
     variance = float(residuals @ residuals) / freedom

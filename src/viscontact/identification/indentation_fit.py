@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.display import Displayable
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Law
 from viscontact.materials.material import Material
 from viscontact.units.formatting import format_quantity
-
-Array = NDArray[np.float64]
 
 _TOUCH = 0.05  # of the largest force: smaller ones may be scatter without contact
 
@@ -62,10 +60,10 @@ class IndentationFit(Displayable):
     parameters: dict[str, float]
     intervals: dict[str, tuple[float, float]]
     confidence: float
-    correlation: Array
+    correlation: Floats
     record: IndentationRecord
     given: str
-    fitted: Array
+    fitted: Floats
     units: tuple[str, ...]
 
     @property
@@ -74,12 +72,12 @@ class IndentationFit(Displayable):
         return self.material.law
 
     @property
-    def measured(self) -> Array:
+    def measured(self) -> Floats:
         """Measured values that `fitted` is compared with [N or m]."""
         return compared(self.record, self.given)[0]
 
     @property
-    def residuals(self) -> Array:
+    def residuals(self) -> Floats:
         """Fitted less measured over the largest measured value; NaN in rows left out [-]."""
         measured, counted = compared(self.record, self.given)
         difference = (self.fitted - measured) / np.abs(measured).max()
@@ -105,7 +103,7 @@ class IndentationFit(Displayable):
         return "\n".join(lines)
 
 
-def compared(record: IndentationRecord, given: str) -> tuple[Array, NDArray[np.bool_]]:
+def compared(record: IndentationRecord, given: str) -> tuple[Floats, Bools]:
     """Fitted quantity, force [N] or approach [m], and the mask of the rows that count."""
     if given == "approach":
         return record.force, np.ones(record.force.size, dtype=bool)

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification.force_curve import ForceCurve
 
 #: Suffixes of the files that afmformats reads, without those of tables.
@@ -149,7 +149,7 @@ def _chosen(name: str, curves: list[Any], number: int | None) -> Any:
     return curves[number or 0]
 
 
-def _column(name: str, curve: Any, column: str) -> NDArray[np.float64]:
+def _column(name: str, curve: Any, column: str) -> Floats:
     if column not in curve.columns:
         raise ValueError(
             f"{name}: states no {column}; there are {', '.join(curve.columns)}; export time, "

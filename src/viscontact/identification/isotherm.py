@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.identification.overlap import Curve
 from viscontact.series_fits.columns import positive_column, require_rows
-
-Array = NDArray[np.float64]
 
 #: Columns of each kind of test, and whether the first one rises with time.
 KINDS_OF_TEST = ((("compliance",), True), (("modulus",), False), (("storage", "loss"), False))
@@ -46,8 +44,8 @@ class Isotherm(Displayable):
     """
 
     temperature: float
-    points: Array
-    measured: Mapping[str, Array]
+    points: Floats
+    measured: Mapping[str, Floats]
 
     def __post_init__(self) -> None:
         [temperature] = positive_column("Isotherm", "temperature", [self.temperature], "K")

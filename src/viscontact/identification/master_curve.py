@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Unpack
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.identification.isotherm import KINDS_OF_TEST, Isotherm
 from viscontact.identification.overlap import log_shift
@@ -19,8 +19,6 @@ from viscontact.series_fits.columns import positive_column, require_trend
 from viscontact.series_fits.fit import Fit
 from viscontact.series_fits.prony import FitOptions
 from viscontact.series_fits.table_fit import fit_measured
-
-Array = NDArray[np.float64]
 
 _OWNER = "build_master_curve"
 # Tolerance for a warmer set that is slower than a colder one by scatter.
@@ -62,17 +60,17 @@ class MasterCurve(Displayable):
 
     reference_temperature: float
     isotherms: tuple[Isotherm, ...]
-    factors: Array
-    mismatches: Array | None
+    factors: Floats
+    mismatches: Floats | None
     shift: Shift
 
     @property
-    def temperatures(self) -> Array:
+    def temperatures(self) -> Floats:
         """Temperatures of the sets, increasing [K]."""
         return np.array([isotherm.temperature for isotherm in self.isotherms])
 
     @property
-    def reduced_points(self) -> tuple[Array, ...]:
+    def reduced_points(self) -> tuple[Floats, ...]:
         """Points of each set, reduced to the reference temperature.
 
         Times t/a_T [s], or angular frequencies ω a_T [rad/s].
@@ -83,12 +81,12 @@ class MasterCurve(Displayable):
         )
 
     @property
-    def points(self) -> Array:
+    def points(self) -> Floats:
         """All reduced points, increasing."""
         return np.sort(np.concatenate(self.reduced_points), kind="stable")
 
     @property
-    def measured(self) -> dict[str, Array]:
+    def measured(self) -> dict[str, Floats]:
         """All measured values by column, in the order of `points`."""
         order = np.argsort(np.concatenate(self.reduced_points), kind="stable")
         return {

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import isotonic_regression, minimize_scalar
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 _SAMPLES = 200  # points along the overlap; the curves are linear between measured points
 _NEIGHBOURHOOD = np.log(10.0) / 2  # search range: half a decade to either side
@@ -23,8 +22,8 @@ class Curve:
     scatter.
     """
 
-    log_times: Array
-    log_columns: Array
+    log_times: Floats
+    log_columns: Floats
 
 
 def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
@@ -82,7 +81,7 @@ def _closed_form_shift(slow: Curve, fast: Curve) -> float:
     return float(np.mean(slow_times - fast_times))
 
 
-def _times_of(values: Array, log_times: Array, evened: Array) -> Array:
+def _times_of(values: Floats, log_times: Floats, evened: Floats) -> Floats:
     """ln(time) at which a monotone curve takes given values; the middle where it is level."""
     distinct, where = np.unique(evened, return_inverse=True)
     middles = np.bincount(where, weights=log_times) / np.bincount(where)

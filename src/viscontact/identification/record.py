@@ -6,14 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
 from viscontact.units.formatting import format_quantity
-
-Array = NDArray[np.float64]
 
 _LEAST_ROWS = 5
 
@@ -48,9 +46,9 @@ class IndentationRecord(Displayable):
     """
 
     indenter: Indenter
-    times: Array
-    approach: Array
-    force: Array
+    times: Floats
+    approach: Floats
+    force: Floats
 
     def __post_init__(self) -> None:
         columns = {
@@ -86,7 +84,7 @@ class IndentationRecord(Displayable):
         """Indenter profile of the exact solution."""
         return indenter_profile(self.indenter)
 
-    def elastic_force(self, approach: Array) -> Array:
+    def elastic_force(self, approach: Floats) -> Floats:
         """Return the force on an elastic body of contact modulus E* = 1 Pa [N].
 
         Parameters
@@ -117,7 +115,7 @@ def indenter_profile(indenter: Indenter) -> SphereProfile | ConeProfile | PunchP
     )
 
 
-def elastic_force(indenter: Indenter, approach: Array) -> Array:
+def elastic_force(indenter: Indenter, approach: Floats) -> Floats:
     """Force on an elastic body of contact modulus 1 Pa under an approach >= 0 [N]."""
     match indenter_profile(indenter):
         case SphereProfile(radius=radius):
@@ -128,7 +126,7 @@ def elastic_force(indenter: Indenter, approach: Array) -> Array:
             return np.asarray(2 * radius * approach)
 
 
-def finite_column(owner: str, name: str, values: NDArray[np.float64], unit: str) -> Array:
+def finite_column(owner: str, name: str, values: Floats, unit: str) -> Floats:
     """Column of finite numbers; ValueError with the name of its owner and the row."""
     try:
         column = np.array(values, dtype=np.float64)

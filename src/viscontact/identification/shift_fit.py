@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws import WLF, Arrhenius
 from viscontact.laws.time_temperature import GAS_CONSTANT
 from viscontact.series_fits.columns import positive_column, require_rows
@@ -79,7 +80,7 @@ def fit_wlf(temperatures: ArrayLike, factors: ArrayLike, reference_temperature: 
     above, logs = _checked("fit_wlf", temperatures, factors, reference_temperature, least=3)
     pole = max(0.0, -float(above.min()))
 
-    def rule(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rule(parameters: Floats) -> Floats:
         c1, beyond_pole = np.exp(parameters)
         return np.asarray(-c1 * above / (pole + beyond_pole + above))
 
@@ -139,7 +140,7 @@ def fit_arrhenius(
 
 def _checked(
     owner: str, temperatures: ArrayLike, factors: ArrayLike, reference: float, least: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     T = positive_column(owner, "temperatures", temperatures, "K")
     a_T = positive_column(owner, "factors", factors, "(a_T)")
     require_rows(owner, least, temperatures=T, factors=a_T)
@@ -151,6 +152,6 @@ def _checked(
     return T - reference, np.log10(a_T)
 
 
-def _fit(shift: WLF | Arrhenius, residuals: NDArray[np.float64]) -> ShiftFit:
+def _fit(shift: WLF | Arrhenius, residuals: Floats) -> ShiftFit:
     rms = float(np.sqrt(np.mean(residuals**2)))
     return ShiftFit(shift, rms, float(np.abs(residuals).max()))

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
 
 
-def arc_drop(distance: ArrayLike, radius: ArrayLike) -> NDArray[np.float64]:
+def arc_drop(distance: ArrayLike, radius: ArrayLike) -> Floats:
     """Drop R - sqrt(R² - s²) of an arc of radius R at the distance s >= 0 along its tangent [m].
 
     +inf where the arc has ended (s > R), and everywhere for R < 0. It is computed as s² / (R +

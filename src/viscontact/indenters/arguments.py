@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.numbers import real, shown
 
 
-def positions(x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def positions(x: ArrayLike, y: ArrayLike) -> tuple[Floats, Floats]:
     """Return coordinates [m] as arrays of floats, or raise ValueError."""
     try:
         return np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import acute_angle
 from viscontact.indenters.profile import Profile
@@ -70,7 +71,7 @@ class Chamfer(Profile):
         """Length that the rounding takes off either line [m]."""
         return self.corner_radius * math.tan(self.angle / 2)
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the rounding and of the chamfer; see `Profile.drop`."""
         distance = np.abs(np.asarray(x, dtype=np.float64))
         beyond = np.maximum(distance - (half_length - self.length - self._tangent), 0.0)

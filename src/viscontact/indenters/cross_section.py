@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter
 
 POINTS = 1601
@@ -26,8 +26,8 @@ class Section:
     `ends` are the positions at which the body ends within the drawing [m].
     """
 
-    position: NDArray[np.float64]
-    gap: NDArray[np.float64]
+    position: Floats
+    gap: Floats
     ends: tuple[float, ...]
 
     @property
@@ -41,9 +41,9 @@ class Section:
 
 def lines_through(
     indenter: Indenter,
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    gap: NDArray[np.float64],
+    x: Floats,
+    y: Floats,
+    gap: Floats,
 ) -> tuple[float, float]:
     """Choose x of the section along y and y of that along x [m]; 0 if the axis touches.
 
@@ -63,9 +63,9 @@ def lines_through(
 
 def _deepest(
     indenter: Indenter,
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    gap: NDArray[np.float64],
+    x: Floats,
+    y: Floats,
+    gap: Floats,
     step: float,
 ) -> tuple[float, float]:
     """Coordinates of the deepest points, the x and the y that are nearest to zero [m]."""
@@ -92,7 +92,7 @@ def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = P
     """
     position = np.linspace(-extent / 2, extent / 2, points)
 
-    def gap_at(along: NDArray[np.float64]) -> NDArray[np.float64]:
+    def gap_at(along: Floats) -> Floats:
         fixed = np.full_like(along, at)
         return indenter.gap(along, fixed) if axis == 0 else indenter.gap(fixed, along)
 

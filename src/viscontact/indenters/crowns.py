@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
@@ -26,7 +27,7 @@ class CylindricalProfile(Profile):
     [0.0, inf]
     """
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return zero on the line and +inf beyond; see `Profile.drop`."""
         return np.where(np.abs(x) <= half_length, 0.0, np.inf)
 
@@ -62,7 +63,7 @@ class FullCrown(Profile):
     def __post_init__(self) -> None:
         check_fields(self, "crown_radius")
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the arc; see `Profile.drop`."""
         distance = np.abs(x)
         return np.where(distance <= half_length, arc_drop(distance, self.crown_radius), np.inf)
@@ -112,7 +113,7 @@ class PartialCrown(Profile):
     def __post_init__(self) -> None:
         check_fields(self, "crown_radius", "end_length")
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the arc beyond the straight part; see `Profile.drop`."""
         distance = np.abs(np.asarray(x, dtype=np.float64))
         drop = arc_drop(np.maximum(distance - half_length, 0.0), self.crown_radius)
@@ -178,7 +179,7 @@ class TwoRadiiCrown(Profile):
                 f"{format_quantity(self.crown_radius, 'm', 9)}"
             )
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the sum of the arcs' drops; see `Profile.drop`."""
         distance = np.abs(np.asarray(x, dtype=np.float64))
         beyond = np.maximum(distance - half_length, 0.0)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
@@ -46,7 +47,7 @@ class Ellipsoid(Indenter):
     def __post_init__(self) -> None:
         check_fields(self, "semi_axis_x", "semi_axis_y", "semi_axis_z")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return c (1 - sqrt(1 - ρ²)), +inf for ρ > 1; see `Indenter.gap`."""
         x, y = positions(x, y)
         return self.semi_axis_z * arc_drop(np.hypot(x / self.semi_axis_x, y / self.semi_axis_y), 1)

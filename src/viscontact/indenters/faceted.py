@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arguments import acute_angle, positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.units.numbers import check_fields, store, whole
@@ -43,7 +44,7 @@ class Wedge(Indenter):
         check_fields(self, "half_angle", check=acute_angle)
         check_fields(self, "half_length")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return |y| / tan(half_angle), +inf beyond the edge's ends; see `Indenter.gap`."""
         x, y = positions(x, y)
         end = math.inf if self.half_length is None else self.half_length
@@ -127,7 +128,7 @@ class Pyramid(Indenter):
         """
         return cls(math.atan(math.sqrt(0.5)), faces=3)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the height of the highest face; see `Indenter.gap`."""
         x, y = positions(x, y)
         gap = np.zeros(np.broadcast_shapes(x.shape, y.shape))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.units.numbers import check_fields
@@ -53,11 +54,11 @@ class FlatPunch(Indenter):
             )
         check_fields(self, "radius", "half_length", "half_width")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return zero on the punch, edge included, and +inf outside; see `Indenter.gap`."""
         return np.where(self._covers(*positions(x, y)), 0.0, np.inf)
 
-    def _covers(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.bool_]:
+    def _covers(self, x: ArrayLike, y: ArrayLike) -> Bools:
         if self.half_length is None or self.half_width is None:
             return np.asarray(np.hypot(x, y) <= self.radius)
         return np.asarray((np.abs(x) <= self.half_length) & (np.abs(y) <= self.half_width))

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.units.formatting import format_quantity
@@ -51,9 +52,9 @@ class HeightMap(Indenter):
     [0.0, 1.0, inf]
     """
 
-    x: NDArray[np.float64] = field(metadata={"unit": "m"})
-    y: NDArray[np.float64] = field(metadata={"unit": "m"})
-    height: NDArray[np.float64] = field(metadata={"unit": "m"})
+    x: Floats = field(metadata={"unit": "m"})
+    y: Floats = field(metadata={"unit": "m"})
+    height: Floats = field(metadata={"unit": "m"})
     holes: bool
 
     def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike, holes: bool = False) -> None:
@@ -64,7 +65,7 @@ class HeightMap(Indenter):
         object.__setattr__(self, "holes", bool(holes))
         object.__setattr__(self, "height", _heights(height, shape, self.holes))
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return max(height) - height at x, y, +inf outside the map; see `Indenter.gap`."""
         x, y = positions(x, y)
         i, along_x, within_x = _locate(self.x, x)
@@ -81,7 +82,7 @@ class HeightMap(Indenter):
         return float(np.diff(self.x).min()), float(np.diff(self.y).min())
 
     @property
-    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sample_points(self) -> tuple[Floats, Floats]:
         """Points of the mesh, row by row [m]."""
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         return x.ravel(), y.ravel()
@@ -90,7 +91,7 @@ class HeightMap(Indenter):
     def _highest(self) -> float:
         return float(np.nanmax(self.height))
 
-    def _depth(self, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
+    def _depth(self, i: Integers, j: Integers) -> Floats:
         """Depth of mesh points below the highest point [m]."""
         return self._highest - self.height[i, j]
 
@@ -104,17 +105,13 @@ class HeightMap(Indenter):
         return hash((self.height.shape, self._highest))
 
 
-def _between(
-    near: NDArray[np.float64], far: NDArray[np.float64], along: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _between(near: Floats, far: Floats, along: Floats) -> Floats:
     """Linear interpolation; a missing (NaN) value counts only where its weight is positive."""
     value = near * (1 - along) + far * along
     return np.where(along == 0, near, np.where(along == 1, far, value))
 
 
-def _locate(
-    lines: NDArray[np.float64], positions: ArrayLike
-) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.bool_]]:
+def _locate(lines: Floats, positions: ArrayLike) -> tuple[Integers, Floats, Bools]:
     """Interval of each position, its fraction (0 to 1), and whether the map covers it."""
     positions = np.asarray(positions, dtype=np.float64)
     # The grid's rim may coincide with the map's up to the rounding of a converted unit.
@@ -126,7 +123,7 @@ def _locate(
     return interval, (covered - start) / (lines[interval + 1] - start), within
 
 
-def _mesh_lines(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def _mesh_lines(name: str, values: ArrayLike) -> Floats:
     lines = _read_only(name, values)
     if lines.ndim != 1 or lines.size < 2:
         raise ValueError(
@@ -145,7 +142,7 @@ def _mesh_lines(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return lines
 
 
-def _heights(values: ArrayLike, shape: tuple[int, int], holes: bool) -> NDArray[np.float64]:
+def _heights(values: ArrayLike, shape: tuple[int, int], holes: bool) -> Floats:
     height = _read_only("height", values)
     if height.shape != shape:
         hint = "; transpose it, height is indexed [x, y]" if height.shape == shape[::-1] else ""
@@ -166,7 +163,7 @@ def _heights(values: ArrayLike, shape: tuple[int, int], holes: bool) -> NDArray[
     return height
 
 
-def _require_finite(name: str, values: NDArray[np.float64]) -> None:
+def _require_finite(name: str, values: Floats) -> None:
     missing = int(np.count_nonzero(~np.isfinite(values)))
     if missing:
         raise ValueError(
@@ -175,7 +172,7 @@ def _require_finite(name: str, values: NDArray[np.float64]) -> None:
         )
 
 
-def _read_only(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def _read_only(name: str, values: ArrayLike) -> Floats:
     try:
         given = np.asarray(values)
     except ValueError as error:

@@ -7,8 +7,9 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.indenters.arguments import positions
 from viscontact.units.numbers import check_fields, finite
@@ -29,7 +30,7 @@ class Indenter(Displayable, ABC):
     """
 
     @abstractmethod
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the initial gap h_i(x, y) between the undeformed bodies, just touching.
 
         Parameters
@@ -97,7 +98,7 @@ class Indenter(Displayable, ABC):
         return 0.0, 0.0
 
     @property
-    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sample_points(self) -> tuple[Floats, Floats]:
         """Given points of the surface: x and y, empty for a shape that is a formula [m]."""
         return np.empty(0), np.empty(0)
 
@@ -151,7 +152,7 @@ class CombinedIndenter(Indenter):
                 raise ValueError(f"CombinedIndenter: parts must be indenters, got {part!r}")
         object.__setattr__(self, "parts", tuple(leaf for part in parts for leaf in _leaves(part)))
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the sum of the parts' gaps; see `Indenter.gap`."""
         return np.asarray(sum(part.gap(x, y) for part in self.parts), dtype=np.float64)
 
@@ -187,7 +188,7 @@ class CombinedIndenter(Indenter):
         return min(along for along, _ in found), min(across for _, across in found)
 
     @property
-    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sample_points(self) -> tuple[Floats, Floats]:
         """Points of all parts [m]."""
         x, y = zip(*(part.sample_points for part in self.parts), strict=True)
         return np.concatenate(x), np.concatenate(y)
@@ -240,14 +241,14 @@ class PlacedIndenter(Indenter):
             return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
         return math.cos(self.angle), math.sin(self.angle)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the gap of the rotated and shifted body; see `Indenter.gap`."""
         x, y = positions(x, y)
         cosine, sine = self._turn
         east, north = x - self.x, y - self.y
         return self.body.gap(cosine * east + sine * north, cosine * north - sine * east)
 
-    def place(self, x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def place(self, x: ArrayLike, y: ArrayLike) -> tuple[Floats, Floats]:
         """Return the rotated and shifted positions of points of the body [m]."""
         x, y = positions(x, y)
         cosine, sine = self._turn
@@ -283,7 +284,7 @@ class PlacedIndenter(Indenter):
         return steps if self.angle == 0 else (min(steps), min(steps))
 
     @property
-    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sample_points(self) -> tuple[Floats, Floats]:
         """Points of the rotated and shifted body [m]."""
         return self.place(*self.body.sample_points)
 

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import check_fields, positive, real
@@ -255,7 +256,7 @@ class LogarithmicProfile(Profile):
         """exp(-z_m / A), zero where the line falls without end."""
         return 0.0 if self.end_drop is None else math.exp(-self.end_drop / self.amplitude)
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the logarithmic crown; see `Profile.drop`."""
         distance, crown = np.abs(np.asarray(x, dtype=np.float64)), self.crown_ratio * half_length
         u = np.clip((distance - (half_length - crown)) / crown, 0.0, 1.0)

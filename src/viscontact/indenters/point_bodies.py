@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.point_line import Interpolation, TableLine, mirrored, numbers
@@ -63,7 +64,7 @@ class Revolved(Indenter):
         r, drops = (self.r, self.drops) if self.r[0] > 0 else mirrored(self.r, self.drops)
         return TableLine("Revolved", r, drops, self.interpolation)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the drop at the distance from the axis; see `Indenter.gap`."""
         return np.maximum(self._line(np.hypot(*positions(x, y))) - min(self.drops), 0.0)
 
@@ -127,7 +128,7 @@ class Swept(Indenter):
         y, drops = (self.y, self.drops) if self.y[0] < 0 else mirrored(self.y, self.drops)
         return TableLine("Swept", y, drops, self.interpolation)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the drop of the section, +inf beyond the ends; see `Indenter.gap`."""
         x, y = positions(x, y)
         # The mirrored half gives the same bits.

@@ -10,8 +10,9 @@ from typing import Literal, get_args
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.formatting import format_quantity
 
 #: Interpolation between points.
@@ -81,14 +82,14 @@ class TableLine:
     def _pieces(self) -> tuple[scipy.interpolate.PchipInterpolator, ...]:
         return tuple(scipy.interpolate.PchipInterpolator(*piece) for piece in self._smooth_pieces())
 
-    def _smooth_pieces(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    def _smooth_pieces(self) -> Iterator[tuple[Floats, Floats]]:
         position, drop = np.array(self.position), np.array(self.drop)
         kinks = np.flatnonzero(np.diff(position) == 0) + 1
         for x, z in zip(np.split(position, kinks), np.split(drop, kinks), strict=True):
             if len(x) > 1:
                 yield x, z
 
-    def __call__(self, position: ArrayLike) -> NDArray[np.float64]:
+    def __call__(self, position: ArrayLike) -> Floats:
         """Return the drop at positions, +inf outside the points [m]."""
         x = np.asarray(position, dtype=np.float64)
         first, last = self.position[0], self.position[-1]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 
 
@@ -25,7 +25,7 @@ class Profile(Displayable, ABC):
     """
 
     @abstractmethod
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the generating line.
 
         Parameters

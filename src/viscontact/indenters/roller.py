@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.crowns import CylindricalProfile, PartialCrown
@@ -123,11 +124,11 @@ class Roller(Indenter):
             inside, outside = (inside, middle) if ended else (middle, outside)
         return inside
 
-    def drop(self, x: ArrayLike) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike) -> Floats:
         """Return how far the generating line has receded, +inf beyond its end [m]."""
         return self.line.drop(x, self.half_length)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return R - sqrt(R(x)² - y²), +inf outside the roller; see `Indenter.gap`."""
         x, y = positions(x, y)
         drop = self.drop(x)

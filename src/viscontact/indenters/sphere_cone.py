@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import acute_angle, positions
 from viscontact.indenters.indenter import Indenter
@@ -42,7 +43,7 @@ class Sphere(Indenter):
     def __post_init__(self) -> None:
         check_fields(self, "radius")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return R - sqrt(R² - r²), +inf for r > R; see `Indenter.gap`."""
         return arc_drop(np.hypot(*positions(x, y)), self.radius)
 
@@ -83,7 +84,7 @@ class Paraboloid(Indenter):
         if math.isinf(self.radius_x) and math.isinf(self.radius_y):
             raise ValueError("Paraboloid: one of radius_x and radius_y must be finite")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return x²/(2 R_x) + y²/(2 R_y); see `Indenter.gap`."""
         x, y = positions(x, y)
         return np.asarray(x * x / (2 * self.radius_x) + y * y / (2 * self.radius_y))
@@ -130,6 +131,6 @@ class Cone(Indenter):
     def __post_init__(self) -> None:
         check_fields(self, "half_angle", check=acute_angle)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return r / tan(half_angle); see `Indenter.gap`."""
         return np.asarray(np.hypot(*positions(x, y)) / math.tan(self.half_angle))

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.point_line import Interpolation, TableLine, mirrored, numbers
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
@@ -72,7 +73,7 @@ class TabulatedProfile(Profile):
             x, drops = mirrored(x, drops)
         return TableLine("TabulatedProfile", x, drops, self.interpolation)
 
-    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+    def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop below the highest point; see `Profile.drop`."""
         x = np.asarray(x, dtype=np.float64)
         left, right = self._ends(half_length)

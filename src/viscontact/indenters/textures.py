@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.units.formatting import format_quantity
@@ -73,7 +74,7 @@ class Waviness(Indenter):
         if self.wavelength_x is None and self.wavelength_y is None:
             raise ValueError("Waviness: give wavelength_x, wavelength_y or both, got neither")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the depth below the crests; see `Indenter.gap`."""
         x, y = positions(x, y)
         u = _angle(x, self.wavelength_x, self.phase_x)
@@ -150,7 +151,7 @@ class Dimples(Indenter):
                 f"Dimples: pattern must be {' or '.join(map(repr, PATTERNS))}, got {self.pattern!r}"
             )
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the depth of the nearest dimple, zero between them; see `Indenter.gap`."""
         x, y = positions(x, y)
         r = self._from_nearest(x, y)
@@ -167,7 +168,7 @@ class Dimples(Indenter):
         """A dimple's mouth, which is shorter than their distance [m]."""
         return 2 * self.radius
 
-    def _from_nearest(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _from_nearest(self, x: Floats, y: Floats) -> Floats:
         """Distance from the nearest dimple's middle [m]."""
         s = self.spacing
         if self.pattern == "square":
@@ -179,13 +180,11 @@ class Dimples(Indenter):
         )
 
 
-def _angle(
-    position: NDArray[np.float64], wavelength: float | None, phase: float
-) -> NDArray[np.float64]:
+def _angle(position: Floats, wavelength: float | None, phase: float) -> Floats:
     if wavelength is None:
         return np.zeros_like(position)
     return np.asarray(2 * math.pi * (position / wavelength) + phase)
 
 
-def _from_multiple(position: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+def _from_multiple(position: Floats, step: float) -> Floats:
     return np.asarray(position - step * np.round(position / step))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
@@ -45,7 +46,7 @@ class Torus(Indenter):
     def __post_init__(self) -> None:
         check_fields(self, "ring_radius", "tube_radius")
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the drop of the section's arc, +inf outside the ring; see `Indenter.gap`."""
         distance = np.hypot(*positions(x, y)) - self.ring_radius
         return arc_drop(np.abs(distance), self.tube_radius)

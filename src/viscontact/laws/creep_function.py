@@ -8,7 +8,9 @@ from collections.abc import Callable, Sequence
 from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
 
 
 class CreepFunction(ABC):
@@ -20,8 +22,8 @@ class CreepFunction(ABC):
     @overload
     def __call__(self, t: float) -> float: ...
     @overload
-    def __call__(self, t: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def __call__(self, t: ArrayLike) -> float | NDArray[np.float64]:
+    def __call__(self, t: Sequence[float] | Floats) -> Floats: ...
+    def __call__(self, t: ArrayLike) -> float | Floats:
         """Return the creep compliance: Phi(t) of a law, J(t) of a contact.
 
         Parameters
@@ -45,8 +47,8 @@ class CreepFunction(ABC):
     @overload
     def relaxation(self, t: float) -> float: ...
     @overload
-    def relaxation(self, t: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def relaxation(self, t: ArrayLike) -> float | NDArray[np.float64]:
+    def relaxation(self, t: Sequence[float] | Floats) -> Floats: ...
+    def relaxation(self, t: ArrayLike) -> float | Floats:
         """Return the relaxation modulus: G(t) of a law, M(t) of a contact.
 
         Parameters
@@ -73,10 +75,10 @@ class CreepFunction(ABC):
     @overload
     def mean_creep(
         self,
-        start: Sequence[float] | NDArray[np.float64],
-        end: Sequence[float] | NDArray[np.float64],
-    ) -> NDArray[np.float64]: ...
-    def mean_creep(self, start: ArrayLike, end: ArrayLike) -> float | NDArray[np.float64]:
+        start: Sequence[float] | Floats,
+        end: Sequence[float] | Floats,
+    ) -> Floats: ...
+    def mean_creep(self, start: ArrayLike, end: ArrayLike) -> float | Floats:
         """Return the mean creep compliance over the times from `start` to `end`.
 
         It is the compliance under a stress that rises linearly over a time `end - start`, at
@@ -111,27 +113,23 @@ class CreepFunction(ABC):
         return 0.0
 
     @abstractmethod
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def _creep(self, t: Floats) -> Floats: ...
 
     @abstractmethod
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def _relaxation(self, t: Floats) -> Floats: ...
 
     @abstractmethod
-    def _mean_creep(
-        self, start: NDArray[np.float64], end: NDArray[np.float64]
-    ) -> NDArray[np.float64]: ...
+    def _mean_creep(self, start: Floats, end: Floats) -> Floats: ...
 
 
-def _as_times(name: str, given: ArrayLike) -> NDArray[np.float64]:
+def _as_times(name: str, given: ArrayLike) -> Floats:
     try:
         return np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{name} must be times in s: {error}") from None
 
 
-def _over_times(
-    function: Callable[[NDArray[np.float64]], NDArray[np.float64]], t: ArrayLike
-) -> float | NDArray[np.float64]:
+def _over_times(function: Callable[[Floats], Floats], t: ArrayLike) -> float | Floats:
     """Return `function` at checked times `t` [s]: a float for one time, else an array."""
     times = _as_times("t", t)
     wrong = ~(times >= 0)  # true for NaN as well
@@ -145,10 +143,10 @@ def _over_times(
 
 
 def _over_intervals(
-    function: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]],
+    function: Callable[[Floats, Floats], Floats],
     start: ArrayLike,
     end: ArrayLike,
-) -> float | NDArray[np.float64]:
+) -> float | Floats:
     """Return `function` over checked intervals of time [s]: a float for one, else an array."""
     starts, ends = np.broadcast_arrays(_as_times("start", start), _as_times("end", end))
     wrong = ~((starts >= 0) & (ends >= starts) & (ends < np.inf))

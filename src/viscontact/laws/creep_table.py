@@ -8,9 +8,7 @@ from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.arguments import one_of
 from viscontact.laws.interconversion.cached_inverse import Inverse
 from viscontact.laws.interconversion.curve_transform import oscillating
@@ -20,8 +18,6 @@ from viscontact.laws.interconversion.volterra import first_node
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.table_columns import check_columns, check_left
 from viscontact.laws.uniaxial import uniaxial
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -219,6 +215,6 @@ class TabulatedCreep(Law):
     def _mean_creep(self, start: Floats, end: Floats) -> Floats:
         return self._curve.mean(start, end)
 
-    def _complex_modulus(self, omega: Floats) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         compliance = oscillating(self._curve, omega)
         return half_inverse(compliance.real, -compliance.imag)

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.arguments import exponent
 from viscontact.laws.interconversion.log_curve import mean_power
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
@@ -20,8 +20,6 @@ from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
 from viscontact.units.numbers import check_fields, non_negative
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -175,7 +173,7 @@ class FractionalMaxwell(Law):
         relaxed = mittag_leffler(ratio ** (a - b), a - b, 1 - b)
         return np.asarray(self.shear_modulus * early * relaxed)
 
-    def _complex_modulus(self, omega: Floats) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         sizes = [(n, (omega * self.time) ** -n / (2 * self.shear_modulus)) for n in self._exponents]
         storage = sum(size * math.cos(math.pi * n / 2) for n, size in sizes)
         loss = sum(size * math.sin(math.pi * n / 2) for n, size in sizes)

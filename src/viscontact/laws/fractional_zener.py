@@ -6,16 +6,14 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.arguments import exponent
 from viscontact.laws.interconversion.log_curve import narrow_mean
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
 from viscontact.units.numbers import check_fields, non_negative
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -174,7 +172,7 @@ class FractionalZener(Law):
         wide = area / np.where(length > 0, length, 1.0)
         return narrow_mean(self._creep, start, end, otherwise=wide)
 
-    def _complex_modulus(self, omega: Floats) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         angle = math.pi * self.exponent / 2
         # y e^iφ/(1 + y e^iφ) in real and imaginary part, by the size that stays below 1
         y = (omega * self.time) ** self.exponent

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.display import Displayable
 from viscontact.laws.creep_function import CreepFunction
 from viscontact.units.numbers import positive
@@ -34,10 +35,8 @@ class Law(Displayable, CreepFunction):
     @overload
     def complex_modulus(self, angular_frequency: float) -> complex: ...
     @overload
-    def complex_modulus(
-        self, angular_frequency: Sequence[float] | NDArray[np.float64]
-    ) -> NDArray[np.complex128]: ...
-    def complex_modulus(self, angular_frequency: ArrayLike) -> complex | NDArray[np.complex128]:
+    def complex_modulus(self, angular_frequency: Sequence[float] | Floats) -> Complexes: ...
+    def complex_modulus(self, angular_frequency: ArrayLike) -> complex | Complexes:
         """Return the complex shear modulus G* = G' + i G''.
 
         Parameters
@@ -97,7 +96,7 @@ class Law(Displayable, CreepFunction):
         return self.inversion_error
 
     @abstractmethod
-    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]: ...
+    def _complex_modulus(self, omega: Floats) -> Complexes: ...
 
 
 def slowing(factor: float) -> float:

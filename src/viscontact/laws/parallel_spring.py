@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.interconversion.cached_inverse import Inverse
-from viscontact.laws.interconversion.product_integration import Floats, Load
+from viscontact.laws.interconversion.product_integration import Load
 from viscontact.laws.interconversion.volterra import onset
 from viscontact.laws.law import Law, slowing
 from viscontact.units.numbers import check_fields
@@ -142,5 +142,5 @@ class BesideSpring(Law):
     def _relaxation(self, t: Floats) -> Floats:
         return np.asarray(self.law._relaxation(t) + self.shear_modulus)
 
-    def _complex_modulus(self, omega: Floats) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         return np.asarray(self.law._complex_modulus(omega) + self.shear_modulus)

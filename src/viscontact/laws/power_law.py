@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.arguments import exponent
 from viscontact.laws.interconversion.log_curve import mean_power
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
@@ -16,8 +16,6 @@ from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
 from viscontact.units.numbers import check_fields, non_negative
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -171,7 +169,7 @@ class PowerLaw(Law):
         gammas = scipy.special.rgamma(1 + n) * scipy.special.rgamma(1 - n)
         return np.asarray(powers * (gammas / (2 * self.compliance)))
 
-    def _complex_modulus(self, omega: Floats) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         n = self.exponent
         size = self.compliance * math.gamma(1 + n) * (omega * self.reference_time) ** -n
         storage, loss = math.cos(math.pi * n / 2), math.sin(math.pi * n / 2)

@@ -8,9 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.arguments import check_series
 from viscontact.laws.interconversion.oscillation import modulus_of_creep, modulus_of_relaxation
 from viscontact.laws.interconversion.series import (
@@ -48,18 +46,16 @@ class SeriesLaw(Law):
         # Kept, because a series in turn keeps its inverse, which takes a root search.
         return self.creep_series()
 
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _creep(self, t: Floats) -> Floats:
         return self._series._creep(t)
 
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _relaxation(self, t: Floats) -> Floats:
         return self._series._relaxation(t)
 
-    def _mean_creep(
-        self, start: NDArray[np.float64], end: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _mean_creep(self, start: Floats, end: Floats) -> Floats:
         return creep_mean(self._series.terms, start, end)
 
-    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         return modulus_of_creep(self._series.terms, omega)
 
 
@@ -214,10 +210,10 @@ class CreepSeries(SeriesLaw):
         instant, amplitudes, times, fluidity = self.terms
         return relaxation_from_creep(2 * instant, 2 * amplitudes, times, 2 * fluidity)
 
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _creep(self, t: Floats) -> Floats:
         return creep_function(self.terms, t)
 
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _relaxation(self, t: Floats) -> Floats:
         return relaxation_function(self._inverse, t)
 
 
@@ -360,11 +356,11 @@ class RelaxationSeries(SeriesLaw):
         instant, amplitudes, times, fluidity = creep_from_relaxation(*self._terms)
         return SeriesTerms(instant / 2, amplitudes / 2, times, fluidity / 2)
 
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _creep(self, t: Floats) -> Floats:
         return creep_function(self._inverse, t)
 
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _relaxation(self, t: Floats) -> Floats:
         return relaxation_function(self._terms, t)
 
-    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def _complex_modulus(self, omega: Floats) -> Complexes:
         return modulus_of_relaxation(self._terms, omega)

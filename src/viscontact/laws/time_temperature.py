@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 from typing import ClassVar, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.units.numbers import check_fields, positive, store, unit_of
 
@@ -31,8 +32,8 @@ class Shift(Displayable, ABC):
     @overload
     def factor(self, temperature: float) -> float: ...
     @overload
-    def factor(self, temperature: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def factor(self, temperature: ArrayLike) -> float | NDArray[np.float64]:
+    def factor(self, temperature: Sequence[float] | Floats) -> Floats: ...
+    def factor(self, temperature: ArrayLike) -> float | Floats:
         """Return the shift factor a_T.
 
         Parameters
@@ -69,7 +70,7 @@ class Shift(Displayable, ABC):
         return float(factors) if T.ndim == 0 else factors
 
     @abstractmethod
-    def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _log_factor(self, temperature: Floats) -> Floats:
         """Return ln a_T."""
 
 
@@ -116,7 +117,7 @@ class WLF(Shift):
     def __post_init__(self) -> None:
         check_fields(self, "reference_temperature", "c1", "c2")
 
-    def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _log_factor(self, temperature: Floats) -> Floats:
         above = temperature - self.reference_temperature
         too_cold = ~(self.c2 + above > 0)
         if too_cold.any():
@@ -161,7 +162,7 @@ class Arrhenius(Shift):
     def __post_init__(self) -> None:
         check_fields(self, "reference_temperature", "activation_energy")
 
-    def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _log_factor(self, temperature: Floats) -> Floats:
         scale = self.activation_energy / GAS_CONSTANT
         return np.asarray(scale * (1.0 / temperature - 1.0 / self.reference_temperature))
 
@@ -231,7 +232,7 @@ class TabulatedShift(Shift):
                 "(are these 1/a_T, or logarithms?)"
             )
 
-    def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _log_factor(self, temperature: Floats) -> Floats:
         first, last = self.temperatures[0], self.temperatures[-1]
         outside = ~((first <= temperature) & (temperature <= last))
         if outside.any():

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import arguments
 from viscontact.loads.piecewise import PiecewiseHistory
 from viscontact.units.numbers import store
@@ -57,10 +58,10 @@ class ApproachHistory(PiecewiseHistory):
 
     control = "approach"
 
-    times: NDArray[np.float64] = field(metadata={"unit": "s", "name": "at times"})
-    approach: NDArray[np.float64] = field(metadata={"unit": "m"})
-    tilt_x: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
-    tilt_y: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
+    times: Floats = field(metadata={"unit": "s", "name": "at times"})
+    approach: Floats = field(metadata={"unit": "m"})
+    tilt_x: float | Floats | None = field(metadata={"unit": "rad"})
+    tilt_y: float | Floats | None = field(metadata={"unit": "rad"})
 
     def __init__(
         self,
@@ -75,7 +76,7 @@ class ApproachHistory(PiecewiseHistory):
         tilts = arguments.tail(ApproachHistory, instants.size, tilt_x=tilt_x, tilt_y=tilt_y)
         store(self, times=instants, approach=np.broadcast_to(values, instants.shape), **tilts)
 
-    def approach_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def approach_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the approach at many instants.
 
         Parameters
@@ -105,12 +106,12 @@ class ApproachHistory(PiecewiseHistory):
         approach = self._interpolate(self.approach, instants, side)
         return np.where(self._started(instants, side), approach, min(float(self.approach[0]), 0.0))
 
-    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the approach at many instants [m]; as `approach_at`."""
         return self.approach_at(times, side=side)
 
     @cached_property
-    def touches(self) -> NDArray[np.float64]:
+    def touches(self) -> Floats:
         """Instants between kinks at which the approach rises through 0, without given tilts [s].
 
         Examples

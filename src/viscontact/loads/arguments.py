@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.numbers import unit_of
 
 #: Arguments of histories other than force and approach.
@@ -23,7 +24,7 @@ def side_of_jump(side: str) -> Literal["left", "right"]:
     raise ValueError(f'side must be "left" (before a jump) or "right" (after it), got {side!r}')
 
 
-def instants(times: ArrayLike) -> NDArray[np.float64]:
+def instants(times: ArrayLike) -> Floats:
     """Return the times of a history's points, read-only, shape (n,) [s].
 
     They must not decrease, be negative, or come three times.
@@ -49,9 +50,7 @@ def instants(times: ArrayLike) -> NDArray[np.float64]:
     return given
 
 
-def values(
-    owner: type, name: str, given: ArrayLike | None, count: int
-) -> float | NDArray[np.float64]:
+def values(owner: type, name: str, given: ArrayLike | None, count: int) -> float | Floats:
     """Return field `name` of a history: finite, a scalar or shape (count,), read-only."""
     array = numbers(name, given, unit_of(owner, name) or "")
     if array.shape not in ((), (count,)):
@@ -62,7 +61,7 @@ def values(
     return float(array) if array.ndim == 0 else array
 
 
-def forces(owner: type, given: ArrayLike, count: int) -> NDArray[np.float64]:
+def forces(owner: type, given: ArrayLike, count: int) -> Floats:
     """Return the force at each point of a history, none negative, shape (count,) [N]."""
     force = np.broadcast_to(values(owner, "force", given, count), (count,))
     for lowest in force[force < 0][:1]:
@@ -75,8 +74,8 @@ def forces(owner: type, given: ArrayLike, count: int) -> NDArray[np.float64]:
 
 def refuse_both(
     axis: str,
-    eccentricity: float | NDArray[np.float64] | None,
-    tilt: float | NDArray[np.float64] | None,
+    eccentricity: float | Floats | None,
+    tilt: float | Floats | None,
 ) -> None:
     """Raise ValueError if an axis has both a prescribed tilt and an eccentricity."""
     if tilt is not None and np.any(eccentricity):
@@ -87,7 +86,7 @@ def refuse_both(
         )
 
 
-def numbers(name: str, given: ArrayLike | None, unit: str) -> NDArray[np.float64]:
+def numbers(name: str, given: ArrayLike | None, unit: str) -> Floats:
     """Return finite numbers of any shape as a read-only copy, or raise ValueError.
 
     >>> numbers("times", [0, 2], "s").tolist()
@@ -106,9 +105,7 @@ def numbers(name: str, given: ArrayLike | None, unit: str) -> NDArray[np.float64
     return copy
 
 
-def tail(
-    owner: type, count: int, **given: ArrayLike | None
-) -> dict[str, float | NDArray[np.float64] | None]:
+def tail(owner: type, count: int, **given: ArrayLike | None) -> dict[str, float | Floats | None]:
     """Return eccentricities [m] and tilts [rad] of a history, as `values`; a tilt may be None."""
     checked = {
         name: values(owner, name, value, count) if value is not None or name not in TILTS else None

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import arguments
 from viscontact.loads.piecewise import PiecewiseHistory
 from viscontact.units.numbers import store
@@ -54,12 +55,12 @@ class ForceHistory(PiecewiseHistory):
     10.0
     """
 
-    times: NDArray[np.float64] = field(metadata={"unit": "s", "name": "at times"})
-    force: NDArray[np.float64] = field(metadata={"unit": "N"})
-    eccentricity_x: float | NDArray[np.float64] = field(metadata={"unit": "m"})
-    eccentricity_y: float | NDArray[np.float64] = field(metadata={"unit": "m"})
-    tilt_x: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
-    tilt_y: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
+    times: Floats = field(metadata={"unit": "s", "name": "at times"})
+    force: Floats = field(metadata={"unit": "N"})
+    eccentricity_x: float | Floats = field(metadata={"unit": "m"})
+    eccentricity_y: float | Floats = field(metadata={"unit": "m"})
+    tilt_x: float | Floats | None = field(metadata={"unit": "rad"})
+    tilt_y: float | Floats | None = field(metadata={"unit": "rad"})
 
     def __init__(
         self,
@@ -83,7 +84,7 @@ class ForceHistory(PiecewiseHistory):
         forces = arguments.forces(ForceHistory, force, instants.size)
         store(self, times=instants, force=forces, **tail)
 
-    def force_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def force_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force at many instants.
 
         Parameters
@@ -114,7 +115,7 @@ class ForceHistory(PiecewiseHistory):
         counts = self._started(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
         return np.where(counts, force, 0.0)
 
-    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force at many instants [N]; as `force_at`."""
         return self.force_at(times, side=side)
 

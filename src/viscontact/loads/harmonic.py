@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import arguments
 from viscontact.loads.force import NEGLIGIBLE
 from viscontact.loads.history import Control, Cycle, LoadHistory
@@ -68,7 +69,7 @@ class HarmonicHistory(LoadHistory):
         """Instant at which the last cycle ends [s]."""
         return self.cycles * self.period
 
-    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
         instants = arguments.numbers("times", times, "s")
         turns = np.minimum(instants, self.end) / self.period
@@ -91,12 +92,12 @@ class HarmonicHistory(LoadHistory):
         return self.mean + abs(self.amplitude)
 
     @property
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """Beginning and end of the cycles [s]."""
         return np.array([0.0, self.end])
 
     @property
-    def jumps(self) -> NDArray[np.float64]:
+    def jumps(self) -> Floats:
         """Time 0, unless the level starts at zero [s]."""
         return np.zeros(1) if self.level_at(0.0) > 0 else np.zeros(0)
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.units.numbers import finite
 
@@ -79,11 +80,11 @@ class LoadHistory(Displayable, ABC):
     #: Quantity that the history prescribes along z; "mixed": the force at times, else the approach.
     control: Control | Literal["mixed"] = "force"
     #: Position of the force, constant or at each point of the history [m].
-    eccentricity_x: float | NDArray[np.float64] = 0.0
-    eccentricity_y: float | NDArray[np.float64] = 0.0
+    eccentricity_x: float | Floats = 0.0
+    eccentricity_y: float | Floats = 0.0
     #: Prescribed slopes, constant or at each point; None where the tilt is free [rad].
-    tilt_x: float | NDArray[np.float64] | None = None
-    tilt_y: float | NDArray[np.float64] | None = None
+    tilt_x: float | Floats | None = None
+    tilt_y: float | Floats | None = None
 
     @property
     def unit(self) -> str:
@@ -107,7 +108,7 @@ class LoadHistory(Displayable, ABC):
         return point.level
 
     @abstractmethod
-    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
 
     @property
@@ -117,12 +118,12 @@ class LoadHistory(Displayable, ABC):
 
     @property
     @abstractmethod
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """All distinct times of kinks and jumps of the history, increasing [s]."""
 
     @property
     @abstractmethod
-    def jumps(self) -> NDArray[np.float64]:
+    def jumps(self) -> Floats:
         """Kinks at which the load jumps, increasing [s]."""
 
     @property
@@ -144,12 +145,12 @@ class LoadHistory(Displayable, ABC):
         return ()
 
     @property
-    def touches(self) -> NDArray[np.float64]:
+    def touches(self) -> Floats:
         """Instants between kinks at which undeformed bodies come to touch, increasing [s]."""
         return np.zeros(0)
 
     @property
-    def stops(self) -> NDArray[np.float64]:
+    def stops(self) -> Floats:
         """Instants at which every run has a step: kinks, touches and ends of cycles [s]."""
         ends = [time for cycle in self.load_cycles for time, _ in cycle]
         return np.unique(np.concatenate([self.kinks, self.touches, ends]))

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads.arguments import numbers
 from viscontact.loads.history import Control, LoadHistory, LoadPoint
 from viscontact.loads.program import LoadProgram
@@ -191,7 +192,7 @@ class MixedHistory(LoadHistory):
         share: float = point.level / self._largest(control)
         return share
 
-    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force or approach at many instants [s], as a share of its largest one [-]."""
         instants = numbers("times", times, "s")
         shares = [
@@ -205,12 +206,12 @@ class MixedHistory(LoadHistory):
         return max(0.0, float(self.level_at(self.times).max()))
 
     @property
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """Begin of the first segment, and ends of all [s]."""
         return np.array(self.times)
 
     @property
-    def jumps(self) -> NDArray[np.float64]:
+    def jumps(self) -> Floats:
         """Nothing jumps [s]."""
         return np.zeros(0)
 

@@ -7,8 +7,9 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads.history import Control, Cycle, LoadHistory
 from viscontact.units.numbers import store
 
@@ -30,7 +31,7 @@ class Motion(ABC):
     rolling: bool | None = None
 
     @abstractmethod
-    def position_at(self, times: ArrayLike) -> NDArray[np.float64]:
+    def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
 
     @abstractmethod
@@ -39,7 +40,7 @@ class Motion(ABC):
 
     @property
     @abstractmethod
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """Times of kinks of the path, with its begin and end, increasing [s]."""
 
     @property
@@ -48,7 +49,7 @@ class Motion(ABC):
         """Least and largest positions along x, and along y [m]."""
 
     @abstractmethod
-    def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
+    def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Times at which the body has moved by whole cells (dx, dy) since its start [s]."""
 
     @property
@@ -91,7 +92,7 @@ class MovingLoad(LoadHistory):
     def __post_init__(self) -> None:
         store(self, control=self.load.control)
 
-    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
         return self.load.level_at(times, side=side)
 
@@ -101,7 +102,7 @@ class MovingLoad(LoadHistory):
         return self.load.largest_level
 
     @property
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """Kinks of load and path, increasing [s]."""
         known, others = self.load.kinks, self.motion.kinks
         after = np.searchsorted(known, others)
@@ -110,7 +111,7 @@ class MovingLoad(LoadHistory):
         return np.unique([*known, *others[distance > SAME_TIME * others]])
 
     @property
-    def jumps(self) -> NDArray[np.float64]:
+    def jumps(self) -> Floats:
         """Jumps of the load, increasing [s]."""
         return self.load.jumps
 
@@ -131,7 +132,7 @@ class MovingLoad(LoadHistory):
         return self.load.load_cycles or self.motion.cycles
 
     @property
-    def touches(self) -> NDArray[np.float64]:
+    def touches(self) -> Floats:
         """Instants between kinks at which undeformed bodies come to touch, increasing [s]."""
         return self.load.touches
 

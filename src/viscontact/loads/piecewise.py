@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.loads import arguments
 from viscontact.loads.history import Cycle, LoadHistory, LoadInstant, LoadPoint
 from viscontact.units.numbers import finite
@@ -19,7 +19,7 @@ from viscontact.units.numbers import finite
 class PiecewiseHistory(LoadHistory):
     """A history by points; a time given twice is a jump, from the first value to the second."""
 
-    times: NDArray[np.float64]
+    times: Floats
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return the prescribed load at an instant.
@@ -60,12 +60,12 @@ class PiecewiseHistory(LoadHistory):
         return LoadPoint(**values)
 
     @cached_property
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """All distinct instants of the points, increasing: kinks, jumps, first and last [s]."""
         return np.unique(self.times)
 
     @cached_property
-    def jumps(self) -> NDArray[np.float64]:
+    def jumps(self) -> Floats:
         """Instants where, under load, force, approach, eccentricity or tilt jumps [s].
 
         A history that starts with a force has its first jump there.
@@ -81,7 +81,7 @@ class PiecewiseHistory(LoadHistory):
         loaded = self._loaded_at(kinks, "left") | self._loaded_at(kinks, "right")
         return np.asarray(kinks[changed & loaded])
 
-    def _loaded_at(self, times: NDArray[np.float64], side: str) -> NDArray[np.bool_]:
+    def _loaded_at(self, times: Floats, side: str) -> Bools:
         """True where contact is possible: under a force, or with an approach above 0 or a tilt."""
         level = self.level_at(times, side=side)
         if self.control == "force":
@@ -130,9 +130,7 @@ class PiecewiseHistory(LoadHistory):
                     plateaus.append((level, moment, moment))
         return plateaus
 
-    def _interpolate(
-        self, values: float | NDArray[np.float64], times: NDArray[np.float64], side: str
-    ) -> NDArray[np.float64]:
+    def _interpolate(self, values: float | Floats, times: Floats, side: str) -> Floats:
         """Values at `times`, held before the first and after the last point."""
         if isinstance(values, float):
             return np.full(times.shape, values)
@@ -145,7 +143,7 @@ class PiecewiseHistory(LoadHistory):
         nearer, offset = np.where(first_half, i, j), np.where(first_half, part, part - 1)
         return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
 
-    def _started(self, times: NDArray[np.float64], side: str) -> NDArray[np.bool_]:
+    def _started(self, times: Floats, side: str) -> Bools:
         return np.asarray(np.searchsorted(self.times, times, side=arguments.side_of_jump(side)) > 0)
 
     def __eq__(self, other: object) -> bool:

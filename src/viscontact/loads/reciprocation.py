@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads.history import Cycle
 from viscontact.loads.motion import Motion, checked_rolling, refuse_long_path
 from viscontact.units.numbers import positive, whole
@@ -47,7 +48,7 @@ class Reciprocation(Motion):
     along: Literal["x", "y"] = "y"
     rolling: bool | None = None
 
-    def position_at(self, times: ArrayLike) -> NDArray[np.float64]:
+    def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
         turns = np.clip(np.asarray(times, dtype=np.float64) / self.period, 0.0, self.count)
         # Whole cycles are subtracted first: sin(2 π n) is not 0 in floating point.
@@ -69,7 +70,7 @@ class Reciprocation(Motion):
         return 2 * math.pi * self.amplitude / self.period
 
     @property
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """Begin and end of the cycles [s]."""
         return np.array([0.0, self.count * self.period])
 
@@ -79,7 +80,7 @@ class Reciprocation(Motion):
         low, high = _on_axis(self.along, np.array([-self.amplitude, self.amplitude]))
         return (float(low[0]), float(high[0])), (float(low[1]), float(high[1]))
 
-    def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
+    def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Return times at which the body has moved by whole cells (dx, dy) [s]."""
         reach = self.amplitude / cell_size["xy".index(self.along)]
         refuse_long_path(4 * self.count * reach)
@@ -152,7 +153,7 @@ def reciprocating(
     )
 
 
-def _on_axis(along: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _on_axis(along: str, values: Floats) -> Floats:
     """Positions or velocities along one axis, shape (..., 2)."""
     still = np.zeros_like(values)
     return np.stack([values, still] if along == "x" else [still, values], axis=-1)

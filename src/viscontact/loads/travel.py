@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import arguments
 from viscontact.loads.motion import Motion, checked_rolling, refuse_long_path
 from viscontact.units.numbers import store
@@ -55,9 +56,9 @@ class Travel(Motion):
     ([0.0, 0.01], (0.0, 1.0))
     """
 
-    times: NDArray[np.float64] = field(metadata={"unit": "s", "name": "at times"})
-    x: float | NDArray[np.float64] = field(metadata={"unit": "m"})
-    y: float | NDArray[np.float64] = field(metadata={"unit": "m"})
+    times: Floats = field(metadata={"unit": "s", "name": "at times"})
+    x: float | Floats = field(metadata={"unit": "m"})
+    y: float | Floats = field(metadata={"unit": "m"})
     rolling: bool | None
 
     def __init__(
@@ -85,7 +86,7 @@ class Travel(Motion):
                 "motion"
             )
 
-    def position_at(self, times: ArrayLike) -> NDArray[np.float64]:
+    def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions of the body's axis.
 
         Parameters
@@ -128,7 +129,7 @@ class Travel(Motion):
         return float((distances / np.diff(self.times)).max())
 
     @property
-    def kinks(self) -> NDArray[np.float64]:
+    def kinks(self) -> Floats:
         """Times of the points [s]."""
         return self.times
 
@@ -138,7 +139,7 @@ class Travel(Motion):
         along_x, along_y = ((float(each.min()), float(each.max())) for each in self._points)
         return along_x, along_y
 
-    def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
+    def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Return the times at which the body has moved by whole cells since its start.
 
         Parameters
@@ -165,12 +166,12 @@ class Travel(Motion):
         return np.unique(np.asarray(found, dtype=np.float64))
 
     @property
-    def _points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _points(self) -> tuple[Floats, Floats]:
         along_x, along_y = (np.broadcast_to(each, self.times.shape) for each in (self.x, self.y))
         return along_x, along_y
 
 
-def _parts_at_cells(first: NDArray[np.float64], last: NDArray[np.float64]) -> Iterator[float]:
+def _parts_at_cells(first: Floats, last: Floats) -> Iterator[float]:
     """Parts of a straight path between two positions, in cells, at which whole cells are passed."""
     distance = last - first
     axis = int(np.abs(distance).argmax())

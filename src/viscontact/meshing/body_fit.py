@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.body_edge import trace_outline
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
@@ -49,9 +49,7 @@ def straight_ends(
     )
 
 
-def _straight_end(
-    centres: NDArray[np.float64], inside: NDArray[np.bool_], crossings: NDArray[np.float64]
-) -> float:
+def _straight_end(centres: Floats, inside: Bools, crossings: Floats) -> float:
     """Distance at which all lines along the first axis end, inf if they end at different ones."""
     cell = float(centres[1] - centres[0])
     before, line = np.nonzero(np.isfinite(crossings))

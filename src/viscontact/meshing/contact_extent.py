@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadPoint
@@ -130,7 +130,7 @@ def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
     return _outermost(list(dict.fromkeys(point for point in points if point.level > 0)))
 
 
-def _representative_times(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
+def _representative_times(instants: Floats, load: LoadHistory) -> Floats:
     """Times of the largest loads, and evenly chosen ones, of a very long history [s]."""
     if instants.size <= 2 * MAX_INSTANTS:
         return instants

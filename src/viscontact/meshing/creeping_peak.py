@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
@@ -76,7 +77,7 @@ class ContactGrowth:
         """True if the contact grows alike along x and y."""
         return self.extents[0] == self.extents[1]
 
-    def peak_errors(self, axis: int, across: ArrayLike) -> NDArray[np.float64]:
+    def peak_errors(self, axis: int, across: ArrayLike) -> Floats:
         """Errors of the peak pressure over its largest value, for several numbers of cells [-].
 
         Cells along x (axis 0) or along y across the largest contact.
@@ -88,9 +89,7 @@ class ContactGrowth:
         errors = np.where(counts, np.abs(found - exact), 0.0)
         return np.asarray(errors.max(axis=0) / max(float(exact.max()), TINY))
 
-    def _march(
-        self, axis: int, halves: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _march(self, axis: int, halves: Floats) -> tuple[Floats, Floats]:
         """Relative widths of the strips' contact, its exact largest pressure and those on cells.
 
         After each step; `halves` are largest half widths of the strips' contact in cells.
@@ -128,9 +127,7 @@ class ContactGrowth:
         return max(level, 0.0) / self.largest
 
 
-def _shapes(
-    contact: StripContact, halves: NDArray[np.float64], counts: NDArray[np.int64]
-) -> list[NDArray[np.float64]]:
+def _shapes(contact: StripContact, halves: Floats, counts: NDArray[np.int64]) -> list[Floats]:
     """Pressures of strips over the largest one in Hertz's contact, for several half widths."""
     return [
         contact.pressure(half)[:count] / half if half > 0 else np.zeros(count)

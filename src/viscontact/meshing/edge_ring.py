@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.meshing.creeping_peak import ContactGrowth
 
 #: Ratio of the cells of neighbouring meshes along an axis, and of the finest and the coarsest.
@@ -24,12 +24,12 @@ WORTHWHILE = 0.5
 class RingResolution:
     """Factors of the cells along x and y, at least 1, and the error of the peak pressure left."""
 
-    factors: NDArray[np.float64]
+    factors: Floats
     error: float  # relative to the largest peak pressure of the history [-]
 
 
 def resolve_ring(
-    growth: ContactGrowth, across: NDArray[np.float64], tolerance: float, most: NDArray[np.float64]
+    growth: ContactGrowth, across: Floats, tolerance: float, most: Floats
 ) -> RingResolution:
     """Fewest additional cells for which the peak pressure of a history meets a tolerance.
 
@@ -48,9 +48,7 @@ def resolve_ring(
     return RingResolution(STEP ** np.array(steps, dtype=np.float64), error)
 
 
-def _errors(
-    growth: ContactGrowth, across: NDArray[np.float64], most: NDArray[np.float64]
-) -> list[NDArray[np.float64]]:
+def _errors(growth: ContactGrowth, across: Floats, most: Floats) -> list[Floats]:
     """Errors of the peak pressure on ever more cells along x, and along y, up to these factors.
 
     As cells come into contact one after the other, the error scatters from mesh to mesh: that of
@@ -65,11 +63,11 @@ def _errors(
     return [along, _with_next(growth.peak_errors(1, across[1] * factors[1]))]
 
 
-def _with_next(errors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _with_next(errors: Floats) -> Floats:
     return np.maximum(errors[:-1], errors[1:])
 
 
-def _fewest(errors: NDArray[np.float64], tolerance: float) -> int:
+def _fewest(errors: Floats, tolerance: float) -> int:
     """First mesh that meets the tolerance, else the best."""
     enough = errors <= tolerance
     return int((enough if enough.any() else -errors).argmax())

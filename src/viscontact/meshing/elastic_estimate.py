@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
@@ -44,11 +44,11 @@ class ContactEstimate:
     """Solution of an elastic contact, with its fields on the whole grid."""
 
     grid: Grid
-    open_gap: NDArray[np.float64]  # initial gap, +inf outside the body [m]
-    pressure: NDArray[np.float64]  # [Pa]
-    gap: NDArray[np.float64]  # gap under load [m]
+    open_gap: Floats  # initial gap, +inf outside the body [m]
+    pressure: Floats  # [Pa]
+    gap: Floats  # gap under load [m]
     largest_displacement: float  # of the surface [m]
-    motion: NDArray[np.float64]  # approach [m] and tilts along x and y [rad]
+    motion: Floats  # approach [m] and tilts along x and y [rad]
     converged: bool
 
     @cached_property
@@ -128,7 +128,7 @@ class ContactEstimate:
 
 
 def elastic_contact(
-    open_gap: NDArray[np.float64],
+    open_gap: Floats,
     compliance: float,
     point: LoadPoint,
     grid: Grid,
@@ -136,7 +136,7 @@ def elastic_contact(
     response: SurfaceResponse = HALF_SPACE,
     tolerance: float = COARSE_TOLERANCE,
     mirrored: tuple[bool, bool] = (False, False),
-    start: NDArray[np.float64] | None = None,
+    start: Floats | None = None,
 ) -> ContactEstimate:
     """Solve an elastic contact on a grid; `compliance` [1/Pa], `start` a pressure or None [Pa]."""
     domain = ContactDomain(grid, response=response, mirrored=mirrored)
@@ -273,7 +273,7 @@ def _misfit(indenter: Indenter, point: LoadPoint, scale: float) -> str:
     )
 
 
-def _size_factors(found: ContactEstimate, *, follows: bool) -> NDArray[np.float64] | None:
+def _size_factors(found: ContactEstimate, *, follows: bool) -> Floats | None:
     """Factors that make the grid fit the contact along x and y; None if it fits.
 
     The grid lies around the origin, or `follows` the contact.
@@ -292,7 +292,7 @@ def _size_factors(found: ContactEstimate, *, follows: bool) -> NDArray[np.float6
     return np.asarray(np.clip(part / TARGET_REACH, 0.25, 2.0))
 
 
-def _refining_factors(open_gap: NDArray[np.float64]) -> NDArray[np.float64]:
+def _refining_factors(open_gap: Floats) -> Floats:
     """Factors for a body that touches between the cell centres: finer along its steeper axis."""
     i, j = divmod(int(open_gap.argmin()), open_gap.shape[1])
     # The lowest point may be the last of its line, but its neighbour before it shows the slope.

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.cell_fields import height_over_neighbours
 from viscontact.indenters import Indenter
 from viscontact.meshing.elastic_estimate import ContactEstimate
@@ -51,7 +51,7 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
     return math.pi / 2 * steepest / (compliance * found.peak_pressure)
 
 
-def _lines(middle: float, extent: float, step: float) -> NDArray[np.float64]:
+def _lines(middle: float, extent: float, step: float) -> Floats:
     """Points of the map along an axis over the contact and one step beyond [m]."""
     count = math.ceil(extent / 2 / step) + 1
     return np.asarray(middle + step * np.arange(-count, count + 1))

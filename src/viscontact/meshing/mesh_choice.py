@@ -20,8 +20,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import MIN_CELLS_ACROSS, AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.indenters.rounding import rounding_remedy
@@ -139,14 +139,14 @@ def _contacts_before_creep(problem: Problem, end: float | None) -> list[PointCon
 class _MeshChoice:
     """Cells over the whole grid for some quantities, with expected errors and warnings."""
 
-    cells: NDArray[np.float64]
+    cells: Floats
     quantities: tuple[str, ...]
     errors: dict[str, float]
     warnings: dict[str, str]
     remedy: str  # for a singular peak pressure
     centre: tuple[float, float]  # of the grid [m]
 
-    def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
+    def after(self, found: Resolution, cells: Floats) -> _MeshChoice:
         """The choice after a contact has been resolved by some cells on the whole grid."""
         errors = {
             name: max(found.trial.errors[name], self.errors.get(name, 0.0))
@@ -168,7 +168,7 @@ def _first_choice(
     indenter: Indenter,
     request: AutomaticGrid,
     largest: PointContact,
-    size: NDArray[np.float64],
+    size: Floats,
     centre: tuple[float, float],
 ) -> _MeshChoice:
     """Step 2: the fewest cells for the largest contact."""
@@ -191,8 +191,8 @@ def _first_choice(
 
 
 def _first_cells(
-    indenter: Indenter, request: AutomaticGrid, contact: PointContact, size: NDArray[np.float64]
-) -> NDArray[np.float64]:
+    indenter: Indenter, request: AutomaticGrid, contact: PointContact, size: Floats
+) -> Floats:
     """Cells along x and y that the first trial of a contact has."""
     across = size / contact.estimate.extents
     steps = np.array(indenter.sample_spacing)
@@ -212,7 +212,7 @@ def _refined_for_smallest(
     indenter: Indenter,
     request: AutomaticGrid,
     smallest: PointContact,
-    whole: NDArray[np.float64],
+    whole: Floats,
     choice: _MeshChoice,
 ) -> _MeshChoice:
     """Step 3: refine for a contact smaller than the largest, within a limit on the cells."""
@@ -236,7 +236,7 @@ def _refined_for_largest(
     indenter: Indenter,
     request: AutomaticGrid,
     largest: PointContact,
-    size: NDArray[np.float64],
+    size: Floats,
     choice: _MeshChoice,
 ) -> Mesh:
     """Step 4: refine for the largest contact, or refuse the tolerance with the one in reach."""
@@ -317,9 +317,9 @@ def _resolved(
     indenter: Indenter,
     request: AutomaticGrid,
     contact: PointContact,
-    size: NDArray[np.float64],
+    size: Floats,
     choice: _MeshChoice,
-    fewest: NDArray[np.float64],
+    fewest: Floats,
     most: float,
 ) -> Resolution:
     """Refine for one contact on a grid of this size, not beyond the spacing of a height map."""

@@ -22,8 +22,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fast_length
 from viscontact.grid import MESH_QUANTITIES
 from viscontact.meshing.trial_mesh import PEAK, ElasticContact, MeshTrial, try_mesh
@@ -152,7 +153,7 @@ def _refined(
     return good_shape(trial.shape * step, finest)
 
 
-def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArray[np.float64]:
+def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> Floats:
     """Factors by which the cells along x and y must increase; 1 where there are enough."""
     changes = trial.changes[:, [MESH_QUANTITIES.index(name) for name in names]] / tolerance
     # Each axis gets half of the allowed error, even where the other causes less.

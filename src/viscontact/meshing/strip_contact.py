@@ -11,7 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
+
+from viscontact.backend.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,10 +23,10 @@ class StripContact:
     Hertz's is sqrt(a² - x²).
     """
 
-    forces: NDArray[np.float64]  # increasing, shape (strips,)
-    pressures: NDArray[np.float64]  # of the strips on one side, shape (strips, strips)
+    forces: Floats  # increasing, shape (strips,)
+    pressures: Floats  # of the strips on one side, shape (strips, strips)
 
-    def pressure(self, half_width: float) -> NDArray[np.float64]:
+    def pressure(self, half_width: float) -> Floats:
         """Pressure of the strips on one side, under the force of Hertz's contact.
 
         Examples
@@ -68,17 +69,17 @@ def strip_contact(strips: int) -> StripContact:
     return StripContact(2 * pressures.sum(axis=1), pressures)
 
 
-def _influence(distance: NDArray[np.float64], far: float) -> NDArray[np.float64]:
+def _influence(distance: Floats, far: float) -> Floats:
     """Displacement at a distance from a strip under unit pressure, 0 at about the distance far."""
 
-    def antiderivative(s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def antiderivative(s: Floats) -> Floats:
         return s * np.log(np.abs(s) / far)
 
     ends = antiderivative(distance + 0.5) - antiderivative(distance - 0.5)
     return np.asarray(-2 / np.pi * (ends - 1))
 
 
-def mean_pressure(half_width: float, edges: NDArray[np.float64]) -> NDArray[np.float64]:
+def mean_pressure(half_width: float, edges: Floats) -> Floats:
     """Means of Hertz's sqrt(1 - x²/a²) between edges.
 
     Examples

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.body_edge import END_DEPTH, end_cells, trace_outline
 from viscontact.contact.domain import mirrored_axes
 from viscontact.contact.line_load import line_load, peak_line_load
@@ -70,17 +70,17 @@ class MeshTrial:
     """Values on a mesh, and their changes when cells are twice as long."""
 
     grid: Grid
-    values: NDArray[np.float64]  # `MESH_QUANTITIES` in SI units
-    least_scales: NDArray[np.float64]  # to which a smaller value's change is relative; may be 0
+    values: Floats  # `MESH_QUANTITIES` in SI units
+    least_scales: Floats  # to which a smaller value's change is relative; may be 0
     #: Relative changes for cells twice as long along x, and along y [-]; shape (2, quantities).
     #: That of a peak pressure at the body's end is no smaller than `end_excess` and UNRESOLVED_END.
-    changes: NDArray[np.float64]
+    changes: Floats
     #: Relative excess of the peak over the largest pressure farther from the body's ends along x,
     #: and along y, than END_DEPTH cells [-].
-    end_excess: NDArray[np.float64]
-    at_end: NDArray[np.bool_]  # the contact reaches the body's end along x, and along y
+    end_excess: Floats
+    at_end: Bools  # the contact reaches the body's end along x, and along y
     #: Mean chords of the contact along x and along y, in cells.
-    consecutive_cells: NDArray[np.float64]
+    consecutive_cells: Floats
     cells_across: int  # cells over the shorter extent of the contact
     peak_place: tuple[float, float]  # position of the largest pressure [m]
 
@@ -131,9 +131,7 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
     fine = _found(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
-    at_end: NDArray[np.bool_] = np.any(
-        end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2)
-    )
+    at_end: Bools = np.any(end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2))
     excess = _end_excess(fine)
     straight = at_end & np.isfinite(pressing.ends)
     changes = np.maximum(changes, _least_changes(fine, straight, excess))
@@ -154,19 +152,17 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
 class _Found:
     """Solution on one mesh: values of `MESH_QUANTITIES`, and the scales of their errors."""
 
-    open_gap: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    values: NDArray[np.float64]
-    scales: NDArray[np.float64]
-    least_scales: NDArray[np.float64]
-    extents: NDArray[np.float64]  # of the contact along x and y, in cells
-    consecutive_cells: NDArray[np.float64]
+    open_gap: Floats
+    pressure: Floats
+    values: Floats
+    scales: Floats
+    least_scales: Floats
+    extents: Floats  # of the contact along x and y, in cells
+    consecutive_cells: Floats
     cells_across: int
 
 
-def _least_changes(
-    found: _Found, at_straight_end: NDArray[np.bool_], end_excess: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _least_changes(found: _Found, at_straight_end: Bools, end_excess: Floats) -> Floats:
     """Smallest changes that count, however well two meshes agree by chance; (2, quantities)."""
     least = np.zeros((2, len(MESH_QUANTITIES)))
     scatter = np.where(at_straight_end, END_SCATTER, RIM_SCATTER)
@@ -182,7 +178,7 @@ def _least_changes(
     return least
 
 
-def _end_excess(found: _Found) -> NDArray[np.float64]:
+def _end_excess(found: _Found) -> Floats:
     """Relative excess of the peak near the body's ends along x and along y [-]."""
     peak = max(float(found.pressure.max()), TINY)
     farther = [
@@ -196,7 +192,7 @@ def _found(
     pressing: ElasticContact,
     grid: Grid,
     tolerance: float,
-    start: NDArray[np.float64] | None = None,
+    start: Floats | None = None,
 ) -> _Found:
     """Solve a contact on one mesh, starting from a pressure [Pa] if one is given."""
     indenter, point = pressing.indenter, pressing.point
@@ -239,7 +235,7 @@ def _found(
     )
 
 
-def _values(found: ContactEstimate, rim: Rim) -> NDArray[np.float64]:
+def _values(found: ContactEstimate, rim: Rim) -> Floats:
     """`MESH_QUANTITIES` of a contact."""
     grid, force = found.grid, found.force
     weight = found.pressure * grid.cell_area / max(force, TINY)

@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.rim import trace_rim
 from viscontact.grid import Grid
@@ -74,7 +74,7 @@ def _is_whole(estimate: ContactEstimate) -> bool:
 
 
 def _pressed(
-    found: PointContact, open_gap: NDArray[np.float64], grid: Grid, point: LoadPoint
+    found: PointContact, open_gap: Floats, grid: Grid, point: LoadPoint
 ) -> ContactEstimate:
     """Elastic contact under a load on a grid."""
     return elastic_contact(open_gap, found.compliance, point, grid, response=found.response)

@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.loads import HarmonicHistory, LoadHistory
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
@@ -89,7 +89,7 @@ def _aside(load: LoadHistory) -> str:
     return "then held"
 
 
-def _course(load: LoadHistory) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+def _course(load: LoadHistory) -> tuple[Floats, Floats, float]:
     """Points of a history, both of a jump, and where the drawing ends [s]."""
     kinks = load.kinks
     curved_until = float(kinks[-1])
@@ -104,7 +104,7 @@ def _course(load: LoadHistory) -> tuple[NDArray[np.float64], NDArray[np.float64]
 
 
 def _curve(
-    of: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    of: Callable[[Floats], Floats],
     quantity: str,
     unit: str,
     span: tuple[float, float],
@@ -122,7 +122,7 @@ def _curve(
     return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks, aside=aside)
 
 
-def _upward(symbol: str, unit: str, values: NDArray[np.float64]) -> Scale:
+def _upward(symbol: str, unit: str, values: Floats) -> Scale:
     """The axis for values above zero."""
     low, high = float(values.min()), float(values.max())
     if values[-1] > _DECADES * values[0]:  # what flows; what relaxes goes to zero on a linear one

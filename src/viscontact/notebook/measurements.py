@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
@@ -17,8 +17,6 @@ from viscontact.results.argument_table import in_plain_words
 from viscontact.results.formatting import format_percent
 from viscontact.units.formatting import format_number, format_quantity
 from viscontact.units.temperatures import in_celsius
-
-Floats = NDArray[np.float64]
 
 #: Number of rows that are drawn as dots, and of points of a curve.
 _DOTS, _POINTS = 40, 121

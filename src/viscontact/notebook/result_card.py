@@ -6,8 +6,8 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
@@ -17,8 +17,6 @@ from viscontact.results.stated_errors import errors_of, is_centred
 from viscontact.results.summary import headline
 from viscontact.results.variables import REQUIRED, Place, shown_in
 from viscontact.units.formatting import format_quantity
-
-Floats = NDArray[np.float64]
 
 #: Up to this ratio of its extents along y and x a contact counts as round.
 ROUND = 1.05

@@ -6,8 +6,8 @@ import math
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter
 from viscontact.indenters.cross_section import Section, cut, lines_through
 from viscontact.notebook.svg_axes import linear
@@ -87,7 +87,7 @@ def _where(indenter: Indenter, height: float, low: float, high: float, axis: int
     return high
 
 
-def _along(indenter: Indenter, places: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+def _along(indenter: Indenter, places: Floats, axis: int) -> Floats:
     idle = np.zeros_like(places)
     return indenter.gap(places, idle) if axis == 0 else indenter.gap(idle, places)
 

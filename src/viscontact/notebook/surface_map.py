@@ -6,8 +6,8 @@ import math
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.notebook.card import Card
 from viscontact.notebook.html import element
 from viscontact.notebook.svg_axes import linear
@@ -15,8 +15,6 @@ from viscontact.notebook.svg_panel import BLUE, WIDTH, Mark, panel
 from viscontact.results.formatting import format_percent
 from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_number, format_quantity
-
-Floats = NDArray[np.float64]
 
 #: Size of the map, and the least side of an area of one tone [px].
 _ROOM, _LEAST = (206.0, 120.0), 5.0
@@ -109,14 +107,14 @@ def _means(heights: Floats, counts: list[int]) -> Floats:
     return np.asarray(means, dtype=np.float64)
 
 
-def _tones(means: Floats) -> NDArray[np.int_]:
+def _tones(means: Floats) -> Integers:
     """Tone of each part, by quantiles of the known heights; -1 where the height is unknown."""
     known = means[np.isfinite(means)]
     limits = np.quantile(known, np.linspace(0, 1, len(_TONES) + 1)[1:-1])
     return np.where(np.isfinite(means), np.searchsorted(limits, means), -1)
 
 
-def _strokes(where: NDArray[np.bool_], across: float, up: float, height: float) -> str:
+def _strokes(where: Bools, across: float, up: float, height: float) -> str:
     """A horizontal stroke for each run of parts in a row."""
     path = []
     for row in range(where.shape[1]):

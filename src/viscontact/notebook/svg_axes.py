@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.formatting import clock_ticks, format_quantity, readable_unit
 
 #: Steps between ticks, of a decade.
@@ -26,7 +27,7 @@ class Scale:
     ticks: tuple[tuple[float, str], ...]  # positions as returned by `place`, and their labels
     logarithmic: bool = False
 
-    def place(self, values: ArrayLike) -> NDArray[np.float64]:
+    def place(self, values: ArrayLike) -> Floats:
         """Positions of values [SI] along the axis, from 0 to 1."""
         at = np.asarray(values, dtype=np.float64)
         if self.logarithmic:  # 0 lies before any place

@@ -9,12 +9,12 @@ from typing import Literal
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.notebook.html import element
 from viscontact.notebook.svg_axes import Scale
 
-Floats = NDArray[np.float64]
 _Path = list[tuple[float, float]]
 
 #: Blue and orange that colour-blind readers distinguish, on white and on black.
@@ -162,13 +162,13 @@ class _Frame:
                 free = at + half + _LETTER / 2
 
 
-def _runs(inside: NDArray[np.bool_]) -> list[slice]:
+def _runs(inside: Bools) -> list[slice]:
     """Stretches of points that hang together."""
     steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
     return [slice(a, b) for a, b in zip(steps[::2].tolist(), steps[1::2].tolist(), strict=True)]
 
 
-def _beside(where: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _beside(where: Bools) -> Bools:
     """These points and their neighbours."""
     wider = where.copy()
     wider[1:] |= where[:-1]

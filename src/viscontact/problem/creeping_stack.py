@@ -13,15 +13,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.laws import SeriesLaw
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
-
-Array = NDArray[Any]
 
 
 class CreepingStack:
@@ -59,7 +57,7 @@ class CreepingStack:
         """True if one of the materials is a fluid."""
         return any(creep.fluidity > 0 for creep in self._creep)
 
-    def compliance(self, wave_number: Array, s: Array) -> Array:
+    def compliance(self, wave_number: Numbers, s: Numbers) -> Numbers:
         """C at wave numbers [1/m] and Laplace variables [1/s], shape (s, q) [1/Pa]."""
         found = [self.elastic(each) for each in s]
         return np.array([top * stack.ratio(wave_number) for stack, top in found])
@@ -86,7 +84,7 @@ def stack_of(body: Layered, constants: Sequence[tuple[Any, Any]]) -> ElasticStac
     return ElasticStack(layers, base)
 
 
-def transformed(compliance: SeriesCompliance, s: Array) -> Array:
+def transformed(compliance: SeriesCompliance, s: Numbers) -> Numbers:
     """Laplace transform s L[J] of a Prony series, J_0 + Σ J_i/(1 + s τ_i) + φ/s [1/Pa]."""
     delayed = compliance.amplitudes / (1 + np.multiply.outer(s, compliance.times))
     return np.asarray(compliance.instant + delayed.sum(axis=-1) + compliance.fluidity / s)

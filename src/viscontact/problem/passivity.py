@@ -20,13 +20,10 @@ second law. P. P. Korovkin, Linear Operators and Approximation Theory (1960).
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[Any]
+from viscontact.backend.arrays import Numbers
 
 #: Rounding of the loss over the compliance, and a gain that a uniform share balances [-].
 ROUNDING, SMALL = 1e-13, 1e-9
@@ -38,7 +35,7 @@ GAINS_PER_WAVE, MOST_GAINS = 4, 400
 MEASURED = (20, 24)
 
 
-def passive_share(harmonic: Array, weights: Array, at_points: Array) -> Array:
+def passive_share(harmonic: Numbers, weights: Numbers, at_points: Numbers) -> Numbers:
     """What is to be added to the weights of C(q, s_j) in the L_m so that the sum is passive.
 
     Parameters
@@ -77,7 +74,7 @@ def passive_share(harmonic: Array, weights: Array, at_points: Array) -> Array:
     return np.asarray(share + float((missing[short] / added[short]).max(initial=0.0)) * uniform)
 
 
-def _least_share(harmonic: Array, at_points: Array, wanted: Array, found: Array) -> Array:
+def _least_share(harmonic: Numbers, at_points: Numbers, wanted: Numbers, found: Numbers) -> Numbers:
     """Share of the least change relative to |found|, by a linear program over some points.
 
     C decreases in s: the b_m times the differences of neighbouring C(q, s_j), and times the last
@@ -89,7 +86,7 @@ def _least_share(harmonic: Array, at_points: Array, wanted: Array, found: Array)
     responses = np.maximum(steps @ at_points, 0.0)
     scales = np.abs(harmonic).max(axis=0)
 
-    def of_products(functions: Array, places: tuple[Array, Array]) -> Array:
+    def of_products(functions: Numbers, places: tuple[Numbers, Numbers]) -> Numbers:
         frequency, q = places
         each = (functions / scales)[frequency][:, :, None] * responses[:, q].T[:, None]
         return np.asarray((each / found[places][:, None, None]).reshape(q.size, -1))
@@ -112,7 +109,7 @@ def _least_share(harmonic: Array, at_points: Array, wanted: Array, found: Array)
     return np.asarray(factors / scales[:, None] @ steps)
 
 
-def _points_of_gain(wanted: Array) -> tuple[Array, Array]:
+def _points_of_gain(wanted: Numbers) -> tuple[Numbers, Numbers]:
     """Frequencies and wave numbers of gain: the largest one of each wave, and some more."""
     points = set()
     for q in np.flatnonzero(wanted.max(axis=0)):
@@ -124,7 +121,7 @@ def _points_of_gain(wanted: Array) -> tuple[Array, Array]:
     return some[:, 0], some[:, 1]
 
 
-def _spread(shape: tuple[int, ...]) -> tuple[Array, Array]:
+def _spread(shape: tuple[int, ...]) -> tuple[Numbers, Numbers]:
     """Points all over the frequencies and wave numbers."""
     each = [np.arange(0, n, max(1, n // m)) for n, m in zip(shape, MEASURED, strict=True)]
     frequency, q = np.meshgrid(*each)

@@ -8,8 +8,9 @@ from functools import cached_property
 from itertools import chain
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.laws import Law
@@ -171,11 +172,11 @@ class Problem:
         return self.load if self.motion is None else MovingLoad(self.load, self.motion)
 
     @cached_property
-    def instants(self) -> NDArray[np.float64]:
+    def instants(self) -> Floats:
         """Times of the states [s]; of adaptive steps the prescribed ones, the end last."""
         return self._instants(self.surface.creep)
 
-    def _instants(self, creep: ContactCompliance) -> NDArray[np.float64]:
+    def _instants(self, creep: ContactCompliance) -> Floats:
         """Times of the states, which may depend on the creep of all bodies [s]."""
         if isinstance(self.times, CellTimes) or (self.times is None and self.motion is not None):
             if isinstance(self.grid, Grid):
@@ -184,7 +185,7 @@ class Problem:
             return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
         return run_instants(self.times, self.fields, self.load, creep)
 
-    def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
+    def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Times of a moving contact at which the body has passed whole cells [s]."""
         assert self.motion is not None  # they are requested with a motion only
         end = self.times.end if isinstance(self.times, CellTimes) else None
@@ -198,7 +199,7 @@ class Problem:
         return self.motion is not None and at_cells and not isinstance(self.grid, Grid)
 
     @cached_property
-    def field_instants(self) -> NDArray[np.float64]:
+    def field_instants(self) -> Floats:
         """Times whose fields are kept, among `instants` [s]."""
         return field_instants(self.fields, self.instants)
 

@@ -16,15 +16,11 @@ Y. Nakatsukasa, O. Sète, L. N. Trefethen, SIAM J. Sci. Comput. 40 (2018) A1494.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Numbers
 from viscontact.materials.compliance import SeriesCompliance
-
-Array = NDArray[Any]
 
 #: Relative error at which no point is added.
 CLOSE = 1e-6
@@ -37,10 +33,10 @@ BEYOND, SLOWER = 2.0, 1e6
 
 
 def series_of_transform(
-    s: Array,
-    omega: Array,
-    at_s: Array,
-    at_omega: Array,
+    s: Numbers,
+    omega: Numbers,
+    at_s: Numbers,
+    at_omega: Numbers,
     rates: tuple[float, float],
     *,
     flows: bool,
@@ -84,7 +80,7 @@ def series_of_transform(
     return SeriesCompliance(found[0], found[1 : times.size + 1], times, fluidity)
 
 
-def _poles(s: Array, f: Array) -> Array:
+def _poles(s: Numbers, f: Numbers) -> Numbers:
     """Poles of the rational interpolant of f(s)."""
     rest = np.ones(s.size, bool)
     points: list[int] = []
@@ -110,7 +106,7 @@ def _poles(s: Array, f: Array) -> Array:
     return np.asarray(poles[np.isfinite(poles)])
 
 
-def _amplitudes(parts: Array, wanted: Array) -> NDArray[np.float64]:
+def _amplitudes(parts: Numbers, wanted: Numbers) -> Floats:
     """Amplitudes >= 0 of the columns for the least relative error of their sum."""
     scale = float(np.abs(wanted).max())
     columns = parts * (scale / np.abs(wanted))[:, None]

@@ -29,12 +29,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.halfspace.surface_response import SummedResponse
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.materials.layers import Layered
@@ -46,7 +45,6 @@ from viscontact.problem.series_body import ANY_TIMES, Span, series_body
 
 __all__ = ["Separation", "separate", "stack_of", "transformed"]
 
-Array = NDArray[Any]
 
 #: Error at which no term is added, and most terms.
 ENOUGH, MOST_TERMS = 6.5e-4, 12
@@ -267,7 +265,7 @@ class _Search:
         return self._of_waves[index]
 
 
-def _transforms(functions: Sequence[SeriesCompliance], s: Array) -> Array:
+def _transforms(functions: Sequence[SeriesCompliance], s: Numbers) -> Numbers:
     """b_m(s) = s L[J_m] of creep functions, shape (s, m) [1/Pa]."""
     return np.stack([transformed(each, s) for each in functions], axis=1)
 
@@ -280,7 +278,7 @@ def _neighbours(waves: tuple[int, ...], place: int) -> Iterator[tuple[int, ...]]
             yield (*waves[:place], moved, *waves[place + 1 :])
 
 
-def _of_parts(materials: Sequence[Material], s: Array) -> tuple[SeriesCompliance, ...]:
+def _of_parts(materials: Sequence[Material], s: Numbers) -> tuple[SeriesCompliance, ...]:
     """Creep functions of the materials, none proportional to another; that of the top first."""
     parts = [_contact_compliance(material) for material in materials]
     parts += [uniaxial_compression(each) for each in materials if each.bulk_modulus is not None]
@@ -297,7 +295,7 @@ def _contact_compliance(material: Material) -> SeriesCompliance:
     return found
 
 
-def _alike(one: SeriesCompliance, other: SeriesCompliance, s: Array) -> bool:
+def _alike(one: SeriesCompliance, other: SeriesCompliance, s: Numbers) -> bool:
     """True for two creep functions that are proportional to a few digits."""
     ratio = transformed(one, s) / transformed(other, s)
     return bool(ratio.max() < (1 + ALIKE) * ratio.min())

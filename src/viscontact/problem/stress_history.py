@@ -26,16 +26,14 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.halfspace.stack_waves import interface_depths, stack_waves
 from viscontact.laws import SeriesLaw
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.series_body import ANY_TIMES, Span, series_body
-
-Array = NDArray[Any]
 
 #: Error of the sum at which no times are added, numbers of times that are tried, and the largest
 #: weight, which multiplies errors of rounding.
@@ -69,11 +67,11 @@ class StressHistory:
     """
 
     stacks: tuple[ElasticStack, ...]
-    times: Array
-    weights: Array
+    times: Numbers
+    weights: Numbers
     error: float
 
-    def pressures(self, instants: Array, pressure: Array, jumps: Array) -> Array:
+    def pressures(self, instants: Numbers, pressure: Numbers, jumps: Numbers) -> Numbers:
         """Pressures of the stacks [Pa], shape (stacks, instants, ...).
 
         The pressure, of shape (instants, ...), is linear between the instants [s], and jumps to its
@@ -136,7 +134,10 @@ def stress_history(body: Layered, span: Span = ANY_TIMES) -> StressHistory:
 
 
 def _collocated(
-    body: Layered, times: Array, s: Array, harmonic: tuple[Array, list[float], Array, Array]
+    body: Layered,
+    times: Numbers,
+    s: Numbers,
+    harmonic: tuple[Numbers, list[float], Numbers, Numbers],
 ) -> StressHistory:
     """Sum with given times, exact at real s, and its error in the harmonic response."""
     q, depths, omega, full = harmonic
@@ -149,13 +150,13 @@ def _collocated(
     return StressHistory(stacks, times, weights.T, SAFETY * error)
 
 
-def _functions(times: Array, s: Array) -> Array:
+def _functions(times: Numbers, s: Numbers) -> Numbers:
     """g_m at s, shape (s, 1 + times)."""
     fading = 1 / (1 + np.multiply.outer(s, times))
     return np.concatenate([np.ones((s.size, 1)), fading], axis=1)
 
 
-def _samples(body: Layered) -> tuple[Array, list[float]]:
+def _samples(body: Layered) -> tuple[Numbers, list[float]]:
     """Wave numbers [1/m], and depths within all parts [m], at which the error is measured."""
     lengths = [layer.thickness for layer in body.layers]
     q = np.geomspace(LONG / sum(lengths), SHORT / min(lengths), WAVES)
@@ -168,7 +169,7 @@ def _samples(body: Layered) -> tuple[Array, list[float]]:
     return q, depths
 
 
-def _amplitudes(stack: ElasticStack, q: Array, depths: list[float]) -> Array:
+def _amplitudes(stack: ElasticStack, q: Numbers, depths: list[float]) -> Numbers:
     """X, Y, S and T of a stack, shape (depths, 4, q)."""
     waves = stack_waves(stack, q)
     found = [waves.stresses(depth) for depth in depths]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.numbers import positive
 
-Values: TypeAlias = np.float64 | NDArray[np.float64]
+Values: TypeAlias = np.float64 | Floats
 """Values at points: a scalar for scalar arguments, else an array of their broadcast shape."""
 
 

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.profiles import Profile, arcsine
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,16 +56,16 @@ class AxisymmetricContact:
     controlled: Literal["approach", "force"]
     elements: int
     substeps: int
-    times: Array
-    force: Array
-    approach: Array
-    contact_radius: Array
-    work: Array
-    touched: Array
-    lost: Array
-    places: Array
-    transformed_pressure: Array
-    transformed_displacement: Array
+    times: Floats
+    force: Floats
+    approach: Floats
+    contact_radius: Floats
+    work: Floats
+    touched: Floats
+    lost: Floats
+    places: Floats
+    transformed_pressure: Floats
+    transformed_displacement: Floats
 
     def pressure(self, r: ArrayLike, t: float) -> Values:
         """Contact pressure, positive in compression [Pa].
@@ -160,7 +159,7 @@ class AxisymmetricContact:
         # On the axis u(0) = v(0).
         return np.where(distance[..., 0] == 0, v[0], u)[()]
 
-    def _with_front(self, t: float, v: Array) -> tuple[Array, Array]:
+    def _with_front(self, t: float, v: Floats) -> tuple[Floats, Floats]:
         """Add the contact radius, where v stops following the indenter, to the radii."""
         a = float(self._at(t, self.contact_radius))
         k = int(np.searchsorted(self.places, a))
@@ -169,7 +168,7 @@ class AxisymmetricContact:
         edge = float(self._at(t, self.approach)) - float(self.profile.depth(np.array(a)))
         return np.insert(self.places, k, a), np.insert(v, k, edge)
 
-    def _at(self, t: float, history: Array) -> Array:
+    def _at(self, t: float, history: Floats) -> Floats:
         """Interpolate a history linearly at time t [s]."""
         if not self.times[0] <= t <= self.times[-1]:
             raise ValueError(
@@ -184,13 +183,13 @@ class AxisymmetricContact:
         return np.asarray((1 - share) * history[after - 1] + share * history[after])
 
 
-def _slopes(depths: Array, values: Array) -> Array:
+def _slopes(depths: Floats, values: Floats) -> Floats:
     """Slope over depth within each element, 0 where it has no extent."""
     rises, extents = np.diff(values), np.diff(depths)
     return np.divide(rises, extents, out=np.zeros_like(rises), where=extents > 0)
 
 
-def _under_punch(r: Array, edge: float, chi: float) -> Values:
+def _under_punch(r: Floats, edge: float, chi: float) -> Values:
     """Pressure under a flat punch, χ/(π sqrt(a² - r²)) [Pa]."""
     with np.errstate(divide="ignore", invalid="ignore"):
         p = np.where(r <= edge, chi / (math.pi * np.sqrt(edge**2 - r**2)), 0.0)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.hereditary import TimeFunction, evaluate
 from viscontact.reference.lag_means import lag_mean
 
@@ -19,12 +19,10 @@ class GrowingLoad(Protocol):
     def corners(self) -> tuple[float, ...]:
         """Instants where the load, or its rate, jumps; the first is 0 [s]."""
 
-    def at(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at(self, times: Floats) -> Floats:
         """Load at each time [N]."""
 
-    def crept(
-        self, creep_compliance: TimeFunction, times: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def crept(self, creep_compliance: TimeFunction, times: Floats) -> Floats:
         """Integral of J(t - t') dW(t') at each time [m²]."""
 
 
@@ -35,13 +33,11 @@ class SuddenLoad:
     force: float  # [N]
     corners = (0.0,)
 
-    def at(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at(self, times: Floats) -> Floats:
         """Load at each time, the value just after the jump at 0 [N]."""
         return np.full_like(times, self.force)
 
-    def crept(
-        self, creep_compliance: TimeFunction, times: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def crept(self, creep_compliance: TimeFunction, times: Floats) -> Floats:
         """Integral of J(t - t') dW(t') at each time, here F J(t) [m²]."""
         return self.force * evaluate(creep_compliance, times)
 
@@ -58,14 +54,12 @@ class RampedLoad:
         """Instants where the rate of loading jumps [s]."""
         return (0.0, self.duration)
 
-    def at(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at(self, times: Floats) -> Floats:
         """Load at each time [N]."""
-        load: NDArray[np.float64] = self.force * np.minimum(times / self.duration, 1.0)
+        load: Floats = self.force * np.minimum(times / self.duration, 1.0)
         return load
 
-    def crept(
-        self, creep_compliance: TimeFunction, times: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def crept(self, creep_compliance: TimeFunction, times: Floats) -> Floats:
         """Integral of J(t - t') dW(t') at each time: F/T times that of J over [t - T, t] [m²]."""
         since_held = np.maximum(times - self.duration, 0.0)
         mean = lag_mean(creep_compliance)(since_held.ravel(), times.ravel()).reshape(times.shape)

@@ -14,35 +14,37 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-TimeFunction: TypeAlias = Callable[[NDArray[np.float64]], ArrayLike]
+from viscontact.backend.arrays import Floats
+
+TimeFunction: TypeAlias = Callable[[Floats], ArrayLike]
 """A function of time, called with a one-dimensional array of times [s]."""
 
 _DEGREE = 16
-_NODES: NDArray[np.float64] = np.sin(np.linspace(-0.5, 0.5, _DEGREE + 1) * np.pi)
+_NODES: Floats = np.sin(np.linspace(-0.5, 0.5, _DEGREE + 1) * np.pi)
 _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
 _GAUSS, _WEIGHTS = legendre.leggauss(_DEGREE)
 
 
-def _stieltjes_matrix() -> NDArray[np.float64]:
+def _stieltjes_matrix() -> Floats:
     """Matrix B with: integral of k ds over a panel = sum of k(Gauss node j) B_ji s(node i).
 
     It does not depend on the panel's length, as the integral does not. Where k is constant it
     gives k times the difference of s, whatever s does in between.
     """
     slopes = chebyshev.chebval(_GAUSS, chebyshev.chebder(np.eye(_DEGREE + 1))).T
-    matrix: NDArray[np.float64] = _WEIGHTS[:, None] * (slopes @ _FIT)
+    matrix: Floats = _WEIGHTS[:, None] * (slopes @ _FIT)
     return matrix
 
 
-def _panels(edges: NDArray[np.float64], nodes: NDArray[np.float64]) -> NDArray[np.float64]:
+def _panels(edges: Floats, nodes: Floats) -> Floats:
     """Map ``nodes``, given on [-1, 1], to every panel between ``edges``."""
     half = np.diff(edges)[:, None] / 2
     return edges[:-1, None] + half * (1 + nodes)
 
 
-def _halved(times: int) -> NDArray[np.float64]:
+def _halved(times: int) -> Floats:
     """Edges of panels on [0, 1], halved ``times`` times towards 0."""
     return np.concatenate([[0.0], 0.5 ** np.arange(times, -1, -1)])
 
@@ -61,7 +63,7 @@ _INNERMOST_FRACTIONS = _LAG_EDGES[1] * _panels(_TO_ZERO**3, _GAUSS)
 _INNERMOST_WEIGHTS = np.diff(_TO_ZERO**3)[:, None] / 2 * _WEIGHTS
 
 
-def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
+def evaluate(function: TimeFunction, times: ArrayLike) -> Floats:
     """Values of a function of time [s] at times of any shape; a constant may return a scalar.
 
     >>> evaluate(lambda t: 2 * t, [[1.0, 2.0]]).tolist()
@@ -72,7 +74,7 @@ def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
     return np.broadcast_to(values, times.size).reshape(times.shape).copy()
 
 
-def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
+def accumulated(function: TimeFunction, times: ArrayLike) -> Floats:
     """Integral from 0 to each time >= 0 [s] of a function smooth in log t and finite at 0.
 
     >>> print(f"{accumulated(np.sqrt, 9.0):.12f}")
@@ -87,32 +89,30 @@ def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]
     before = np.cumsum(whole) - whole
     panel = np.clip(np.searchsorted(edges, times, side="right") - 1, 0, len(half) - 1)
     place = (times - edges[panel]) / half[panel] - 1
-    integrals: NDArray[np.float64] = before[panel] + chebyshev.chebval(
+    integrals: Floats = before[panel] + chebyshev.chebval(
         place, coefficients[:, panel], tensor=False
     )
     return integrals
 
 
-def averaged(
-    function: TimeFunction, starts: NDArray[np.float64], ends: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def averaged(function: TimeFunction, starts: Floats, ends: Floats) -> Floats:
     """Mean over intervals [s] that begin no earlier than their length; the value where it is 0.
 
     >>> print(averaged(np.square, np.array([3.0, 3.0]), np.array([6.0, 3.0])).round(10))
     [21.  9.]
     """
     times = starts[..., None] + (ends - starts)[..., None] / 2 * (1 + _GAUSS)
-    average: NDArray[np.float64] = evaluate(function, times) @ _WEIGHTS / 2
+    average: Floats = evaluate(function, times) @ _WEIGHTS / 2
     return average
 
 
 def superposed(
     kernel: TimeFunction,
-    path: Callable[[NDArray[np.float64]], NDArray[np.float64]],
-    start: NDArray[np.float64],
-    end: NDArray[np.float64],
-    now: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    path: Callable[[Floats], Floats],
+    start: Floats,
+    end: Floats,
+    now: Floats,
+) -> Floats:
     """Hereditary integral of kernel(now - t') d path(t') from start to end, shape (n,).
 
     The kernel is a function of the lag, smooth on a logarithmic scale and at most integrably
@@ -130,5 +130,5 @@ def superposed(
     innermost = evaluate(kernel, lag_of_end + width * _INNERMOST_FRACTIONS)
     kernel_there[:, -1] = np.sum(innermost * _INNERMOST_WEIGHTS, axis=(1, 2))[:, None]
     along_path = path(start[:, None, None] + width * _PATH_FRACTIONS)
-    integral: NDArray[np.float64] = np.sum((kernel_there @ _STIELTJES) * along_path, axis=(1, 2))
+    integral: Floats = np.sum((kernel_there @ _STIELTJES) * along_path, axis=(1, 2))
     return integral

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.indentation_march import (
@@ -219,7 +220,7 @@ def resolution_error(contact: AxisymmetricContact) -> ResolutionError:
     return ResolutionError(error("force"), error("approach"), error("contact_radius"))
 
 
-def clustered_times(corners: ArrayLike, count: int) -> NDArray[np.float64]:
+def clustered_times(corners: ArrayLike, count: int) -> Floats:
     """Times between the corners of a history, clustered towards each corner.
 
     Parameters
@@ -247,9 +248,7 @@ def clustered_times(corners: ArrayLike, count: int) -> NDArray[np.float64]:
     return np.append(between.ravel(), ends[-1])
 
 
-def _require_history(
-    times: NDArray[np.float64], load: NDArray[np.float64], controlled: str, *, one: bool
-) -> None:
+def _require_history(times: Floats, load: Floats, controlled: str, *, one: bool) -> None:
     """Check the times and the load history."""
     if not one:
         raise ValueError("press_axisymmetric: wanted either approach= or force=, not both or none")

@@ -6,15 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.reference.lag_means import LagMean
 from viscontact.reference.profiles import Profile
 from viscontact.reference.rod_history import RodHistory
 from viscontact.reference.rods import Rods, RodState, Step, solve_at_approach, solve_at_force
-
-Array = NDArray[np.float64]
 
 _NO_FORCE = 1e-12  # of the largest force of the history: a smaller one counts as zero
 _RING = 1e-6  # of the largest approach: a wider opening inside the contact makes it a ring
@@ -25,13 +23,13 @@ class LoadSteps:
     """History of approach or force, divided into steps."""
 
     # ends of the steps [s] and the approach [m] or force [N] there; equal times are a jump
-    times: Array
-    load: Array
+    times: Floats
+    load: Floats
     by_approach: bool  # True if the load is an approach
-    given: NDArray[np.intp]  # indices of the steps that end at the given times
+    given: Integers  # indices of the steps that end at the given times
 
 
-def load_steps(times: Array, load: Array, *, by_approach: bool, substeps: int) -> LoadSteps:
+def load_steps(times: Floats, load: Floats, *, by_approach: bool, substeps: int) -> LoadSteps:
     """Divide the intervals of a history into equal steps; a jump is one step.
 
     >>> history = np.array([0.0, 2.0, 2.0]), np.array([1.0, 3.0, 4.0])
@@ -61,7 +59,7 @@ class StepEnd:
     """State at the end of a step."""
 
     state: RodState
-    displacement: Array  # [m], shape (rods,)
+    displacement: Floats  # [m], shape (rods,)
     work: float = 0.0  # work of the load over the step [J]
     # instant within the step when contact was made, or lost altogether [s]
     touched: float | None = None

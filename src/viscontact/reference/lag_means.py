@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.hereditary import (
     TimeFunction,
     accumulated,
@@ -15,7 +15,7 @@ from viscontact.reference.hereditary import (
     evaluate,
 )
 
-LagMean: TypeAlias = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+LagMean: TypeAlias = Callable[[Floats, Floats], Floats]
 """Mean of J over lags between two arrays of equal shape [s]; J itself where they are equal."""
 
 
@@ -30,7 +30,7 @@ def lag_mean(creep_compliance: TimeFunction) -> LagMean:
     if own is not None:
         return lambda start, end: np.asarray(own(start, end), dtype=np.float64)
 
-    def mean(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    def mean(start: Floats, end: Floats) -> Floats:
         length = end - start
         means = np.empty_like(length)
         # Near lag 0 the function may behave as any power of the lag; further away the

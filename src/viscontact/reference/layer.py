@@ -21,11 +21,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values, require_positive
-
-Array = NDArray[np.float64]
 
 #: Wave number times thickness beyond which L - 1 is below rounding.
 SHORTEST_WAVE = 22.0
@@ -55,8 +54,8 @@ class LayerContact:
     force: float
     approach: float
     contact_radius: float
-    places: Array
-    densities: Array
+    places: Floats
+    densities: Floats
     edge_density: float
 
     def pressure(self, r: ArrayLike) -> Values:
@@ -226,7 +225,7 @@ class _Layer:
             )
         return cls(thickness, (1 - poisson_ratio) / (2 * shear_modulus), poisson_ratio, bonded)
 
-    def deviation(self, q: Array) -> Array:
+    def deviation(self, q: Floats) -> Floats:
         """L - 1 at wave numbers [-]."""
         w = q * self.thickness
         waned = np.exp(-2 * w)
@@ -242,7 +241,7 @@ class _Layer:
 class _Density:
     """Density φ at the nodes and at the rim [N/m]."""
 
-    densities: Array
+    densities: Floats
     edge: float
 
 

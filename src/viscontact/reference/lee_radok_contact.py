@@ -8,8 +8,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values
 from viscontact.reference.growing_load import GrowingLoad
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
@@ -168,9 +169,7 @@ class LeeRadokContact:
         p: Values = 2 / (math.pi * self.radius) * superposed_heights.reshape(distance.shape)[()]
         return p
 
-    def _superposed_heights(
-        self, r: NDArray[np.float64], t: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _superposed_heights(self, r: Floats, t: Floats) -> Floats:
         """Integrate M(t - t') ds(t') for pairs (r, t) in one-dimensional arrays."""
         at_once = self._heights(r, np.zeros_like(t))
         jumped = at_once > 0
@@ -190,17 +189,13 @@ class LeeRadokContact:
             )
         return total
 
-    def _heights(
-        self, r: NDArray[np.float64], instants: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _heights(self, r: Floats, instants: Floats) -> Floats:
         """Chord s = Re sqrt(a² - r²) at times whose first axis is that of r [m]."""
         a, distance = self._radius_at(instants), r.reshape(-1, *[1] * (instants.ndim - 1))
-        real_part: NDArray[np.float64] = np.sqrt(np.maximum((a - distance) * (a + distance), 0.0))
+        real_part: Floats = np.sqrt(np.maximum((a - distance) * (a + distance), 0.0))
         return real_part
 
-    def _instant_reached(
-        self, r: NDArray[np.float64], t: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _instant_reached(self, r: Floats, t: Floats) -> Floats:
         """Last instant before the growing contact reaches each distance r, else 0 [s]."""
         # Bisection on the logarithm of time, since the instant may be decades before t. The lower
         # bound is returned: there s is exactly 0, while it rises as a square root right after it.
@@ -212,13 +207,11 @@ class LeeRadokContact:
             before, after = np.where(inside, before, middle), np.where(inside, middle, after)
         return np.where(before > earliest, t * np.exp2(before), 0.0)
 
-    def _radius_at(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
-        radius: NDArray[np.float64] = np.cbrt(
-            0.75 * self.radius * self.load.crept(self.creep_compliance, times)
-        )
+    def _radius_at(self, times: Floats) -> Floats:
+        radius: Floats = np.cbrt(0.75 * self.radius * self.load.crept(self.creep_compliance, times))
         return radius
 
-    def _require_growth(self, times: NDArray[np.float64]) -> None:
+    def _require_growth(self, times: Floats) -> None:
         """Refuse a law under which the contact shrinks."""
         end = float(times.max(initial=0.0))
         radii = self._radius_at(end * np.append(0.0, np.geomspace(1e-12, 1.0, 241)))
@@ -230,7 +223,7 @@ class LeeRadokContact:
             )
 
 
-def _times(t: ArrayLike) -> NDArray[np.float64]:
+def _times(t: ArrayLike) -> Floats:
     times = np.asarray(t, dtype=np.float64)
     wrong = times[~(np.isfinite(times) & (times >= 0))]
     if wrong.size:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import require_positive
 
 
@@ -24,19 +24,19 @@ class Profile(Protocol):
     def edge(self) -> float:
         """Radius of the indenter, inf if unlimited [m]."""
 
-    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth(self, s: Floats) -> Floats:
         """Transform g(s) of the gap: the approach at which an elastic contact reaches s [m]."""
 
-    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+    def reach(self, depth: Floats) -> Floats:
         """Radius s at which g(s) is the depth [m]."""
 
-    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth_integral(self, s: Floats) -> Floats:
         """Integral of g from 0 to s [m²]."""
 
-    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def outer_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g'(x)/sqrt(x² - r²) over r < x < s; 0 for s <= r [-]."""
 
-    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def inner_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
 
 
@@ -70,29 +70,29 @@ class SphereProfile:
         """Radius of the indenter: unlimited [m]."""
         return math.inf
 
-    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth(self, s: Floats) -> Floats:
         """Transform g(s) = s²/R of the gap [m]."""
         return s**2 / self.radius
 
-    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+    def reach(self, depth: Floats) -> Floats:
         """Radius s at which g(s) is the depth [m]."""
-        radius: NDArray[np.float64] = np.sqrt(self.radius * depth)
+        radius: Floats = np.sqrt(self.radius * depth)
         return radius
 
-    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth_integral(self, s: Floats) -> Floats:
         """Integral of g from 0 to s [m²]."""
         return s**3 / (3 * self.radius)
 
-    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def outer_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g'(x)/sqrt(x² - r²) over r < x < s: (2/R) sqrt(s² - r²) [-]."""
-        height: NDArray[np.float64] = np.sqrt(np.maximum((s - r) * (s + r), 0.0))
+        height: Floats = np.sqrt(np.maximum((s - r) * (s + r), 0.0))
         return 2 / self.radius * height
 
-    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def inner_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
         x = np.minimum(s, r)
         angle = arcsine(x, r)
-        whole: NDArray[np.float64] = r**2 * angle - x * np.sqrt((r - x) * (r + x))
+        whole: Floats = r**2 * angle - x * np.sqrt((r - x) * (r + x))
         return whole / (2 * self.radius)
 
 
@@ -134,28 +134,28 @@ class ConeProfile:
     def _slope(self) -> float:
         return math.pi / 2 / math.tan(self.half_angle)
 
-    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth(self, s: Floats) -> Floats:
         """Transform g(s) = (π/2) s cot(half_angle) of the gap [m]."""
         return self._slope * s
 
-    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+    def reach(self, depth: Floats) -> Floats:
         """Radius s at which g(s) is the depth [m]."""
         return depth / self._slope
 
-    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth_integral(self, s: Floats) -> Floats:
         """Integral of g from 0 to s [m²]."""
         return self._slope * s**2 / 2
 
-    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def outer_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g'(x)/sqrt(x² - r²) over r < x < s, infinite on the axis [-]."""
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = np.where(s > r, s / r, 1.0)
         return self._slope * np.arccosh(ratio)
 
-    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def inner_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
         x = np.minimum(s, r)
-        height: NDArray[np.float64] = np.sqrt((r - x) * (r + x))
+        height: Floats = np.sqrt((r - x) * (r + x))
         return self._slope * (r - height)
 
 
@@ -189,28 +189,28 @@ class PunchProfile:
         """Radius of the punch [m]."""
         return self.radius
 
-    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth(self, s: Floats) -> Floats:
         """Transform of the gap: none under the punch [m]."""
         return np.zeros_like(s)
 
-    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+    def reach(self, depth: Floats) -> Floats:
         """Radius in contact at any depth: that of the punch [m]."""
         return np.full_like(depth, self.radius)
 
-    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    def depth_integral(self, s: Floats) -> Floats:
         """Integral of g from 0 to s: none [m²]."""
         return np.zeros_like(s)
 
-    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def outer_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g'(x)/sqrt(x² - r²): none [-]."""
         return np.zeros(np.broadcast_shapes(s.shape, r.shape))
 
-    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def inner_integral(self, s: Floats, r: Floats) -> Floats:
         """Integral of g(x)/sqrt(r² - x²): none [m]."""
         return np.zeros(np.broadcast_shapes(s.shape, r.shape))
 
 
-def arcsine(x: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+def arcsine(x: Floats, r: Floats) -> Floats:
     """Angle arcsin(x/r), the integral of 1/sqrt(r² - x²) from 0; π/2 where r = 0 [rad].
 
     >>> print(f"{arcsine(np.array(1.0), np.array(2.0)) * 6:.6f}")
@@ -218,5 +218,5 @@ def arcsine(x: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float6
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         sine = np.where(r > 0, x / r, 1.0)
-    angle: NDArray[np.float64] = np.arcsin(np.minimum(sine, 1.0))
+    angle: Floats = np.arcsin(np.minimum(sine, 1.0))
     return angle

@@ -7,12 +7,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.hereditary import TimeFunction, evaluate
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

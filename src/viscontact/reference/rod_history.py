@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.reference.lag_means import LagMean
-
-Array = NDArray[np.float64]
 
 
 class RodHistory:
@@ -32,24 +30,24 @@ class RodHistory:
         self._rod = np.zeros(0, dtype=np.intp)
         self._begin, self._end, self._change = np.zeros(0), np.zeros(0), np.zeros(0)
 
-    def add_whole(self, begin: float, end: float, changes: Array) -> None:
+    def add_whole(self, begin: float, end: float, changes: Floats) -> None:
         """Add load changes of all rods over one interval [N/m]."""
         k = self._steps
         self._begins[k], self._ends[k], self._changes[k] = begin, end, changes
         self._steps += 1
 
-    def add_single(self, rod: NDArray[np.intp], begin: Array, end: Array, change: Array) -> None:
+    def add_single(self, rod: Integers, begin: Floats, end: Floats, change: Floats) -> None:
         """Add load changes of single rods, each over its own interval [N/m]."""
         self._rod = np.append(self._rod, rod)
         self._begin, self._end = np.append(self._begin, begin), np.append(self._end, end)
         self._change = np.append(self._change, change)
 
-    def displacement_at(self, now: float) -> Array:
+    def displacement_at(self, now: float) -> Floats:
         """Displacement of each rod due to all changes so far [m]."""
         k = self._steps
         ends = np.append(self._ends[:k], self._end)
         begins = np.append(self._begins[:k], self._begin)
         means = self._mean(np.maximum(now - ends, 0.0), now - begins)
-        whole: Array = means[:k] @ self._changes[:k]
+        whole: Floats = means[:k] @ self._changes[:k]
         single = np.bincount(self._rod, self._change * means[k:], minlength=whole.size)
         return whole + single

@@ -12,11 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.profiles import Profile
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -28,13 +26,13 @@ class Rods:
 
     profile: Profile
     # radii s, ascending from 0 [m], shape (n,); the last is in contact under a flat punch only
-    places: Array
-    depths: Array  # g(s) [m], shape (n,)
+    places: Floats
+    depths: Floats  # g(s) [m], shape (n,)
     # weights of a load at the ends of each element in its integral over s [m], shape (n - 1,)
-    near: Array
-    far: Array
+    near: Floats
+    far: Floats
 
-    def load(self, chi: Array, reached: int, front: float) -> float:
+    def load(self, chi: Floats, reached: int, front: float) -> float:
         """Force of a load on the first rods, which falls to 0 at the front depth [N]."""
         if reached == 0:
             return 0.0
@@ -44,7 +42,7 @@ class Rods:
         inside = self.near[:last] @ chi[:last] + self.far[:last] @ chi[1:reached]
         return 2 * float(inside + chi[last] * self._front_weight(last, front))
 
-    def sum(self, chi: Array) -> float:
+    def sum(self, chi: Floats) -> float:
         """Twice the integral over s of a load on all rods [N]."""
         if len(self.places) == 1:  # a punch
             return 2 * self.profile.edge * float(chi[0])
@@ -87,15 +85,15 @@ class Step:
     """Known quantities of a time step before its final approach is found."""
 
     duration: float  # length, 0 for a jump [s]
-    before: Array  # load of each rod at its beginning, 0 where free [N/m], shape (n,)
+    before: Floats  # load of each rod at its beginning, 0 where free [N/m], shape (n,)
     # opening between rod and indenter at its beginning, 0 in contact [m], shape (n,)
-    open_before: Array
-    crept: Array  # displacement at its end if no load changes [m], shape (n,)
+    open_before: Floats
+    crept: Floats  # displacement at its end if no load changes [m], shape (n,)
     compliance: float  # mean of J over the step, which meets a load that changes evenly [1/Pa]
-    within: Callable[[Array], Array]  # mean of J over lags from 0 to each of an array [1/Pa]
+    within: Callable[[Floats], Floats]  # mean of J over lags from 0 to each of an array [1/Pa]
     instant: float  # J(0) [1/Pa]
 
-    def touching(self, depths: Array) -> float:
+    def touching(self, depths: Floats) -> float:
         """Approach at which the last rod loses contact, or the first one touches [m]."""
         return float(np.min(depths + self.crept - self.compliance * self.before))
 
@@ -106,14 +104,14 @@ class RodState:
 
     approach: float  # [m]
     # load that keeps each rod in contact, negative for tension [N/m], shape (n,)
-    wanted: Array
-    share: Array  # of the step that a rod spent in contact, shape (n,)
+    wanted: Floats
+    share: Floats  # of the step that a rod spent in contact, shape (n,)
     reached: int  # number of rods in contact, from the axis on
     front: float  # depth g at which the load falls to 0, the edge of the contact [m]
     force: float  # [N]
 
     @property
-    def chi(self) -> Array:
+    def chi(self) -> Floats:
         """Load of each rod [N/m]."""
         return np.maximum(self.wanted, 0.0)
 
@@ -142,7 +140,7 @@ def solve_at_approach(rods: Rods, step: Step, approach: float) -> RodState:
     return RodState(approach, wanted, share, reached, front, force)
 
 
-def _front(rods: Rods, step: Step, excess: Array, wanted: Array, reached: int) -> float:
+def _front(rods: Rods, step: Step, excess: Floats, wanted: Floats, reached: int) -> float:
     """Depth g where the load falls to 0, between the last rod in contact and the next [m]."""
     if reached in (0, len(wanted)):
         return float(rods.depths[-1]) if reached else 0.0

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
 from viscontact.reference.profiles import ConeProfile, SphereProfile
 
-Array = NDArray[np.float64]
 GrowingProfile: TypeAlias = SphereProfile | ConeProfile
 """Indenter whose contact grows with the approach."""
 
@@ -48,7 +48,7 @@ class TingHump:
     """
 
     profile: GrowingProfile
-    approach: Callable[[Array], Array]
+    approach: Callable[[Floats], Floats]
     peak_time: float
     end: float
     relaxation_modulus: TimeFunction
@@ -132,16 +132,16 @@ class TingHump:
             low, high = (middle, high) if held else (low, middle)
         return (low + high) / 2
 
-    def _path_load(self, start: Array, now: Array) -> Array:
+    def _path_load(self, start: Floats, now: Floats) -> Floats:
         """Integral of M(now - t') dw(t') from the loading instant `start` to `now` [Pa m]."""
         peak = np.full_like(now, self.peak_time)
         way_in = superposed(self.relaxation_modulus, self._at, start, peak, now)
         return way_in + superposed(self.relaxation_modulus, self._at, peak, now, now)
 
-    def _at(self, instants: Array) -> Array:
+    def _at(self, instants: Floats) -> Floats:
         return evaluate(self.approach, instants)
 
-    def _swept(self, instants: Array) -> Array:
+    def _swept(self, instants: Floats) -> Floats:
         """Integral of a dw up to instants during loading, s g(s) less the integral of g [m²]."""
         depth = np.maximum(self._at(instants), 0.0)
         s = self.profile.reach(depth)
@@ -150,7 +150,7 @@ class TingHump:
 
 def ting_hump(
     profile: GrowingProfile,
-    approach: Callable[[Array], Array],
+    approach: Callable[[Floats], Floats],
     peak_time: float,
     end: float,
     relaxation_modulus: TimeFunction,

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.ting import GrowingProfile
-
-Array = NDArray[np.float64]
 
 _GAUSS, _WEIGHTS = legendre.leggauss(60)
 
@@ -137,7 +136,7 @@ class TingCycles:
         half = self._edge(now) / 2
         return float(2 * half * (self._chi(half * (1 + _GAUSS), now) @ _WEIGHTS))
 
-    def _span(self, s: Array, cycle: int) -> tuple[Array, Array]:
+    def _span(self, s: Floats, cycle: int) -> tuple[Floats, Floats]:
         """Instants of contact and loss of contact at the radius s in a cycle [s]."""
         b = self.rise
         touched = b * self.profile.depth(s) / self.peak
@@ -147,20 +146,20 @@ class TingCycles:
             lost = self._parted(touched, k)
         return touched, lost
 
-    def _parted(self, touched: Array, cycle: int) -> Array:
+    def _parted(self, touched: Floats, cycle: int) -> Floats:
         """Instants of loss of contact at radii in contact in a cycle [s]."""
         tau, top = self.relaxation_time, (2 * cycle + 1) * self.rise
-        lost: Array = top + tau * np.log(2 - np.exp((touched - top) / tau))
+        lost: Floats = top + tau * np.log(2 - np.exp((touched - top) / tau))
         return lost
 
-    def _chi(self, s: Array, now: float) -> Array:
+    def _chi(self, s: Floats, now: float) -> Floats:
         """Transformed pressure at radii in contact [N/m]."""
         tau, b = self.relaxation_time, self.rise
         cycle = int(now // (2 * b))
         turn = min(now, (2 * cycle + 1) * b)
         touched, _ = self._span(s, cycle)
         way_in = -np.exp((turn - now) / tau) * np.expm1((touched - turn) / tau)
-        loads: Array = self.modulus * tau * self.peak / b * (way_in + np.expm1((turn - now) / tau))
+        loads: Floats = self.modulus * tau * self.peak / b * (way_in + np.expm1((turn - now) / tau))
         return loads
 
     def _edge(self, now: float) -> float:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import hyp1f1
 
 from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.profiles import SphereProfile
 from viscontact.reference.ting import GrowingProfile
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

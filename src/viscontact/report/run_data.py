@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.result_chapters import title_of
@@ -79,6 +79,6 @@ def _scalar(ds: xr.Dataset, name: str) -> dict[str, Any]:
     }
 
 
-def _finite_or_none(values: NDArray[np.float64], digits: int) -> list[float | None]:
+def _finite_or_none(values: Floats, digits: int) -> list[float | None]:
     """Numbers rounded to significant digits for JSON, None in place of NaN and inf."""
     return [float(f"{v:.{digits - 1}e}") if math.isfinite(v) else None for v in values.tolist()]

@@ -10,13 +10,12 @@ from functools import cached_property
 import numpy as np
 import scipy
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.units.formatting import format_number, format_quantity
-
-Array = NDArray[np.float64]
 
 _NAME = "contact-spots"
 
@@ -27,7 +26,7 @@ class ContactSpots:
 
     place: float  # [s] or [m/s]
     axis: RunAxis
-    areas: Array  # counted cells of each spot times the area of a cell, descending [m²]
+    areas: Floats  # counted cells of each spot times the area of a cell, descending [m²]
     real_area: float  # contact area of the result, resolved below the cell [m²]
     nominal_area: float  # of the periods, or of the convex hull of the contact [m²]
     is_period: bool  # True if the nominal area is that of the periods
@@ -154,7 +153,7 @@ def contact_spots(ds: xr.Dataset, times: ArrayLike | None = None) -> xr.Dataset:
     return xr.Dataset(variables, {axis.name: [each.place for each in found]})
 
 
-def label_spots(contact: NDArray[np.bool_], periodic: Sequence[bool]) -> NDArray[np.int_]:
+def label_spots(contact: Bools, periodic: Sequence[bool]) -> Integers:
     """Number the spots from 1: regions of cells that share edges; 0 is open. Shape (nx, ny).
 
     Along a periodic axis, spots continue at the other border.

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
@@ -32,7 +32,7 @@ def to_dataset(
     states: Sequence[ContactState],
     fields: str | Sequence[float],
     attributes: Mapping[str, Any],
-    errors: Mapping[str, NDArray[np.float64]] | None = None,
+    errors: Mapping[str, Floats] | None = None,
 ) -> xr.Dataset:
     """Label the states of a run, over time or speed; errors by name, over the states."""
     over = states[0].over
@@ -58,7 +58,7 @@ def to_dataset(
     return dataset.assign_attrs(attributes)
 
 
-def _coordinates(grid: Grid, over: str, values: NDArray[np.float64]) -> dict[str, Any]:
+def _coordinates(grid: Grid, over: str, values: Floats) -> dict[str, Any]:
     places = {over: values, "x": grid.x, "y": grid.y}
     variables = AXES | COORDINATES
     return {name: (name, each, variables[name].attributes) for name, each in places.items()}

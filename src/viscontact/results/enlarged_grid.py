@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.state import ContactState
 from viscontact.units.formatting import format_quantity
 
 
-def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
+def on_wider(name: str, field: Floats, grid: Grid, wider: Grid) -> Floats:
     """A field on the widest grid of a result, from the grid of its instant.
 
     The shape of the field is (..., nx, ny). Beyond its grid pressure is 0, gap and displacement
@@ -27,7 +27,7 @@ def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> 
     return grid.embed(field, wider, beyond=0.0 if name == "pressure" else np.nan)
 
 
-def line_on_wider(line: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
+def line_on_wider(line: Floats, grid: Grid, wider: Grid) -> Floats:
     """A field along x, shape (..., nx), on the widest grid of a result; 0 beyond its own.
 
     >>> small = Grid((4, 4), (1.0, 1.0))

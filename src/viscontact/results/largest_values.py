@@ -7,8 +7,8 @@ from collections.abc import Hashable
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.results.shown_scalars import LONG, OF_LONG_CONTACTS
 from viscontact.results.variables import Place, error_name, shown_in
 
@@ -88,8 +88,8 @@ def chief_scalars(ds: xr.Dataset) -> list[str]:
     return found
 
 
-def _known(values: xr.DataArray) -> NDArray[np.float64]:
-    found: NDArray[np.float64] = values.values[np.isfinite(values.values)]
+def _known(values: xr.DataArray) -> Floats:
+    found: Floats = values.values[np.isfinite(values.values)]
     return found
 
 

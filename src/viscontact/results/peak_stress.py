@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
@@ -19,8 +19,6 @@ _DEPTHS, _CLOSE = 14, 7
 
 #: Relative difference of stresses of two planes that are equal.
 _EQUAL = 1e-3
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -100,7 +98,7 @@ def _loaded(field: xr.Dataset) -> xr.Dataset:
     return field
 
 
-def _depths(field: xr.Dataset, ds: xr.Dataset, row: int) -> Array:
+def _depths(field: xr.Dataset, ds: xr.Dataset, row: int) -> Floats:
     """Depths deep enough for the whole contact, and close to the surface for its single spots."""
     least = min(_cell(field, axis) for axis in "xy")
     extents = [float(ds[f"contact_{each}"][row]) for each in ("length", "width")]
@@ -113,10 +111,10 @@ class _Found:
     value: float  # [Pa]
     depth: float  # [m]
     error: float  # of the search in depth [Pa]
-    around: Array  # depths searched last [m]
+    around: Floats  # depths searched last [m]
 
 
-def _largest(field: xr.Dataset, depths: Array, name: str) -> _Found:
+def _largest(field: xr.Dataset, depths: Floats, name: str) -> _Found:
     """Search for the largest of a stress over some depths [m], and then between two of them."""
     at = int(_over(field, depths, name).argmax())
     close = np.linspace(depths[max(at - 1, 0)], depths[min(at + 1, depths.size - 1)], _CLOSE)
@@ -132,7 +130,7 @@ def _largest(field: xr.Dataset, depths: Array, name: str) -> _Found:
     return _Found(value + error, depth, error, close)
 
 
-def _over(field: xr.Dataset, depths: Array, name: str) -> Array:
+def _over(field: xr.Dataset, depths: Floats, name: str) -> Floats:
     """Largest stress at each depth on the planes of x and y through the largest pressure [Pa]."""
     return np.asarray(np.maximum(*_on_planes(field, depths, name)))
 
@@ -145,7 +143,7 @@ def _plane(field: xr.Dataset, depth: float, name: str) -> str:
     return "x" if along > across else "y"
 
 
-def _on_planes(field: xr.Dataset, depths: Array, name: str) -> tuple[Array, Array]:
+def _on_planes(field: xr.Dataset, depths: Floats, name: str) -> tuple[Floats, Floats]:
     """Largest stress at each depth on the plane along x, and on that along y [Pa]."""
     cells = field["pressure"].isel({str(field["pressure"].dims[0]): 0}).transpose("x", "y")
     i, j = np.unravel_index(int(cells.values.argmax()), cells.shape)

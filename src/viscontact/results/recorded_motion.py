@@ -7,8 +7,8 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.results.run_axis import SPEED, run_axis
 
 
@@ -68,9 +68,7 @@ def body_axis_at(results: xr.Dataset, time: float) -> tuple[float, float]:
     return x, y
 
 
-def contact_edges(
-    positions: NDArray[np.float64], pressure: NDArray[np.float64], way: float
-) -> tuple[float, float] | None:
+def contact_edges(positions: Floats, pressure: Floats, way: float) -> tuple[float, float] | None:
     """Leading and trailing edge of a contact [m] on a line through it; None without.
 
     The sign of `way` is that of the velocity along the line; there are no edges if it is 0.

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.formatting import format_quantity
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class RunAxis:
     row: str  # name of a state in sentences
     symbol: str  # before a value
 
-    def values(self, results: Result) -> NDArray[np.float64]:
+    def values(self, results: Result) -> Floats:
         """Instants [s] or speeds [m/s] of a result."""
         return np.asarray(results[self.name].values, dtype=np.float64)
 
@@ -96,7 +96,7 @@ draw friction, motion-profile, pressure-map or pressure-profile
         )
 
 
-def law_times(results: xr.Dataset) -> NDArray[np.float64]:
+def law_times(results: xr.Dataset) -> Floats:
     """Times at which the law of a run's material matters [s].
 
     Those of its states; in steady motion those in which the contact is passed.

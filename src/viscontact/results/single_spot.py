@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools
 from viscontact.results.stored_result import StoredResult
 
 
@@ -20,7 +20,7 @@ def ends_in_one_spot(stored: StoredResult) -> bool:
     return True
 
 
-def is_one_spot(contact: NDArray[np.bool_]) -> bool:
+def is_one_spot(contact: Bools) -> bool:
     """True if each line of a region is one piece, and next to that of the next line.
 
     Such a region is a single spot; another one may be.

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.body_edge import Outline
 from viscontact.grid import Grid
 from viscontact.results.run_axis import TIME, RunAxis
@@ -20,10 +20,10 @@ class Snapshot:
     """Pressure and gap at one instant or speed."""
 
     time: float  # [s]; in steady motion the speed [m/s]
-    x: NDArray[np.float64]  # cell centres, shape (nx,) [m]
-    y: NDArray[np.float64]  # cell centres, shape (ny,) [m]
-    pressure: NDArray[np.float64]  # shape (nx, ny), positive in compression [Pa]
-    gap: NDArray[np.float64]  # shape (nx, ny), positive when open [m]
+    x: Floats  # cell centres, shape (nx,) [m]
+    y: Floats  # cell centres, shape (ny,) [m]
+    pressure: Floats  # shape (nx, ny), positive in compression [Pa]
+    gap: Floats  # shape (nx, ny), positive when open [m]
     body_end: Outline | None = None  # where the indenter ends between the cells, if known
     periodic: AxisFlags = NEITHER  # axes along which the fields are one period
     axis: RunAxis = TIME  # quantity in which the snapshots of a result differ
@@ -56,9 +56,7 @@ class Snapshot:
         """Box (x_min, x_max, y_min, y_max) around all cells [m]."""
         return self._box(self.x, self.y)
 
-    def _box(
-        self, x: NDArray[np.float64], y: NDArray[np.float64]
-    ) -> tuple[float, float, float, float]:
+    def _box(self, x: Floats, y: Floats) -> tuple[float, float, float, float]:
         dx, dy = self.cell_size
         return (
             float(x[0] - dx / 2),
@@ -96,7 +94,7 @@ class Snapshot:
 
     def section(
         self, along: Literal["x", "y"] = "x", at: float | None = None
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    ) -> tuple[Floats, Floats]:
         """Cell centres [m] and pressure [Pa] on a line parallel to an axis.
 
         It crosses the other axis at `at` [m], by default in the middle of the grid. Between two
@@ -117,14 +115,12 @@ class Snapshot:
         share = (at - across[upper - 1]) / (across[upper] - across[upper - 1])
         return positions, (1 - share) * rows[upper - 1] + share * rows[upper]
 
-    def line_load(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def line_load(self) -> tuple[Floats, Floats]:
         """Cell centres along x [m], and the pressure integrated over y there [N/m]."""
         return self.x, self.pressure.sum(axis=1) * self.cell_size[1]
 
 
-def _padded(
-    field: NDArray[np.float64], cells: int, periodic: AxisFlags, beyond: float
-) -> NDArray[np.float64]:
+def _padded(field: Floats, cells: int, periodic: AxisFlags, beyond: float) -> Floats:
     """Field with more cells at each border: those of the next period, or a value."""
     for axis in (0, 1):
         width = [(cells, cells) if axis == each else (0, 0) for each in (0, 1)]

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.body_edge import Outline, trace_outline
 from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_object
@@ -24,7 +25,7 @@ _FINAL, _EARLY = 0.01, 0.3
 SHOWN_CELLS = 4
 
 
-def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
+def field_times(results: xr.Dataset, figure: str) -> Floats:
     """Instants at which pressure and gap are stored [s], ascending; or speeds [m/s], as stored."""
     missing = [name for name in ("pressure", "gap") if name not in results]
     if missing:
@@ -103,7 +104,7 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
     return read
 
 
-def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArray[np.float64]:
+def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> Floats:
     """Return a field at a stored instant [s]: shape (nx, ny), in SI units."""
     if name not in results:
         raise ValueError(
@@ -114,7 +115,7 @@ def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArra
     return _as_shown(field)
 
 
-def _as_shown(field: xr.DataArray) -> NDArray[np.float64]:
+def _as_shown(field: xr.DataArray) -> Floats:
     """Values of a field in SI units, a single cell along a period as several; shape (nx, ny)."""
     values = np.asarray(field.transpose("x", "y").values, dtype=np.float64)
     for axis, count in enumerate(values.shape):
@@ -143,9 +144,7 @@ def _body_end(results: xr.Dataset, grid: Grid) -> Outline | None:
     return trace_outline(indenter, grid)
 
 
-def _nearest(
-    stored: NDArray[np.float64], times: ArrayLike, figure: str, axis: RunAxis
-) -> Sequence[int]:
+def _nearest(stored: Floats, times: ArrayLike, figure: str, axis: RunAxis) -> Sequence[int]:
     wanted = np.atleast_1d(np.asarray(times, dtype=np.float64))
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
         unit = "seconds" if axis.unit == "s" else axis.unit
@@ -154,14 +153,14 @@ def _nearest(
     return sorted(found, key=lambda index: stored[index])
 
 
-def _ranked(stored: NDArray[np.float64], count: int) -> Sequence[int]:
+def _ranked(stored: Floats, count: int) -> Sequence[int]:
     """Some speeds from the slowest to the fastest; a single one is the fastest."""
     order = np.argsort(stored)
     ranks = np.linspace(stored.size - 1, 0, min(count, stored.size)).round().astype(int)
     return [int(order[rank]) for rank in ranks[::-1]]
 
 
-def _spread(stored: NDArray[np.float64], scalars: xr.Dataset, count: int) -> Sequence[int]:
+def _spread(stored: Floats, scalars: xr.Dataset, count: int) -> Sequence[int]:
     candidates = np.flatnonzero(scalars["peak_pressure"].values > 0)
     if candidates.size <= count:
         return [int(index) for index in candidates]

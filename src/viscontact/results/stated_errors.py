@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
@@ -29,7 +30,7 @@ _ROUNDING_RESISTANCE = 1e-9
 _USUAL_STRAIN = 1e-3
 
 
-def stated_error(results: Result, name: str) -> NDArray[np.float64] | None:
+def stated_error(results: Result, name: str) -> Floats | None:
     """Half widths of the error bars of a scalar over time, in its unit; None if none are stated.
 
     NaN where the error is not known, inf where the value depends on the mesh.
@@ -45,13 +46,13 @@ def stated_error(results: Result, name: str) -> NDArray[np.float64] | None:
     return np.asarray(results[error].values, dtype=np.float64) if error in results else None
 
 
-def errors_of(ds: Result, name: str) -> NDArray[np.float64]:
+def errors_of(ds: Result, name: str) -> Floats:
     """Errors of a scalar over time, NaN at all instants if the result states none."""
     error = stated_error(ds, name)
     return np.full(ds.sizes[run_axis(ds).name], np.nan) if error is None else error
 
 
-def mesh_dependent(results: Result, name: str) -> NDArray[np.bool_]:
+def mesh_dependent(results: Result, name: str) -> Bools:
     """Instants at which a scalar depends on the mesh, as booleans.
 
     Examples
@@ -69,7 +70,7 @@ def mesh_dependent(results: Result, name: str) -> NDArray[np.bool_]:
     )
 
 
-def drawn_values(results: Result, name: str) -> NDArray[np.float64]:
+def drawn_values(results: Result, name: str) -> Floats:
     """Values of a scalar for a curve over time: NaN where it depends on the mesh.
 
     All are NaN if only zeros, as without contact, would remain.

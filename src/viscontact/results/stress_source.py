@@ -9,8 +9,9 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.halfspace.elastic_stack import ElasticStack
 from viscontact.halfspace.layered_stress import LayeredStress
@@ -29,8 +30,6 @@ from viscontact.results.recorded_case import (
     recorded_poisson_ratio,
 )
 from viscontact.results.run_axis import SPEED, run_axis
-
-Array = NDArray[np.float64]
 
 #: The bodies of a result, by the names of the arguments of `simulate`.
 Body = Literal["material", "indenter_material"]
@@ -67,7 +66,7 @@ class StressSource:
         return recorded_grid(self.results)
 
     @property
-    def stored(self) -> Array:
+    def stored(self) -> Floats:
         """Instants [s] or speeds [m/s] of the pressures, as stored."""
         pressure = self.results["pressure"]
         return np.asarray(pressure[pressure.dims[0]].values, dtype=np.float64)
@@ -115,7 +114,7 @@ class StressSource:
     def _summed(self, parts: Iterable[Stress]) -> Stress:
         return Stress(sum((part.components for part in parts), start=np.zeros(())))
 
-    def depths(self, deepest: float) -> Array:
+    def depths(self, deepest: float) -> Floats:
         """Usual depths of a section [m], on both sides of interfaces, to a rigid base at most."""
         if not self.interfaces:
             return np.linspace(0.0, deepest, DEPTHS)
@@ -128,7 +127,7 @@ class StressSource:
             found.append(np.linspace(top * (1 + BENEATH), bottom, count))
         return np.concatenate(found)
 
-    def _pressures(self, places: Sequence[int]) -> Array:
+    def _pressures(self, places: Sequence[int]) -> Floats:
         """Pressures of the responses at stored instants by index; (responses, instants, nx, ny)."""
         stored = self.results["pressure"]
         if self.history is None or not self.history.times.size:
@@ -148,7 +147,7 @@ class StressSource:
         return self._of_history[:, list(places)]
 
     @cached_property
-    def _of_history(self) -> Array:
+    def _of_history(self) -> Floats:
         """Pressures of the responses at all stored instants."""
         assert self.history is not None  # asked for of creeping layers only
         load = recorded_object(self.results, "load", "stresses")

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.results.formatting import format_scalar
 from viscontact.results.recorded_case import recorded_object
 from viscontact.results.run_axis import SPEED, run_axis
@@ -23,7 +23,7 @@ _NOTABLE = 1e-3
 _EQUAL = 1e-5
 
 
-def first_largest(sizes: NDArray[np.float64]) -> int:
+def first_largest(sizes: Floats) -> int:
     """Index of the first of the largest values, which may differ by rounding.
 
     >>> first_largest(np.array([1.0, 3.0, 3.000001, 2.0]))

@@ -10,13 +10,11 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.results.largest_values import over_of
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.results.variables import error_name, scalars_with_error
-
-Floats = NDArray[np.float64]
 
 #: Instant of an output: that of its worst value in each run, the last one, or a time [s].
 At = Literal["worst", "end"] | float
@@ -67,7 +65,7 @@ class Outcomes:
         row = self._rows(np.abs(self.over(scalar)))[0]
         return float(self.joint[error_name(scalar)].values[0, row])
 
-    def _rows(self, sizes: Floats) -> NDArray[np.intp]:
+    def _rows(self, sizes: Floats) -> Integers:
         """Row of the instant in each run."""
         known = np.isfinite(sizes)
         if self.at == "worst":
@@ -76,7 +74,7 @@ class Outcomes:
             return np.asarray(sizes.shape[1] - 1 - known[:, ::-1].argmax(axis=1))
         return self._rows_of(float(self.at), len(sizes))
 
-    def _rows_of(self, wanted: float, runs: int) -> NDArray[np.intp]:
+    def _rows_of(self, wanted: float, runs: int) -> Integers:
         """Row of an instant [s] or a speed [m/s] in each run that has it, as the first one must."""
         axis = SPEED if over_of(self.joint) == "speed" else TIME
         distance = np.abs(np.atleast_2d(self.joint[axis.name].values) - wanted)

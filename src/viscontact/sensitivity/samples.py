@@ -8,14 +8,13 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import norm, qmc
 
+from viscontact.backend.arrays import Floats
 from viscontact.runs.sweep.sampling import Range, range_of
 from viscontact.sensitivity.inputs import NO_INPUTS
 from viscontact.units.numbers import whole
 
-Floats = NDArray[np.float64]
 Shape = Literal["uniform", "log", "normal"]
 
 #: Part of a normal distribution between its bounds.

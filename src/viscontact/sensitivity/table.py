@@ -7,16 +7,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Integers
 from viscontact.results.variables import SCALARS
 from viscontact.sensitivity.differences import Slopes
 from viscontact.sensitivity.outcomes import Outcomes
 from viscontact.sensitivity.plan import Cells, Derivative, Plan
 from viscontact.sensitivity.samples import Samples
 from viscontact.sensitivity.variance import indices_of, percentiles_of
-
-Floats = NDArray[np.float64]
 
 
 def derivative_table(plan: Plan, outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
@@ -107,7 +105,7 @@ def scatter_table(samples: Samples, outcomes: Outcomes, outputs: Sequence[str]) 
     return xr.Dataset(data, coords).merge(_over_rows(runs[:2].ravel(), outcomes, outputs))
 
 
-def _over_rows(runs: NDArray[np.int_], outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
+def _over_rows(runs: Integers, outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
     """Percentiles at each instant or speed, and the values of the case, if all runs share them."""
     axis = outcomes.shared_axis
     if axis is None:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import bootstrap, sobol_indices
 
-Floats = NDArray[np.float64]
+from viscontact.backend.arrays import Floats, Integers
 
 #: Resamples of the bootstrap, and the level of its intervals.
 RESAMPLES, LEVEL = 999, 0.95
@@ -47,7 +46,7 @@ def indices_of(values: Floats, seed: int) -> Indices:
     if inputs == 1:  # which causes all; SciPy needs two
         return Indices(np.ones((3, 1)), np.ones((3, 1)))
 
-    def estimated(chosen: NDArray[np.intp]) -> Floats:
+    def estimated(chosen: Integers) -> Floats:
         first, second, exchanged = values[0], values[1], values[2:]
         by_sample = {"f_A": first[None, chosen], "f_B": second[None, chosen]}
         by_sample["f_AB"] = exchanged[:, None, chosen]

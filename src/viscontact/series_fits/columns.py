@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
 
 
 def positive_column(
     owner: str, name: str, values: ArrayLike, unit: str, *, zero: bool = False
-) -> NDArray[np.float64]:
+) -> Floats:
     """Return a column of positive (or zero) finite numbers as floats, shape (n,).
 
     >>> positive_column("fit_creep", "times", [1.0, -2.0], "s")
@@ -35,7 +37,7 @@ def positive_column(
     return column
 
 
-def require_rows(owner: str, least: int, **columns: NDArray[np.float64]) -> None:
+def require_rows(owner: str, least: int, **columns: Floats) -> None:
     """Refuse columns of different lengths, or with fewer than `least` rows."""
     lengths = {name: column.size for name, column in columns.items()}
     if len(set(lengths.values())) > 1:
@@ -46,9 +48,7 @@ def require_rows(owner: str, least: int, **columns: NDArray[np.float64]) -> None
         raise ValueError(f"{owner}: needs at least {least} rows, got {rows}")
 
 
-def require_trend(
-    owner: str, name: str, points: NDArray[np.float64], values: NDArray[np.float64], rises: bool
-) -> None:
+def require_trend(owner: str, name: str, points: Floats, values: Floats, rises: bool) -> None:
     """Refuse a curve that as a whole rises where it can only fall, or the reverse.
 
     It does if the median of its last third is a tenth or more on the wrong side of that of its

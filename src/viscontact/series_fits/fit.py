@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.display import Displayable
 from viscontact.laws import CreepSeries, RelaxationSeries
 from viscontact.series_fits.quality import Misfit
-
-Array = NDArray[np.float64]
 
 _SHOWN = 6  # terms that are printed
 
@@ -57,8 +56,8 @@ class Fit(Displayable):
     law: CreepSeries | RelaxationSeries
     series: CreepSeries | RelaxationSeries
     data: str
-    points: Array
-    measured: Mapping[str, Array]
+    points: Floats
+    measured: Mapping[str, Floats]
     weights: Mapping[str, float]
     misfit: Misfit | None = None
     poisson_ratio: float | None = None
@@ -70,12 +69,12 @@ class Fit(Displayable):
         return len(self.series.times)
 
     @property
-    def fitted(self) -> dict[str, Array]:
+    def fitted(self) -> dict[str, Floats]:
         """Values of the series in place of each measured column."""
         return self.curve(self.points)
 
     @property
-    def residuals(self) -> dict[str, Array]:
+    def residuals(self) -> dict[str, Floats]:
         """Fitted over measured values, less 1, for each column [-]."""
         fitted = self.fitted
         return {name: fitted[name] / values - 1.0 for name, values in self.measured.items()}
@@ -90,7 +89,7 @@ class Fit(Displayable):
         """Largest relative residual in magnitude [-]."""
         return self._worst()[0]
 
-    def curve(self, points: ArrayLike) -> dict[str, Array]:
+    def curve(self, points: ArrayLike) -> dict[str, Floats]:
         """Return the series at other points, in the convention of the data.
 
         Parameters

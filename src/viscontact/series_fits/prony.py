@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from typing import Required, TypedDict
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.errors import AccuracyWarning
 from viscontact.laws import CreepSeries, RelaxationSeries
 from viscontact.series_fits.columns import positive_column, require_rows, require_trend
@@ -328,7 +329,7 @@ def _relaxation_series(found: Spectrum) -> RelaxationSeries:
     )
 
 
-def _require_span(owner: str, name: str, points: NDArray[np.float64]) -> None:
+def _require_span(owner: str, name: str, points: Floats) -> None:
     positive = points[points > 0]
     if positive.size < 2 or not positive.max() > positive.min():
         raise ValueError(f"{owner}: {name} must hold at least two different values above 0")

@@ -7,11 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.series_fits.spectrum import Observed, Spectrum, dense_spectrum
-
-Array = NDArray[np.float64]
 
 #: Relative residuals of a column beyond which a fit misses it: root mean square, and largest [-].
 RMS_LIMIT, LARGEST_LIMIT = 0.10, 0.25
@@ -84,7 +82,7 @@ def misfit_of(observed: Observed, found: Spectrum, names: Sequence[str]) -> Misf
 
 def _freed_fits(
     observed: Observed, found: Spectrum, names: Sequence[str]
-) -> Iterator[tuple[Reason, Array, str]]:
+) -> Iterator[tuple[Reason, Floats, str]]:
     """Best fits without one restriction each: the reason, their residuals, and the remedy."""
     dense = _by_column(observed, dense_spectrum(observed), names)
     reached = _percent(_rms(dense).max())
@@ -110,7 +108,7 @@ def _freed_fits(
         )
 
 
-def residuals_alone(observed: Observed) -> Array:
+def residuals_alone(observed: Observed) -> Floats:
     """Relative residuals of storage and loss, each fitted alone with any number of terms [-].
 
     Shape (2, rows).
@@ -128,15 +126,15 @@ def residuals_alone(observed: Observed) -> Array:
     )
 
 
-def _by_column(observed: Observed, spectrum: Spectrum, names: Sequence[str]) -> Array:
+def _by_column(observed: Observed, spectrum: Spectrum, names: Sequence[str]) -> Floats:
     return observed.residuals(spectrum).reshape(len(names), -1)
 
 
-def _rms(residuals: Array) -> Array:
+def _rms(residuals: Floats) -> Floats:
     return np.asarray(np.sqrt(np.mean(residuals**2, axis=1)))
 
 
-def _largest(residuals: Array) -> Array:
+def _largest(residuals: Floats) -> Floats:
     return np.asarray(np.abs(residuals).max(axis=1))
 
 

@@ -10,20 +10,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)
 class CreepResponse:
     """Creep at times [s] under constant stress: J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t (fluid)."""
 
-    times: Array
+    times: Floats
     fluid: bool
 
     @property
-    def constants(self) -> Array:
+    def constants(self) -> Floats:
         """Columns of the instant compliance and of the flow."""
         ones = np.ones_like(self.times)
         return np.stack([ones, self.times] if self.fluid else [ones], axis=1)
@@ -34,11 +33,11 @@ class CreepResponse:
         first, last = _span(self.times)
         return first / 3, 3 * last
 
-    def terms(self, times: Array) -> Array:
+    def terms(self, times: Floats) -> Floats:
         """Columns 1 - exp(-t/τ)."""
         return -np.expm1(-self.times[:, None] / times)
 
-    def slopes(self, times: Array) -> Array:
+    def slopes(self, times: Floats) -> Floats:
         """Columns -(t/τ) exp(-t/τ)."""
         ratio = self.times[:, None] / times
         return -ratio * np.exp(-ratio)
@@ -48,11 +47,11 @@ class CreepResponse:
 class RelaxationResponse:
     """Relaxation at times [s] under constant strain: G_inf (0: fluid) + sum G_i exp(-t/τ_i)."""
 
-    times: Array
+    times: Floats
     fluid: bool
 
     @property
-    def constants(self) -> Array:
+    def constants(self) -> Floats:
         """Column of the equilibrium modulus; none for a fluid."""
         return np.ones((self.times.size, 0 if self.fluid else 1))
 
@@ -63,11 +62,11 @@ class RelaxationResponse:
         # Late relaxation differs from an equilibrium modulus only where there is none.
         return first / 3, (30 if self.fluid else 3) * last
 
-    def terms(self, times: Array) -> Array:
+    def terms(self, times: Floats) -> Floats:
         """Columns exp(-t/τ)."""
         return np.exp(-self.times[:, None] / times)
 
-    def slopes(self, times: Array) -> Array:
+    def slopes(self, times: Floats) -> Floats:
         """Columns (t/τ) exp(-t/τ)."""
         ratio = self.times[:, None] / times
         return ratio * np.exp(-ratio)
@@ -77,11 +76,11 @@ class RelaxationResponse:
 class DynamicResponse:
     """Oscillation at angular frequencies [rad/s]: rows of G', then of G''; fluid: no G_inf."""
 
-    angular_frequency: Array
+    angular_frequency: Floats
     fluid: bool
 
     @property
-    def constants(self) -> Array:
+    def constants(self) -> Floats:
         """Column of the equilibrium modulus, in phase only; none for a fluid."""
         count = 0 if self.fluid else 1
         rows = self.angular_frequency.size
@@ -94,12 +93,12 @@ class DynamicResponse:
         # A term beyond either end still contributes to the losses, which decay as ωτ or 1/ωτ only.
         return 0.1 / highest, 10 / lowest
 
-    def terms(self, times: Array) -> Array:
+    def terms(self, times: Floats) -> Floats:
         """Columns a²/(1 + a²) above a/(1 + a²), a = ωτ."""
         a = self.angular_frequency[:, None] * times
         return np.concatenate([a * a, a]) / np.tile(1 + a * a, (2, 1))
 
-    def slopes(self, times: Array) -> Array:
+    def slopes(self, times: Floats) -> Floats:
         """Columns 2a²/(1 + a²)² above a(1 - a²)/(1 + a²)²."""
         a = self.angular_frequency[:, None] * times
         return np.concatenate([2 * a * a, a * (1 - a * a)]) / np.tile((1 + a * a) ** 2, (2, 1))
@@ -109,6 +108,6 @@ class DynamicResponse:
 Response = CreepResponse | RelaxationResponse | DynamicResponse
 
 
-def _span(points: Array) -> tuple[float, float]:
+def _span(points: Floats) -> tuple[float, float]:
     positive = points[points > 0]
     return float(positive.min()), float(positive.max())

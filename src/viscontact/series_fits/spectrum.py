@@ -21,11 +21,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.series_fits.responses import Response
-
-Array = NDArray[np.float64]
 
 # Ten per decade: fits any other times to far below the scatter of a measurement.
 _CANDIDATES_PER_DECADE = 10
@@ -39,20 +37,20 @@ class Observed:
     """Positive measured values and the weights of their relative residuals, shape (rows,)."""
 
     response: Response
-    values: Array
-    weights: Array
+    values: Floats
+    weights: Floats
 
-    def relative(self, rows: Array) -> Array:
+    def relative(self, rows: Floats) -> Floats:
         """Rows relative to the measured values, weighted."""
         return rows * (self.weights / self.values)[:, None]
 
-    def columns(self, times: Array) -> Array:
+    def columns(self, times: Floats) -> Floats:
         """Columns of the linear fit: the constants, then the terms."""
         return self.relative(
             np.concatenate([self.response.constants, self.response.terms(times)], axis=1)
         )
 
-    def residuals(self, spectrum: Spectrum) -> Array:
+    def residuals(self, spectrum: Spectrum) -> Floats:
         """Relative residuals of a spectrum, without weights [-]."""
         constants = self.response.constants @ spectrum.constants
         terms = self.response.terms(spectrum.times) @ spectrum.strengths
@@ -63,14 +61,14 @@ class Observed:
 class Spectrum:
     """Strengths and times of a sum of exponential terms, and its residual."""
 
-    constants: Array  # strengths of the columns without a time: instant and flow, or equilibrium
+    constants: Floats  # strengths of the columns without a time: instant and flow, or equilibrium
     # strengths > 0 and times ascending [s], shape (n,)
-    strengths: Array
-    times: Array
+    strengths: Floats
+    times: Floats
     residual: float  # root mean square of the weighted relative residuals [-]
 
 
-def unweighted(response: Response, values: Array) -> Observed:
+def unweighted(response: Response, values: Floats) -> Observed:
     """Measured values with equal weights: each row counts by its relative residual."""
     return Observed(response, values, np.ones_like(values))
 
@@ -124,7 +122,7 @@ def _near(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
     return min(found, key=lambda spectrum: spectrum.residual)
 
 
-def _descended(observed: Observed, start: Array, gain: float) -> Spectrum:
+def _descended(observed: Observed, start: Floats, gain: float) -> Spectrum:
     if start.size == 0:
         return _strengths(observed, np.exp(start))[0]
     lowest, highest = np.log(observed.response.reach)
@@ -141,7 +139,7 @@ def _descended(observed: Observed, start: Array, gain: float) -> Spectrum:
     return _strengths(observed, np.sort(np.exp(ended.x)))[0]
 
 
-def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
+def _strengths(observed: Observed, times: Floats) -> tuple[Spectrum, Floats]:
     """Spectrum of the best non-negative strengths at given times, and the residuals."""
     columns = observed.columns(times)
     lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
@@ -156,7 +154,7 @@ def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
     return Spectrum(fixed, free[free > 0], times[free > 0], rms), residuals
 
 
-def _jacobian(observed: Observed, log_times: Array) -> Array:
+def _jacobian(observed: Observed, log_times: Floats) -> Floats:
     """Kaufman's Jacobian: the effect of moving a time, orthogonal to that of the strengths."""
     times = np.exp(log_times)
     spectrum, _ = _strengths(observed, times)
@@ -169,7 +167,7 @@ def _jacobian(observed: Observed, log_times: Array) -> Array:
     return np.asarray(slopes - across @ (across.T @ slopes))
 
 
-def _merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Array:
+def _merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Floats:
     """Logarithms ln τ of the dense fit's terms, neighbours merged until `count` are left.
 
     Ward's criterion: the pair with the least w1 w2/(w1 + w2) times the squared distance is merged

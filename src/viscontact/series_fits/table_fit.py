@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Unpack
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Floats
 from viscontact.series_fits.fit import Fit
 from viscontact.series_fits.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
 from viscontact.tables import Table
-
-Array = NDArray[np.float64]
 
 
 def is_oscillation(table: Table) -> bool:
@@ -20,7 +16,7 @@ def is_oscillation(table: Table) -> bool:
     return "storage_modulus" in table and ("loss_modulus" in table or "loss_tangent" in table)
 
 
-def measured_columns(table: Table) -> tuple[Array, dict[str, Array]]:
+def measured_columns(table: Table) -> tuple[Floats, dict[str, Floats]]:
     """Times [s] or angular frequencies [rad/s], and the columns by the names of a `Fit`."""
     if is_oscillation(table):
         storage = table["storage_modulus"]
@@ -37,8 +33,8 @@ def measured_columns(table: Table) -> tuple[Array, dict[str, Array]]:
 
 
 def fit_measured(
-    points: Array,
-    measured: Mapping[str, Array],
+    points: Floats,
+    measured: Mapping[str, Floats],
     *,
     weights: Mapping[str, float] | None = None,
     **options: Unpack[FitOptions],

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fast_length
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.rim_crossings import MARGIN
@@ -23,7 +23,7 @@ FACTOR = 1.5
 FREE = MARGIN
 
 
-def overrun(pressure: NDArray[np.float64], free: int = 1) -> tuple[bool, bool]:
+def overrun(pressure: Floats, free: int = 1) -> tuple[bool, bool]:
     """True for x and for y if pressure has reached the `free` outermost cells of a side.
 
     Examples
@@ -85,14 +85,12 @@ class GridEnlargement:
     small: ContactDomain
     large: ContactDomain
 
-    def pressure(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    def pressure(self, pressure: Floats) -> Floats:
         """Embed a pressure of the computed cells in those of the larger grid."""
         whole = self.small.expand_by_symmetry(pressure)
         return self.large.reduce_by_symmetry(self.small.grid.embed(whole, self.large.grid))
 
-    def pairs(
-        self, fields: NDArray[np.float64], response: SurfaceResponse | None = None
-    ) -> NDArray[np.float64]:
+    def pairs(self, fields: Floats, response: SurfaceResponse | None = None) -> Floats:
         """Map pressures and their unit displacements, shape (..., 2, nx, ny).
 
         Under the surface of the larger domain, or a part of its response.

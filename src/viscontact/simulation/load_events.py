@@ -16,8 +16,8 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.domain import ContactDomain
 from viscontact.errors import ConvergenceError
 from viscontact.loads import Condition, MixedHistory
@@ -43,7 +43,7 @@ LOST_MARGIN = 3.0
 PLANNED_ERROR = 1e-3
 
 #: Ends of the steps of a segment [s], from its number, its begin and its latest end.
-StepEnds = Callable[[int, float, float], NDArray[np.float64]]
+StepEnds = Callable[[int, float, float], Floats]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.checks.arguments import check_mixed
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
@@ -204,7 +204,7 @@ def _under(
         _LOG.info("t = %.6g s: %s", event.time, event.condition)
     ends = np.array(history.times[1:])
     end = float(ends[-1])
-    times: NDArray[np.float64] | AdaptiveTimes
+    times: Floats | AdaptiveTimes
     if problem.adaptive is None:
         kept = problem.instants[problem.instants < end * (1 - KINK_TOLERANCE)]
         apart = np.abs(kept[:, None] - ends).min(axis=1) > KINK_TOLERANCE * end
@@ -219,9 +219,7 @@ def _under(
     return replace(problem, load=history, grid=grid, times=times, fields=fields)
 
 
-def _fields_until(
-    fields: Sequence[float], end: float, ends: NDArray[np.float64]
-) -> tuple[float, ...]:
+def _fields_until(fields: Sequence[float], end: float, ends: Floats) -> tuple[float, ...]:
     """Instants whose fields are kept up to the end; one after it becomes the end."""
     kept = []
     for instant in fields:

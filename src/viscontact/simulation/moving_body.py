@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.loads.motion import Motion
@@ -28,7 +29,7 @@ class PeriodicBody(Indenter):
     body: Indenter
     grid: Grid
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the gap of the body in the period of each position; see `Indenter.gap`."""
         along_x, along_y = (
             _wrapped(positions, middle, period) if repeats else positions
@@ -49,13 +50,13 @@ class PeriodicBody(Indenter):
         return self.body.sample_spacing
 
 
-def _wrapped(positions: ArrayLike, middle: float, period: float) -> NDArray[np.float64]:
+def _wrapped(positions: ArrayLike, middle: float, period: float) -> Floats:
     """Positions moved by whole periods to within half a period of the middle [m]."""
     offset = np.asarray(positions, dtype=np.float64) - middle
     return np.asarray(middle + offset - period * np.round(offset / period))
 
 
-def cells_seen(grid: Grid, motion: Motion) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def cells_seen(grid: Grid, motion: Motion) -> tuple[Floats, Floats]:
     """Positions in the body's frame that cells of the grid have during a motion, along x and y [m].
 
     Examples

@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools
 from viscontact.checks.collector import WarningCollector
 from viscontact.checks.half_space_theory import corner_warnings, geometry_warnings
 from viscontact.checks.material import (
@@ -52,7 +52,7 @@ class Observer:
         self._held = False  # the load of the last step
         self._cycles = LoadCycleWork(run.problem.history.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
-        self._largest: NDArray[np.bool_] | None = None  # its spots are not counted yet
+        self._largest: Bools | None = None  # its spots are not counted yet
         self._spots_at_largest = 0.0
         self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
         self._peak_checked = 0.0

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from numbers import Integral
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.checks.arguments import (
     check_balance,
@@ -63,7 +63,7 @@ class RunSetup:
 
     problem: Problem
     grid: Grid
-    open_gap: NDArray[np.float64]
+    open_gap: Floats
     hereditary: HereditaryPlan
     mesh: Mesh | None
     threads: int
@@ -98,7 +98,7 @@ class RunSetup:
         """Position of the body's axis at a time [m]; the origin if it does not move."""
         return _position(self.problem, time)
 
-    def gap_at(self, time: float) -> NDArray[np.float64]:
+    def gap_at(self, time: float) -> Floats:
         """The indenter's gap on the grid at a time [m]."""
         if self.problem.motion is None:
             return self.open_gap
@@ -194,11 +194,11 @@ def _indenter_at(problem: Problem, grid: Grid, time: float) -> Indenter:
     return PlacedIndenter(body, x=x, y=y)
 
 
-def _gap_on(problem: Problem, grid: Grid, time: float = 0.0) -> NDArray[np.float64]:
+def _gap_on(problem: Problem, grid: Grid, time: float = 0.0) -> Floats:
     return _indenter_at(problem, grid, time).gap(grid.x[:, None], grid.y[None, :])
 
 
-def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tuple[bool, bool]:
+def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
     if problem.motion is None:
         return mirrored_axes(grid, open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
     # Across the motion only, on the axis, and with all of the body that the grid comes to see.
@@ -215,9 +215,7 @@ def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tu
     return along_x, along_y
 
 
-def plan_history(
-    problem: Problem, open_gap: NDArray[np.float64], grid: Grid
-) -> list[HereditaryPlan]:
+def plan_history(problem: Problem, open_gap: Floats, grid: Grid) -> list[HereditaryPlan]:
     """Plan the hereditary integrals of a problem on a grid, whose open gap is given [m].
 
     One for each term of the surface.

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Floats
 from viscontact.state import Outcome
 
 
@@ -25,12 +23,12 @@ class StepSolution:
     contact, `power` [W] the rate at its end; NaN where they are not known.
     """
 
-    pressure: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    displacement: NDArray[np.float64]
-    reference: NDArray[np.float64]
-    motion: NDArray[np.float64]
-    resultants: NDArray[np.float64]
+    pressure: Floats
+    gap: Floats
+    displacement: Floats
+    reference: Floats
+    motion: Floats
+    resultants: Floats
     energy: float
     residual: float
     iterations: int

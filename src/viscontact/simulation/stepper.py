@@ -18,8 +18,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.clearance import just_clear
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
@@ -76,7 +76,7 @@ class TrialStep:
     point: LoadPoint
     solution: ContactSolution
     response: SurfaceStep
-    pairs: tuple[NDArray[np.float64], ...]
+    pairs: tuple[Floats, ...]
     reference: ElasticReference
     outcome: Outcome
     error: StepError
@@ -198,7 +198,7 @@ class Stepper:
             return trial.reference
         return replace(trial.reference, drive=trial.point.level, fields=trial.solution.values)
 
-    def _loss(self, pairs: tuple[NDArray[np.float64], ...]) -> tuple[float, float]:
+    def _loss(self, pairs: tuple[Floats, ...]) -> tuple[float, float]:
         """Heat [J] of a step and power [W] lost at its end.
 
         NaN without internal variables, and without a datum: part of it is lost by the approach.
@@ -230,7 +230,7 @@ class Stepper:
         self,
         reference: ElasticReference | None,
         response: SurfaceStep,
-        history: NDArray[np.float64],
+        history: Floats,
     ) -> Guess | None:
         """Pressure and unit displacement that a predicted elastic reference belongs to.
 
@@ -245,7 +245,7 @@ class Stepper:
             self._domain.convolution.apply(values[0], into=values[1])
             return Guess(values, reference.motion)
 
-        def increment(found: NDArray[np.float64], past: NDArray[np.float64]) -> None:
+        def increment(found: Floats, past: Floats) -> None:
             found -= past
             found /= response.compliance
 
@@ -288,7 +288,7 @@ class Stepper:
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
         return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT
 
-    def _is_separated(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
+    def _is_separated(self, problem: ContactProblem, motion: Floats) -> bool:
         plane = self._domain.whole.plane.field(motion)
         return bool((problem.open_gap >= plane).all())
 
@@ -303,13 +303,13 @@ class Stepper:
         return _at_lowest_point(self._run, step.time, apart) if untouched else apart
 
 
-def _force(point: LoadPoint) -> NDArray[np.float64]:
+def _force(point: LoadPoint) -> Floats:
     """The prescribed force as a field of one number [N]; 0 under a prescribed approach."""
     return np.array([point.force or 0.0])
 
 
 def _without_pressure(
-    problem: ContactProblem, domain: ContactDomain, motion: NDArray[np.float64]
+    problem: ContactProblem, domain: ContactDomain, motion: Floats
 ) -> ContactSolution:
     nothing = np.zeros((2, *domain.shape))
     gap = problem.open_gap - domain.whole.plane.field(motion)

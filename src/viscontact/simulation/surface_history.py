@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.domain import ContactDomain
 from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.simulation.grid_enlargement import GridEnlargement
@@ -26,8 +26,6 @@ from viscontact.time_integration.hereditary_integral import (
 )
 from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.restart_data import RestartData
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +40,14 @@ class SurfaceStep:
         """Response of the first term."""
         return self.terms[0]
 
-    def past(self) -> tuple[Array, Array]:
+    def past(self) -> tuple[Floats, Floats]:
         """What earlier steps have left, computed anew.
 
         ∫ J_1 dp [-] and ∫ J_1 dq_1 [m] of the first term, shape (2, nx, ny), and the displacement
         of all terms [m].
         """
         first = self.first.history
-        displacement: Array = first[1]
+        displacement: Floats = first[1]
         for term in self.terms[1:]:
             displacement = displacement + term.history[1]
         return first, displacement
@@ -67,7 +65,7 @@ class SurfaceStep:
         pairs = zip(self.weights, self.short_waves, strict=True)
         return sum(weight * part for weight, part in pairs)
 
-    def of(self, pairs: tuple[Array, ...]) -> Array:
+    def of(self, pairs: tuple[Floats, ...]) -> Floats:
         """Reference pressure ∫ J_1 dp [-] and displacement [m] of new pairs; shape (2, nx, ny)."""
         fields = self.first.of(pairs[0])
         for term, pair in zip(self.terms[1:], pairs[1:], strict=True):
@@ -87,7 +85,7 @@ class SurfaceHistory:
             plan.integral((2, *domain.shape), laws, domain.team) for plan in run.plans
         ]
 
-    def loss(self, pairs: tuple[Array, ...]) -> tuple[float, float] | None:
+    def loss(self, pairs: tuple[Floats, ...]) -> tuple[float, float] | None:
         """Heat of the step to new pairs, and power lost at its end, as of `InternalVariables`.
 
         Those of all terms; None if one of them is not kept as internal variables.
@@ -109,7 +107,7 @@ class SurfaceHistory:
             self._domain.set_response(self._responses, shares)
         return found
 
-    def pairs(self, step: SurfaceStep, values: Array) -> tuple[Array, ...]:
+    def pairs(self, step: SurfaceStep, values: Floats) -> tuple[Floats, ...]:
         """Pressure and unit displacement of each term, of those of the whole surface.
 
         `values` are the pressure [Pa] and its unit displacement over `step.compliance` [Pa m].
@@ -130,12 +128,12 @@ class SurfaceHistory:
             pair.flags.writeable = False
         return found
 
-    def _unit_displacement(self, pressure: Array, response: SurfaceResponse) -> Array:
+    def _unit_displacement(self, pressure: Floats, response: SurfaceResponse) -> Floats:
         if not pressure.any():
             return np.zeros_like(pressure)
         return self._domain.unit_displacement(pressure, response)
 
-    def accept(self, pairs: tuple[Array, ...]) -> None:
+    def accept(self, pairs: tuple[Floats, ...]) -> None:
         """Close the step with its new pairs."""
         for integral, pair in zip(self._integrals, pairs, strict=True):
             integral.accept(pair)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.checks.covers import covers_of
 from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import (
@@ -53,7 +53,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
 
 def geometry_of(
     problem: Problem,
-    open_gap: NDArray[np.float64],
+    open_gap: Floats,
     grid: Grid,
     *,
     predicted: bool = False,

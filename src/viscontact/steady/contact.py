@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import Transforms
 from viscontact.contact.domain import mirrored_axes
 from viscontact.contact.moving_domain import MovingDomain
@@ -30,8 +30,8 @@ class Neighbour:
 
     speed: float  # [m/s]
     grid: Grid
-    pressure: NDArray[np.float64]  # on the whole grid [Pa]
-    motion: NDArray[np.float64]  # approach [m] and tilts [rad]
+    pressure: Floats  # on the whole grid [Pa]
+    motion: Floats  # approach [m] and tilts [rad]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,17 +53,17 @@ class SteadyContact:
         return Neighbour(self.speed, self.grid, self.pressure, self.solution.motion)
 
     @property
-    def pressure(self) -> NDArray[np.float64]:
+    def pressure(self) -> Floats:
         """Pressure on the whole grid [Pa]."""
         return self.domain.expand_by_symmetry(self.solution.values[0])
 
     @property
-    def gap(self) -> NDArray[np.float64]:
+    def gap(self) -> Floats:
         """Gap on the whole grid [m]."""
         return self.domain.expand_by_symmetry(self.solution.gap)
 
     @property
-    def displacement(self) -> NDArray[np.float64]:
+    def displacement(self) -> Floats:
         """Displacement on the whole grid [m]."""
         unit = self.domain.expand_by_symmetry(self.solution.values[1])
         return self.domain.compliance * unit
@@ -108,7 +108,7 @@ class SteadySolver:
         return self.solve(speed, replace(grid, shape=(nx, ny)), tolerance)
 
 
-def gap_on(problem: SteadyProblem, grid: Grid) -> NDArray[np.float64]:
+def gap_on(problem: SteadyProblem, grid: Grid) -> Floats:
     """Gap of the indenter on a grid [m]."""
     return problem.contact.indenter.gap(grid.x[:, None], grid.y[None, :])
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.checks.collector import WarningCollector
 from viscontact.checks.covers import covers_of
 from viscontact.checks.half_space_theory import (
@@ -239,7 +239,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
 
 def geometry_of(
     problem: SteadyProblem,
-    open_gap: NDArray[np.float64],
+    open_gap: Floats,
     grid: Grid,
     passed: float,
     *,

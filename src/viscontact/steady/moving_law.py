@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.moving_surface import MovingSurface
@@ -52,10 +52,10 @@ class MovingLaw:
 
     response: SurfaceResponse  # of the term
     instant: float  # with the relaxed compliance of a body that slides [1/Pa]
-    amplitudes: NDArray[np.float64]  # [1/Pa]
-    times: NDArray[np.float64]  # retardation times [s]
+    amplitudes: Floats  # [1/Pa]
+    times: Floats  # retardation times [s]
     #: Way after which the same material returns [m]: the circumference for that of a roller.
-    periods: NDArray[np.float64]
+    periods: Floats
     fluidity: float  # of the half-space [1/(Pa s)]
     error: float  # relative error of J
     #: Creep of the half-space beyond the series, ∫ J'(t) dt/t [1/(Pa s)].

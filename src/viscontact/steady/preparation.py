@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
@@ -154,7 +154,7 @@ def estimate_at(problem: SteadyProblem, speed: float) -> ContactEstimate:
     return found
 
 
-def _centred(problem: SteadyProblem, reach: NDArray[np.float64]) -> tuple[bool, bool]:
+def _centred(problem: SteadyProblem, reach: Floats) -> tuple[bool, bool]:
     """True across the motion if body and load are even there: the grid is centred on its axis."""
     across, load = 1 - problem.axis, problem.contact.load
     around = Grid((EVEN_SAMPLES, EVEN_SAMPLES), (2 * float(reach[0]), 2 * float(reach[1])))

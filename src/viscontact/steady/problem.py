@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
 from viscontact.loads.steady_motion import constant_load
@@ -27,10 +28,10 @@ class SteadyProblem:
 
     contact: Problem
     point: LoadPoint
-    speeds: NDArray[np.float64]
+    speeds: Floats
     axis: int
     rolling: bool | None
-    kept: NDArray[np.float64]
+    kept: Floats
 
     @property
     def along(self) -> str:
@@ -95,7 +96,7 @@ def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
         )
 
 
-def _speeds(name: str, given: Any) -> NDArray[np.float64]:
+def _speeds(name: str, given: Any) -> Floats:
     """Distinct positive numbers, from one or a list of them [m/s]."""
     try:
         speeds = np.atleast_1d(np.asarray(given, dtype=np.float64))
@@ -108,7 +109,7 @@ def _speeds(name: str, given: Any) -> NDArray[np.float64]:
     return speeds
 
 
-def _kept(fields: str | Sequence[float], speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+def _kept(fields: str | Sequence[float], speeds: Floats) -> Floats:
     """Speeds whose fields are kept [m/s]."""
     if isinstance(fields, str):
         if fields not in ("all", "none"):

@@ -8,9 +8,9 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact import __version__
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.results.descriptions import describe
 from viscontact.results.variables import scalars_with_error
@@ -19,7 +19,7 @@ from viscontact.steady.preparation import SteadySetup
 from viscontact.steady.problem import SteadyProblem
 
 
-def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, NDArray[np.float64]]:
+def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, Floats]:
     """Error bars of each scalar over the speeds, in its unit."""
     names = scalars_with_error(over="speed")
     return {name: np.array([each[name] for each in bars]) for name in names}
@@ -39,9 +39,7 @@ def on_grid(state: ContactState, grid: Grid) -> ContactState:
     )
 
 
-def _embedded(
-    field: NDArray[np.float64], grid: Grid, wider: Grid, beyond: float
-) -> NDArray[np.float64]:
+def _embedded(field: Floats, grid: Grid, wider: Grid, beyond: float) -> Floats:
     """A field on the grid of all speeds, with a value beyond its own."""
     whole = np.full(wider.shape[: field.ndim], beyond)
     first = [

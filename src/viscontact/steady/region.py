@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.contact.moving_domain import COARSEST
 from viscontact.grid import Grid
 from viscontact.steady.contact import SteadyContact, SteadySolver
@@ -39,11 +39,11 @@ MOST_OF_LATTICE = 4.0
 class Region:
     """Bounds of a contact along x and y, in the coordinates of the body [m]."""
 
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
+    low: Floats
+    high: Floats
 
     @property
-    def extents(self) -> NDArray[np.float64]:
+    def extents(self) -> Floats:
         """Lengths along x and y [m]."""
         return self.high - self.low
 
@@ -66,7 +66,7 @@ class Region:
 class Lattice:
     """Cells of all grids of a run: cell i along an axis lies between i and i + 1 edges."""
 
-    cell_size: NDArray[np.float64]  # [m]
+    cell_size: Floats  # [m]
 
     def grid_over(self, region: Region, *, centred: tuple[bool, bool]) -> Grid:
         """Grid of the lattice over a region with a margin, centred on 0 along some axes."""
@@ -134,7 +134,7 @@ def find_region(
 
 def _measured(
     contact: SteadyContact,
-) -> tuple[Region, NDArray[np.intp], NDArray[np.bool_]]:
+) -> tuple[Region, Integers, Bools]:
     """Region under pressure, cells across it, and the sides of the grid that it reaches.
 
     Sides are (low, high) of both axes, shape (2, 2).
@@ -151,9 +151,7 @@ def _measured(
     return Region(np.array(low), np.array(high)), np.array(across), np.array(touched)
 
 
-def _next(
-    box: Region, region: Region, touched: NDArray[np.bool_], across: NDArray[np.intp]
-) -> Region:
+def _next(box: Region, region: Region, touched: Bools, across: Integers) -> Region:
     """Box of the next search, after a contact in a box.
 
     Where the contact reaches the box, the box grows along that axis and does not shrink: the

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.contact.moving_domain import MovingDomain
 from viscontact.contact.resistance import reaches_end, resistance_by_slope
 from viscontact.halfspace.moving_load import MovingCompliance
@@ -48,7 +48,7 @@ class Resistance:
 def resistance(
     indenter: Indenter,
     domain: MovingDomain,
-    pressure: NDArray[np.float64],
+    pressure: Floats,
     tilts: tuple[float, float],
     half_length: float,
 ) -> Resistance:

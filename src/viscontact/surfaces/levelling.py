@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.surfaces.surface import Surface
 
-Array = NDArray[np.float64]
 Level = Literal["none", "mean", "plane", "quadratic"]
 
 #: Powers of x and y of the polynomial that is subtracted.
@@ -70,10 +69,10 @@ def levelled(surface: Surface, level: Level = "plane") -> Surface:
 class Polynomial:
     """Polynomial in x and y, each over half the size of the map; coefficients in m."""
 
-    def __init__(self, terms: tuple[tuple[int, int], ...], coefficients: Array) -> None:
+    def __init__(self, terms: tuple[tuple[int, int], ...], coefficients: Floats) -> None:
         self.terms, self.coefficients = terms, coefficients
 
-    def of(self, surface: Surface) -> Array:
+    def of(self, surface: Surface) -> Floats:
         """Values at a surface's points, shape (nx, ny) [m]."""
         along_x, along_y = _scaled(surface)
         values = np.zeros(surface.shape)
@@ -117,6 +116,6 @@ def tilt(surface: Surface) -> tuple[float, float]:
     return plane[1, 0] / (lx / 2), plane[0, 1] / (ly / 2)
 
 
-def _scaled(surface: Surface) -> tuple[Array, Array]:
+def _scaled(surface: Surface) -> tuple[Floats, Floats]:
     lx, ly = surface.size
     return surface.x / (lx / 2), surface.y / (ly / 2)

@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.surfaces.surface import Surface
 
 Filling = Literal["smooth", "lowest"]
@@ -56,14 +56,14 @@ def filled(surface: Surface, by: Filling = "smooth") -> Surface:
     return surface.with_heights(heights)
 
 
-def _film(surface: Surface) -> NDArray[np.float64]:
+def _film(surface: Surface) -> Floats:
     """Heights of the soap film at the missing points, in their order [m]."""
     missing = surface.missing
     number = np.full(surface.shape, -1, dtype=np.intp)
     count = int(missing.sum())
     number[missing] = np.arange(count)
     diagonal, right = np.zeros(count), np.zeros(count)
-    links: list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]] = []
+    links: list[tuple[Integers, Integers, Floats]] = []
     reference = float(np.nanmean(surface.heights))
     for axis, spacing in enumerate(surface.spacing):
         weight = (max(surface.spacing) / spacing) ** 2

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.surfaces.pressing import require_complete, require_map
 from viscontact.surfaces.surface import Surface
-
-Array = NDArray[np.float64]
 
 _BINS_PER_DECADE = 10
 
@@ -29,8 +27,8 @@ class PowerSpectrum:
         Root of the sum over all waves (Sq of the mean-free, windowed heights) [m].
     """
 
-    wave_number: Array
-    density: Array
+    wave_number: Floats
+    density: Floats
     rms_height: float
 
 
@@ -93,6 +91,6 @@ def power_spectrum(surface: Surface) -> PowerSpectrum:
     return PowerSpectrum(of_q[found] / number[found], density, float(np.sqrt(waves.sum())))
 
 
-def _hann(count: int) -> Array:
+def _hann(count: int) -> Floats:
     window = np.hanning(count + 1)[:-1]
     return np.asarray(window / np.sqrt(np.mean(window**2)), dtype=np.float64)

@@ -8,13 +8,12 @@ from typing import Literal
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.surfaces.surface import Surface
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
-Array = NDArray[np.float64]
 Filter = Literal["mean", "gaussian", "spline"]
 
 #: ISO 16610-21: a wave of the cutoff wavelength is transmitted at half its height.
@@ -81,7 +80,7 @@ def resampled(
     if filter == "spline":
         return _through(surface, cells)
     if filter == "mean":
-        weights: tuple[Callable[[Array], Array], ...] = tuple(
+        weights: tuple[Callable[[Floats], Floats], ...] = tuple(
             _overlap(old, new) for old, new in zip(surface.spacing, cells, strict=True)
         )
         reach = [(old + new) / 2 for old, new in zip(surface.spacing, cells, strict=True)]
@@ -137,24 +136,24 @@ def _require_wide(surface: Surface, waves: list[float]) -> None:
             )
 
 
-def _overlap(old: float, new: float) -> Callable[[Array], Array]:
+def _overlap(old: float, new: float) -> Callable[[Floats], Floats]:
     """Weight of a mean filter: overlap of a new cell and an old one by distance [m]."""
 
-    def weight(distance: Array) -> Array:
+    def weight(distance: Floats) -> Floats:
         return np.clip((old + new) / 2 - np.abs(distance), 0.0, min(old, new))
 
     return weight
 
 
-def _bell(wave: float) -> Callable[[Array], Array]:
-    def weight(distance: Array) -> Array:
+def _bell(wave: float) -> Callable[[Floats], Floats]:
+    def weight(distance: Floats) -> Floats:
         return np.asarray(np.exp(-np.pi * (distance / (ALPHA * wave)) ** 2))
 
     return weight
 
 
 def _matrix(
-    surface: Surface, axis: int, cell: float, weight: Callable[[Array], Array], reach: float
+    surface: Surface, axis: int, cell: float, weight: Callable[[Floats], Floats], reach: float
 ) -> scipy.sparse.csr_matrix:
     """Weights of the old points along an axis, a row for each new one."""
     old, spacing = surface.shape[axis], surface.spacing[axis]
@@ -190,7 +189,7 @@ def _count(surface: Surface, axis: int, cell: float) -> int:
     return count
 
 
-def _both_ways(along: list[scipy.sparse.csr_matrix], field: Array) -> Array:
+def _both_ways(along: list[scipy.sparse.csr_matrix], field: Floats) -> Floats:
     return np.asarray((along[1] @ (along[0] @ field).T).T)
 
 

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.display import Displayable
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
-
-Array = NDArray[np.float64]
 
 #: Upper limit on heights above their reference [m].
 _LARGEST = 1e6
@@ -54,7 +53,7 @@ class Surface(Displayable):
     ((0.75, 0.5), [-0.25, 0.0, 0.25], 1)
     """
 
-    heights: Array
+    heights: Floats
     spacing: tuple[float, float]
     name: str
     periodic: bool
@@ -84,17 +83,17 @@ class Surface(Displayable):
         return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
 
     @property
-    def x(self) -> Array:
+    def x(self) -> Floats:
         """Positions along x, shape (nx,) [m]."""
         return _centred(self.shape[0], self.spacing[0])
 
     @property
-    def y(self) -> Array:
+    def y(self) -> Floats:
         """Positions along y, shape (ny,) [m]."""
         return _centred(self.shape[1], self.spacing[1])
 
     @cached_property
-    def missing(self) -> NDArray[np.bool_]:
+    def missing(self) -> Bools:
         """Mask of the points without a height, shape (nx, ny)."""
         return np.isnan(self.heights)
 
@@ -179,7 +178,7 @@ class Surface(Displayable):
         )
 
 
-def _centred(points: int, spacing: float) -> Array:
+def _centred(points: int, spacing: float) -> Floats:
     # As the grid's cell centres, to the last bit where the sizes agree.
     offsets = (2 * np.arange(points) - (points - 1)).astype(np.float64)
     return offsets * (points * spacing / (2 * points))
@@ -196,7 +195,7 @@ def _steps(name: str, spacing: float | tuple[float, float]) -> tuple[float, floa
     return float(numbers[0] or 0), float(numbers[1] or 0)
 
 
-def _map_of(name: str, heights: ArrayLike) -> Array:
+def _map_of(name: str, heights: ArrayLike) -> Floats:
     try:
         given = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan)
     except (TypeError, ValueError) as error:

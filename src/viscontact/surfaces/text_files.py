@@ -6,14 +6,12 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.units import Units
 from viscontact.tables import Row, Table, decimal_number, looks_like_number, read_rows, read_table
 from viscontact.units.formatting import format_quantity
-
-Array = NDArray[np.float64]
 
 _NAMES = {"x": "x", "y": "y", "z": "height", "height": "height"}
 
@@ -61,7 +59,7 @@ def _is_height(cell: str) -> bool:
     return cell.lower() in _NOT_MEASURED or looks_like_number(cell)
 
 
-def _matrix(name: str, rows: list[Row]) -> Array:
+def _matrix(name: str, rows: list[Row]) -> Floats:
     """Heights [x, y] of rows that run along x."""
     width = len(rows[0].cells)
     comma = any("," in cell for row in rows for cell in row.cells)
@@ -107,7 +105,7 @@ def _from_points(table: Table) -> Surface:
     return Surface(heights, (steps[0], steps[1]), name=name)
 
 
-def _on_mesh(name: str, axis: str, position: Array) -> tuple[NDArray[np.intp], float]:
+def _on_mesh(name: str, axis: str, position: Floats) -> tuple[Integers, float]:
     """Index of each position on an even mesh, and its spacing [m]; 0 for a single line."""
     lines = np.unique(position)
     extent = float(lines[-1] - lines[0])

@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.tables.table import Table, read_only
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
@@ -81,7 +81,7 @@ def with_creep_compliance(table: Table, stress: float | None) -> Table:
     source = table.source.name
     if "stress" in table:
         table = _at_level(table, chosen_level(source, _levels(source, table["stress"]), stress))
-        stresses: NDArray[np.float64] | float | None = table["stress"]
+        stresses: Floats | float | None = table["stress"]
     else:
         stresses = stress
     columns = {n: v for n, v in table.columns.items() if n not in ("strain", "stress")}
@@ -98,7 +98,7 @@ def with_creep_compliance(table: Table, stress: float | None) -> Table:
     return Table(table.source, columns, table.data, headings, table.lines, table.left_out)
 
 
-def _levels(source: str, stresses: NDArray[np.float64]) -> list[float]:
+def _levels(source: str, stresses: Floats) -> list[float]:
     """Mean stresses of the tests in a column [Pa], increasing."""
     if not (np.abs(stresses) > 0).all():
         raise ValueError(f"{source}: the column of stresses has a 0; leave rows without a load out")

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.tables.creep_tests import STRAIN_UNITS
 from viscontact.tables.names import Data, meaning
 from viscontact.tables.table import Table, read_only
@@ -129,9 +129,7 @@ def _value(path: Path, row: Row, curve: _Curve, scale: Scale, mark: str) -> floa
         raise ValueError(f"{path.name}:{row.line}: column {curve.heading!r}: {error}") from None
 
 
-def _strain_at(
-    where: str, curve: _Curve, levels: NDArray[np.float64], strain: NDArray[np.float64], at: float
-) -> float:
+def _strain_at(where: str, curve: _Curve, levels: Floats, strain: Floats, at: float) -> float:
     """Strain of a curve at a stress [Pa]."""
     levels, strain = np.append(0.0, levels[levels != 0]), np.append(0.0, strain[levels != 0])
     if not ((np.diff(levels) > 0).all() and (np.diff(strain) > 0).all()):

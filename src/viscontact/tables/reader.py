@@ -8,8 +8,8 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.tables.creep_tests import with_creep_compliance
 from viscontact.tables.header import Column, Header, read_header
 from viscontact.tables.isochronous import isochronous_table
@@ -97,7 +97,7 @@ def read_table(
     return with_creep_compliance(table, header.stress)
 
 
-def _values(source: str, header: Header, rows: list[Row]) -> NDArray[np.float64]:
+def _values(source: str, header: Header, rows: list[Row]) -> Floats:
     places = [column.place for column in header.columns]
     for row in rows:
         _require_width(source, header.width, row)

@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.tables.names import Data
 from viscontact.units.temperatures import in_celsius
-
-Array = NDArray[np.float64]
 
 # Chambers keep a temperature within some tenths of a kelvin; tests change it by several.
 _SAME_TEMPERATURE, _WIDEST_SET = 1.0, 5.0
@@ -55,13 +54,13 @@ class Table:
     """
 
     source: Path
-    columns: Mapping[str, Array]
+    columns: Mapping[str, Floats]
     data: Data | None
     headings: Mapping[str, str]
     lines: NDArray[np.int64]
     left_out: tuple[str, ...] = ()
 
-    def __getitem__(self, quantity: str) -> Array:
+    def __getitem__(self, quantity: str) -> Floats:
         """Return a column; ValueError naming those that there are, if there is no such."""
         if quantity not in self.columns:
             hint = "; name their quantities with columns=" if self.left_out else ""
@@ -146,7 +145,7 @@ class Table:
                 )
         return tuple(self._rows(np.sort(group)) for group in groups)
 
-    def _rows(self, which: NDArray[np.bool_] | NDArray[np.int64]) -> Table:
+    def _rows(self, which: Bools | NDArray[np.int64]) -> Table:
         columns = {name: read_only(values[which]) for name, values in self.columns.items()}
         return Table(
             self.source, columns, self.data, self.headings, self.lines[which], self.left_out
@@ -185,7 +184,7 @@ class Table:
         return re.sub(r"\brow (\d+)", line, str(error))
 
 
-def read_only(values: Array) -> Array:
+def read_only(values: Floats) -> Floats:
     """Return the values, protected against writing."""
     values.flags.writeable = False
     return values

@@ -14,8 +14,8 @@ from dataclasses import asdict
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.fixed_steps import Step, snap_to_kink
@@ -78,10 +78,10 @@ class AdaptiveSteps:
     def __init__(
         self,
         request: AdaptiveTimes,
-        stops: NDArray[np.float64],
+        stops: Floats,
         load: LoadHistory,
         compliance: ContactCompliance,
-        marks: NDArray[np.float64] | None = None,
+        marks: Floats | None = None,
     ) -> None:
         self._marks = np.empty(0) if marks is None else marks
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance

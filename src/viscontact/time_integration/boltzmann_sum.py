@@ -11,8 +11,8 @@ from __future__ import annotations
 from math import isclose
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.hereditary_integral import (
     HereditaryIntegral,
@@ -54,7 +54,7 @@ class BoltzmannSum(HereditaryIntegral):
         self,
         compliance: ContactCompliance,
         shape: tuple[int, ...],
-        instants: NDArray[np.float64] | None = None,
+        instants: Floats | None = None,
         steps: int = BLOCK_STEPS,
         others: tuple[ContactCompliance, ...] = (),
     ) -> None:
@@ -106,7 +106,7 @@ class BoltzmannSum(HereditaryIntegral):
         resolved = is_resolved(crept, self._compliance.instant, whole=step.slow == 0)
         return HereditaryResponse(lambda: history, compliance, resolved, step.held, step.trended)
 
-    def accept(self, value: NDArray[np.float64]) -> None:
+    def accept(self, value: Floats) -> None:
         """Add the increments to the new value of the field, and close the step."""
         value = value.copy() if value.flags.writeable else value
         self._jumped = self._next_jumps
@@ -165,7 +165,7 @@ class BoltzmannSum(HereditaryIntegral):
             restart_data[name] for name in ("ahead", "ahead_from", "ahead_count")
         )
 
-    def _add(self, increment: NDArray[np.float64], began: float, ended: float) -> None:
+    def _add(self, increment: Floats, began: float, ended: float) -> None:
         """Add a row for an increment of the field between two times [s]."""
         if self._count == len(self._began):
             self._grow_arrays()
@@ -173,7 +173,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._began[self._count], self._ended[self._count] = began, ended
         self._count += 1
 
-    def _history_at(self, end: float, shape: StepShape) -> NDArray[np.float64]:
+    def _history_at(self, end: float, shape: StepShape) -> Floats:
         """Displacement from the past at the end of a step [s]."""
         step = self._steps
         is_planned = step < len(self._planned) and isclose(self._planned[step], end, rel_tol=1e-9)
@@ -182,7 +182,7 @@ class BoltzmannSum(HereditaryIntegral):
         past = self._planned_history(step) if is_planned else self._summed(np.array([end]), 0)[0]
         return past.reshape(self._shape)
 
-    def _planned_history(self, step: int) -> NDArray[np.float64]:
+    def _planned_history(self, step: int) -> Floats:
         """Displacement at the end of a planned step from all increments so far."""
         if not self._ahead_from <= step < self._ahead_from + len(self._ahead):
             self._ahead = self._summed(self._planned[step : step + BLOCK_STEPS], 0)
@@ -191,7 +191,7 @@ class BoltzmannSum(HereditaryIntegral):
         recent = self._summed(self._planned[step : step + 1], self._ahead_count)[0]
         return np.asarray(self._ahead[step - self._ahead_from] + recent)
 
-    def _summed(self, ends: NDArray[np.float64], first: int) -> NDArray[np.float64]:
+    def _summed(self, ends: Floats, first: int) -> Floats:
         """Displacements at some times from the increments so far, from the index `first` on."""
         began, ended = (each[first : self._count] for each in (self._began, self._ended))
         # Ages of each increment's rise at these times: its weight is the mean of J over them.
@@ -210,7 +210,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._ended = np.append(self._ended, np.zeros(more))
 
 
-def _product(weights: NDArray[np.float64], increments: NDArray[np.float64]) -> NDArray[np.float64]:
+def _product(weights: Floats, increments: Floats) -> Floats:
     """Matrix product, not by BLAS, whose bits depend on its number of threads."""
     product = np.empty((len(weights), increments.shape[1]))
     for first in range(0, increments.shape[1], BLOCK_CELLS):

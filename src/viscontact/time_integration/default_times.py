@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps
@@ -39,7 +39,7 @@ MIN_DISTANCE = 0.3
 SPHERE_EXPONENT = 2 / 3
 
 
-def default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
+def default_times(load: LoadHistory, compliance: ContactCompliance) -> Floats:
     """Times up to the end of the load, or of the creep under a load that is held [s].
 
     Examples
@@ -67,7 +67,7 @@ def default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[n
     return np.unique(np.concatenate([even, chosen, kinks]))
 
 
-def _apart(times: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
+def _apart(times: Floats, others: Floats) -> Floats:
     """Those times that do not nearly coincide with others, compared with the steps between them."""
     if len(times) < 2:
         return times[:0]
@@ -92,9 +92,7 @@ def default_end(load: LoadHistory, compliance: ContactCompliance) -> float:
     return max(end, settled) if is_measured else end + settled
 
 
-def steps_of_one_cell(
-    load: LoadHistory, compliance: ContactCompliance, end: float
-) -> NDArray[np.float64]:
+def steps_of_one_cell(load: LoadHistory, compliance: ContactCompliance, end: float) -> Floats:
     """Ends of the adaptive steps of a contact of one cell up to `end`, and 0 [s]."""
     ages = np.append(0.0, np.geomspace(1e-9 * end, end, 100))
     plan = plan_hereditary_integral(compliance, ages, 2)

@@ -12,17 +12,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.materials.compliance import SeriesCompliance
 
 #: Ratio of duration and retardation time below which the integrals are taken from their series.
 SMALL_RATIO = 1e-3
 
 
-def power_lost(
-    compliance: SeriesCompliance, variables: NDArray[np.float64], value: NDArray[np.float64]
-) -> float:
+def power_lost(compliance: SeriesCompliance, variables: Floats, value: Floats) -> float:
     """Power lost at an instant, over the area of a cell [W/m²].
 
     `value` are pressure [Pa] and unit displacement [Pa m], shape (2, nx, ny); `variables` are the
@@ -39,8 +37,8 @@ def power_lost(
 
 def heat_of_step(
     compliance: SeriesCompliance,
-    variables: NDArray[np.float64],
-    parts: Sequence[tuple[float, NDArray[np.float64], NDArray[np.float64]]],
+    variables: Floats,
+    parts: Sequence[tuple[float, Floats, Floats]],
 ) -> float:
     """Energy lost over a step, over the area of a cell [J/m²].
 
@@ -74,9 +72,7 @@ def heat_of_step(
     return heat
 
 
-def _heat_of_unit(
-    lag: NDArray[np.float64], limit: NDArray[np.float64], duration: float, time: float
-) -> float:
+def _heat_of_unit(lag: Floats, limit: Floats, duration: float, time: float) -> float:
     """Integral of <y, y> for y = lag e + limit (1 - e), e = exp(-t/time), over a duration [s]."""
     ratio = duration / time
     if ratio < SMALL_RATIO:
@@ -91,6 +87,6 @@ def _heat_of_unit(
     return float(time * (product + twice * _product(limit, limit)))
 
 
-def _product(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+def _product(a: Floats, b: Floats) -> float:
     """Sum of the pressure of `a` times the unit displacement of `b`."""
     return float(np.einsum("ij,ij->", a[0], b[1]))

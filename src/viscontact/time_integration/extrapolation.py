@@ -15,8 +15,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
 
 #: Points of the extrapolating polynomial. A third one amplifies the errors that the solver's
@@ -34,8 +34,8 @@ class ElasticReference:
     time: float  # [s]
     drive: float  # reference force ∫ J dW [m²], or the prescribed approach [m]
     #: Pressure ∫ J dp [-] and displacement ∫ J dq [m]; shape (2, nx, ny).
-    fields: NDArray[np.float64]
-    motion: NDArray[np.float64]  # approach [m] and tilts [rad]
+    fields: Floats
+    motion: Floats  # approach [m] and tilts [rad]
 
 
 def predict(
@@ -57,9 +57,7 @@ def predict(
     # The weights add up to one: last + w0 (first - last), in place to save passes over the fields.
     fields = np.empty(known[-1].fields.shape)
 
-    def extrapolate(
-        found: NDArray[np.float64], first: NDArray[np.float64], last: NDArray[np.float64]
-    ) -> None:
+    def extrapolate(found: Floats, first: Floats, last: Floats) -> None:
         np.subtract(first, last, out=found)
         found *= weights[0]
         found += last
@@ -69,9 +67,7 @@ def predict(
     return ElasticReference(time, drive, fields, motion)
 
 
-def shifted(
-    fields: NDArray[np.float64], cells: tuple[int, int], *, periodic: tuple[bool, bool]
-) -> NDArray[np.float64]:
+def shifted(fields: Floats, cells: tuple[int, int], *, periodic: tuple[bool, bool]) -> Floats:
     """Fields moved by whole cells along the last two axes.
 
     What enters at a border is a copy of the last values there, along a period what leaves.

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import LoadHistory
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
@@ -45,9 +45,7 @@ class Step:
         return "left" if self.before_jump else "right"
 
 
-def plan_steps(
-    times: NDArray[np.float64], load: LoadHistory, step_ratio: float = 1.0
-) -> tuple[Step, ...]:
+def plan_steps(times: Floats, load: LoadHistory, step_ratio: float = 1.0) -> tuple[Step, ...]:
     """Plan steps to requested times [s] and, before the last, to kinks, jumps and touches.
 
     A time that differs from a kink by rounding is taken as the kink. Steps longer than `step_ratio`
@@ -65,7 +63,7 @@ def plan_steps(
     return tuple(_steps(wanted, load))
 
 
-def step_ends(steps: Iterable[Step]) -> NDArray[np.float64]:
+def step_ends(steps: Iterable[Step]) -> Floats:
     """Ends of steps, a jump's twice [s]."""
     return np.array([step.time for step in steps])
 
@@ -105,7 +103,7 @@ class FixedSteps:
 
 
 def _requested_ends(
-    times: NDArray[np.float64], load: LoadHistory, longest_step: float
+    times: Floats, load: LoadHistory, longest_step: float
 ) -> dict[float, float | None]:
     """Ends of steps in order, each with the requested time there, or None."""
     stops = load.stops
@@ -173,7 +171,7 @@ def _up_to(
         yield Step(instant, 0.0, requested, smooth=False)
 
 
-def snap_to_kink(time: float, kinks: NDArray[np.float64]) -> float:
+def snap_to_kink(time: float, kinks: Floats) -> float:
     """Kink that a time differs from by rounding only, else the time [s].
 
     Examples
@@ -185,9 +183,7 @@ def snap_to_kink(time: float, kinks: NDArray[np.float64]) -> float:
     return float(_snapped_to_kinks(np.array([time]), kinks)[0])
 
 
-def _snapped_to_kinks(
-    times: NDArray[np.float64], kinks: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _snapped_to_kinks(times: Floats, kinks: Floats) -> Floats:
     """For each time the kink that it differs from by rounding only, else itself [s]."""
     after = np.clip(np.searchsorted(kinks, times), 0, len(kinks) - 1)
     before = np.maximum(after - 1, 0)

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
@@ -25,7 +25,7 @@ class HereditaryResponse:
     """Displacement at the end of a step as a function of the new value q: u = history + J q."""
 
     #: Makes the displacement from all earlier steps, until the step is accepted.
-    past: Callable[[], NDArray[np.float64]]
+    past: Callable[[], Floats]
     compliance: float  # mean of J over the rise of the step, J(0) for a jump [1/Pa]
     resolved: bool  # the step is short against the law, so that pressure may change much over it
     held: float = 0.0  # part of the step over which the new value is held after its rise [-]
@@ -33,17 +33,15 @@ class HereditaryResponse:
     team: Team = field(default_factory=Team)  # threads that share the field out
 
     @property
-    def history(self) -> NDArray[np.float64]:
+    def history(self) -> Floats:
         """Displacement from all earlier steps, not to be changed [m if q is in Pa m]."""
         return self.past()
 
-    def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
+    def of(self, value: Floats) -> Floats:
         """Displacement for a new value of the field."""
         displacement = np.empty(value.shape)
 
-        def add(
-            found: NDArray[np.float64], given: NDArray[np.float64], past: NDArray[np.float64]
-        ) -> None:
+        def add(found: Floats, given: Floats, past: Floats) -> None:
             np.multiply(self.compliance, given, out=found)
             found += past
 
@@ -73,7 +71,7 @@ class HereditaryIntegral(ABC):
         """
 
     @abstractmethod
-    def accept(self, value: NDArray[np.float64]) -> None:
+    def accept(self, value: Floats) -> None:
         """Close the last `jump` or `ramp` with the new value of the field.
 
         A read-only array may be kept without a copy, and must never change.

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.dissipation import heat_of_step, power_lost
@@ -92,14 +92,14 @@ class InternalVariables(HereditaryIntegral):
         self._next = ramp_weights(self._compliance, self._shape)
         return self._response()
 
-    def accept(self, value: NDArray[np.float64]) -> None:
+    def accept(self, value: Floats) -> None:
         """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
         value = value.copy() if value.flags.writeable else value
         weights, values = zip(*self._weighted_values(value), strict=True)
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
 
-        def add(*parts: NDArray[np.float64]) -> None:
+        def add(*parts: Floats) -> None:
             given = parts[len(self._fields) :]
             for index, here in enumerate(parts[: len(self._fields)]):
                 here *= self._next.decay[index]
@@ -110,7 +110,7 @@ class InternalVariables(HereditaryIntegral):
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
-    def loss(self, value: NDArray[np.float64]) -> tuple[float, float]:
+    def loss(self, value: Floats) -> tuple[float, float]:
         """Heat of the step to a new value of the field, and the power lost at its end.
 
         The field is a pair of pressure and unit displacement; both are over the area of a cell
@@ -148,9 +148,7 @@ class InternalVariables(HereditaryIntegral):
         trend = restart_data["trend"]
         self._trend = None if trend is None else Trend(**trend)
 
-    def _weighted_values(
-        self, value: NDArray[np.float64]
-    ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    def _weighted_values(self, value: Floats) -> list[tuple[Floats, Floats]]:
         """Weights of the step, for each term, with the values that they belong to."""
         values = [(self._next.old, self._value), (self._next.new, value)]
         if self._trend is not None and not self._shape.is_level:
@@ -165,16 +163,14 @@ class InternalVariables(HereditaryIntegral):
             self._history, compliance, step.resolved, shape.held, shape.trended, self._team
         )
 
-    def _history(self) -> NDArray[np.float64]:
+    def _history(self) -> Floats:
         """All of the displacement that does not depend on the new value; computed when wanted."""
         step, history = self._next, np.empty(self._value.shape)
         weights, others = step.decay.tolist(), list(self._fields)
         if self._trend is not None and not self._shape.is_level:
             weights, others = [*weights, step.trend.sum()], [*others, self._trend.mean]
 
-        def add(
-            found: NDArray[np.float64], value: NDArray[np.float64], *given: NDArray[np.float64]
-        ) -> None:
+        def add(found: Floats, value: Floats, *given: Floats) -> None:
             np.multiply(step.old.sum(), value, out=found)
             for weight, each in zip(weights, given, strict=True):
                 found += weight * each
@@ -187,10 +183,10 @@ class InternalVariables(HereditaryIntegral):
 class RampWeights:
     """Weights of one step in the recursion, for each term of the series."""
 
-    decay: NDArray[np.float64]  # factor of the term's internal variable [-]
-    old: NDArray[np.float64]  # weight of the value before the step [1/Pa]
-    new: NDArray[np.float64]  # weight of the value at its end [1/Pa]
-    trend: NDArray[np.float64]  # weight of the trend's mean [1/Pa]
+    decay: Floats  # factor of the term's internal variable [-]
+    old: Floats  # weight of the value before the step [1/Pa]
+    new: Floats  # weight of the value at its end [1/Pa]
+    trend: Floats  # weight of the trend's mean [1/Pa]
     resolved: bool = True  # the step is short against the law
 
 
@@ -231,7 +227,7 @@ def ramp_weights(compliance: SeriesCompliance, shape: StepShape) -> RampWeights:
     return RampWeights(decay, old, end + weight * turn, (1 - weight) * turn, resolved)
 
 
-def _share_of_new(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
+def _share_of_new(ratio: Floats) -> Floats:
     """Weight 1 - (1 - exp(-r))/r of the new value after a ramp over r = rise/τ."""
     small = ratio < 1e-3  # by the series, as the closed form cancels
     safe = np.where(small, 1.0, ratio)

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import LoadHistory
 from viscontact.loads.motion import Motion, MovingLoad
 
@@ -32,7 +32,7 @@ def moving_times(
     cell_size: tuple[float, float],
     end: float | None = None,
     kept: Sequence[float] = (),
-) -> NDArray[np.float64]:
+) -> Floats:
     """Times at which the body has passed whole cells (dx, dy), and kinks of load and path [s].
 
     Alignment of body and cells is then the same at all of them, so that the resistance does not

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.time_integration.boltzmann_sum import BoltzmannSum
@@ -32,7 +32,7 @@ class HereditaryPlan:
     """Method by which the hereditary integral of a run is evaluated."""
 
     compliance: ContactCompliance  # J(t) as it is used
-    instants: NDArray[np.float64]  # planned ends of the steps [s], empty for adaptive steps
+    instants: Floats  # planned ends of the steps [s], empty for adaptive steps
     rows: int  # expected number of increments, one for each linear part of a step
     method: str  # description for users
     error: float  # largest relative deviation of the J that is used from the material's [-]
@@ -63,7 +63,7 @@ class HereditaryPlan:
 
 
 def plan_hereditary_integral(
-    compliance: ContactCompliance, instants: NDArray[np.float64], numbers: int
+    compliance: ContactCompliance, instants: Floats, numbers: int
 ) -> HereditaryPlan:
     """Choose the method for the hereditary integral of a run.
 
@@ -98,7 +98,7 @@ def plan_hereditary_integral(
     return HereditaryPlan(series, instants, rows, method, error, series)
 
 
-def _long_steps(compliance: ContactCompliance, durations: NDArray[np.float64]) -> int:
+def _long_steps(compliance: ContactCompliance, durations: Floats) -> int:
     """Number of steps over which the field does not rise all the way (`longest_smooth_rise`)."""
     lasting = durations[durations > 0]
     new = compliance.mean(np.zeros(lasting.size), lasting)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 
 #: Candidate retardation times in each decade, increased until the fit is good enough. A law with a
@@ -84,20 +84,18 @@ def _fitted(
     )
 
 
-def _terms(t: NDArray[np.float64], times: NDArray[np.float64], last: float) -> NDArray[np.float64]:
+def _terms(t: Floats, times: Floats, last: float) -> Floats:
     """Creep of each term at some times, a column each, the last one of flow."""
     return np.column_stack([-np.expm1(-t[:, None] / times), t / last])
 
 
-def _mean_terms(
-    t: NDArray[np.float64], times: NDArray[np.float64], last: float
-) -> NDArray[np.float64]:
+def _mean_terms(t: Floats, times: Floats, last: float) -> Floats:
     """Means of the terms from 0 to some times."""
     passed = t[:, None] / times
     return np.column_stack([1.0 + np.expm1(-passed) / passed, t / (2 * last)])
 
 
-def _log_spaced(first: float, last: float, finer: int = 1) -> NDArray[np.float64]:
+def _log_spaced(first: float, last: float, finer: int = 1) -> Floats:
     """Sample times from first to last, even in their logarithm [s]."""
     decades = np.log10(last / first)
     return np.geomspace(first, last, int(np.ceil(decades * SAMPLES_PER_DECADE * finer)) + 2)

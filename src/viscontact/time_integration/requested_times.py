@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.units.numbers import as_real, positive, store, whole
 
 #: Range of the relative error that steps chosen by the run may cause [-].
@@ -16,7 +16,7 @@ FINEST_TIME_ERROR, COARSEST_TIME_ERROR = 1e-6, 0.1
 _MAX_STEPS = 10_000_000
 
 
-def uniform_times(end: float, n: int) -> NDArray[np.float64]:
+def uniform_times(end: float, n: int) -> Floats:
     """Return evenly spaced instants from 0 to `end`.
 
     Parameters
@@ -44,7 +44,7 @@ def uniform_times(end: float, n: int) -> NDArray[np.float64]:
     return np.linspace(0.0, positive("end", end, "s"), _steps(n) + 1)
 
 
-def log_times(first: float, end: float, n: int) -> NDArray[np.float64]:
+def log_times(first: float, end: float, n: int) -> Floats:
     """Return 0, then instants in geometric progression from `first` to `end`.
 
     Creep under constant load is even in the logarithm of time, and so are these instants.

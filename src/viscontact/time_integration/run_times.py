@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.default_times import default_times
@@ -20,7 +21,7 @@ def run_instants(
     fields: str | Sequence[float],
     load: LoadHistory,
     compliance: ContactCompliance,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Times of a run [s]; of adaptive steps those to be hit: 0, the end, and times of kept fields.
 
     `times` and `fields` are as in `march`.
@@ -43,9 +44,7 @@ def run_instants(
     return np.array(sorted({snap_to_kink(stop, load.kinks) for stop in stops}))
 
 
-def field_instants(
-    fields: str | Sequence[float], times: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def field_instants(fields: str | Sequence[float], times: Floats) -> Floats:
     """Times of a run whose fields are kept: "all", "none" or some of the run's times [s].
 
     Examples
@@ -69,7 +68,7 @@ def field_instants(
     return times[index]
 
 
-def _instants(name: str, given: object) -> NDArray[np.float64]:
+def _instants(name: str, given: object) -> Floats:
     """An array of times, or a ValueError with the argument's name [s]."""
     try:
         array = np.asarray(given)
@@ -80,7 +79,7 @@ def _instants(name: str, given: object) -> NDArray[np.float64]:
     return array.astype(np.float64)
 
 
-def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
+def _checked_times(times: ArrayLike) -> Floats:
     """Requested times, finite, not before 0 and strictly increasing [s]."""
     instants = np.atleast_1d(_instants("times", times))
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():

@@ -16,8 +16,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.team import Team, blocks_of
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.time_integration.fixed_steps import Step
@@ -64,7 +64,7 @@ class StepError:
     level: float  # largest level of the load so far [N or m]
     travel: float = 0.0  # change of the unit displacement over the step [Pa m]
     #: Rate of the unit displacement over the step [Pa m/s], None for a jump.
-    rate: NDArray[np.float64] | None = None
+    rate: Floats | None = None
 
 
 class TimeErrors:
@@ -85,8 +85,8 @@ class TimeErrors:
         self._pressure_error, self._jumped = 0.0, True
         #: Durations of the last two steps since a kink, values after the last, rate over it.
         self._durations: list[float] = []
-        self._values: NDArray[np.float64] | None = None
-        self._rate: NDArray[np.float64] | None = None
+        self._values: Floats | None = None
+        self._rate: Floats | None = None
         self._pending: tuple[float, float] | None = None
         self._size = 0.0
 
@@ -94,7 +94,7 @@ class TimeErrors:
         self,
         step: Step,
         point: LoadPoint,
-        values: NDArray[np.float64],
+        values: Floats,
         response: HereditaryResponse,
     ) -> StepError:
         """Contribution of a step, not accepted yet, to the error of the pressure at its end.
@@ -121,7 +121,7 @@ class TimeErrors:
             relative *= 1 - (1 - FORGOTTEN_ERROR_WEIGHT) * forgotten
         return StepError(interpolation_error, relative, size, level, travel, rate)
 
-    def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
+    def after(self, step: Step, values: Floats, error: StepError) -> float:
         """Accept a step, and return the estimated error of the pressure after it.
 
         It is relative to the largest unit displacement of the run so far [-].
@@ -183,8 +183,8 @@ class TimeErrors:
     def _interpolation_error(
         self,
         step: Step,
-        rate: NDArray[np.float64],
-        contact: NDArray[np.bool_],
+        rate: Floats,
+        contact: Bools,
         travel: float,
         response: HereditaryResponse,
     ) -> float:
@@ -225,15 +225,11 @@ class TimeErrors:
         self._pressure_error, self._jumped = -float(self._term_errors.sum()) / compliance, False
         self._term_errors += step.new * self._pressure_error
 
-    def _rate_over(
-        self, step: Step, value: NDArray[np.float64], before: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _rate_over(self, step: Step, value: Floats, before: Floats) -> Floats:
         """Mean rate of a field over a step."""
         rate = np.empty(value.shape)
 
-        def divide(
-            found: NDArray[np.float64], late: NDArray[np.float64], early: NDArray[np.float64]
-        ) -> None:
+        def divide(found: Floats, late: Floats, early: Floats) -> None:
             np.subtract(late, early, out=found)
             found /= step.duration
 
@@ -242,9 +238,9 @@ class TimeErrors:
 
     def _mean_over(
         self,
-        where: NDArray[np.bool_],
-        field: NDArray[np.float64],
-        other: NDArray[np.float64] | None = None,
+        where: Bools,
+        field: Floats,
+        other: Floats | None = None,
     ) -> float:
         """Mean absolute value of a field, or of its difference to another, over some cells."""
 

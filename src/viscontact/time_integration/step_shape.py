@@ -13,14 +13,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
-import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.materials.compliance import ContactCompliance
 
 #: Maps fields to a larger grid.
-FieldMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+FieldMap = Callable[[Floats], Floats]
 
 #: Largest weight of the old value in the first step after a jump, over J(0). A single step of any
 #: length then follows the relaxation of a Maxwell body within 0.07 of its initial value; at 1 it
@@ -36,7 +35,7 @@ MAX_TREND_GROWTH = 2.4
 class Trend:
     """Mean of a field over the slow part of a step, which the next step may continue from."""
 
-    mean: NDArray[np.float64]
+    mean: Floats
     age: float  # time from the middle of that part to the end of the step [s]
 
     def mapped(self, grown: FieldMap) -> Trend:
@@ -73,7 +72,7 @@ class StepShape:
         """Part of the step over which the trend is continued [-]."""
         return 0.0 if self.is_level else self.slow / self.duration
 
-    def trend(self, value: NDArray[np.float64], before: Trend | None) -> Trend | None:
+    def trend(self, value: Floats, before: Trend | None) -> Trend | None:
         """Trend after a step to a new value; None for a linear one, and without contact."""
         if self.slow == 0 or not value.any():
             return None

@@ -14,9 +14,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import erfcx
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws import (
     Burgers,
     CreepSeries,
@@ -32,8 +32,7 @@ from viscontact.laws import (
 )
 from viscontact.materials.material import Material
 
-Array = NDArray[np.float64]
-TimeFunction = Callable[[Array], Array]
+TimeFunction = Callable[[Floats], Floats]
 
 G, TIME = 5e8, 100.0  # shear modulus [Pa], time of a law [s]
 
@@ -98,7 +97,7 @@ def maxwell() -> CreepingBody:
 def _elastic() -> CreepingBody:
     modulus = 2 * G / 0.7
 
-    def relaxation(t: Array) -> Array:
+    def relaxation(t: Floats) -> Floats:
         return np.full_like(t, modulus)
 
     return CreepingBody(
@@ -169,7 +168,7 @@ def fractional_zener() -> CreepingBody:
     )
 
 
-def table_times() -> Array:
+def table_times() -> Floats:
     """Rows of the tables: 0, and 12 in each decade [s]."""
     return np.append(0.0, np.geomspace(TIME / 1e4, 10 * TIME, 61))
 
@@ -199,12 +198,12 @@ def _elastic_bulk() -> CreepingBody:
     bulk = 3 * G
     delay, relaxing = (1 + G / (3 * bulk)) * TIME, (1 + 4 * G / (3 * bulk)) * TIME
 
-    def creep(t: Array) -> Array:
+    def creep(t: Floats) -> Floats:
         settled, instant = 1 / (3 * bulk), 1 / (3 * bulk + G)
         volumetric = settled - (settled - instant) * np.exp(-t / delay)
         return (1 + t / TIME) / (4 * G) + 0.75 * volumetric
 
-    def relaxation(t: Array) -> Array:
+    def relaxation(t: Floats) -> Floats:
         second = 9 * bulk * G / (3 * bulk + 4 * G)
         return G * np.exp(-t / TIME) + second * np.exp(-t / relaxing)
 

@@ -10,7 +10,6 @@ import math
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact import reference
 from viscontact.grid import Grid
@@ -23,8 +22,6 @@ from viscontact.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, fractional_zener, tabulated_creep, zener
 from viscontact.verify.indentation import FORCE, RADIUS, CaseRun, press, press_ball
-
-Array = NDArray[np.float64]
 
 _PUNCH = FlatPunch(5e-3)
 _GRID = Grid((18, 18), (11e-3, 11e-3))

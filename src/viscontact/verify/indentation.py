@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, Paraboloid
 from viscontact.loads import LoadHistory
@@ -16,8 +16,6 @@ from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.simulation.state_generator import march
 from viscontact.state import ContactState, Outcome
-
-Array = NDArray[np.float64]
 
 RADIUS, FORCE = 0.01, 10.0  # of the ball [m], on it [N]
 BALL = Paraboloid(RADIUS, RADIUS)  # Hertz's sphere is a paraboloid
@@ -33,17 +31,17 @@ class CaseRun:
     grid: Grid
     states: tuple[ContactState, ...]  # at all times
 
-    def over_time(self, name: str) -> Array:
+    def over_time(self, name: str) -> Floats:
         """Attribute of the states at each time."""
         return np.array([getattr(state, name) for state in self.states], dtype=float)
 
     @property
-    def radius(self) -> Array:
+    def radius(self) -> Floats:
         """Radius of the circle of the contact area [m]."""
         return np.sqrt(self.over_time("contact_area") / math.pi)
 
     @property
-    def central_pressure(self) -> Array:
+    def central_pressure(self) -> Floats:
         """Pressure of the central cell of an odd grid [Pa]."""
         middle = tuple(n // 2 for n in self.grid.shape)
         return np.array([state.pressure[middle] for state in self.states])
@@ -105,7 +103,7 @@ def press_ball(
 
 
 def instants_of_change(
-    material: Material, load: LoadHistory, times: Array, radius: float, cells: float
+    material: Material, load: LoadHistory, times: Floats, radius: float, cells: float
 ) -> list[float]:
     """Instants of contact made and lost, without the first contact [s].
 

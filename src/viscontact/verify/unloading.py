@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact import reference
+from viscontact.backend.arrays import Floats
 from viscontact.loads import ApproachHistory, ForceHistory, harmonic, triangle
 from viscontact.time_integration.requested_times import uniform_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
@@ -20,8 +20,6 @@ from viscontact.verify.indentation import (
     press_ball,
 )
 
-Array = NDArray[np.float64]
-
 _PROFILE = reference.SphereProfile(RADIUS)
 _PEAK, _RISE = 1e-5, 60.0  # largest approach [m] and its time [s]
 _LARGEST = math.sqrt(RADIUS * _PEAK)
@@ -32,7 +30,7 @@ _STAGE = ApproachHistory(
 )
 
 
-def _radius(run: CaseRun, exact: Array) -> Comparison:
+def _radius(run: CaseRun, exact: Floats) -> Comparison:
     """Contact radius where it spans six cells or more: a smaller contact has no traceable rim."""
     fine = exact > 6 * run.grid.cell_size[0]
     at = np.flatnonzero(fine)

@@ -7,11 +7,11 @@ from pathlib import Path
 from textwrap import indent, wrap
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from viscontact.backend.arrays import Floats
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.results.figures import plot_package, save
 from viscontact.cli.terminal.messages import refuse
@@ -153,7 +153,7 @@ def _values(shown: MaterialDisplay) -> Table:
     return table
 
 
-def _in_unit(values: NDArray[np.float64], unit: str) -> tuple[str, list[str]]:
+def _in_unit(values: Floats, unit: str) -> tuple[str, list[str]]:
     # Unit of the geometric mean, without the vanishing modulus of a fluid at long times.
     good = values[values > _DEPTH * values.max()]
     middle = float(np.exp(np.mean(np.log(good))))

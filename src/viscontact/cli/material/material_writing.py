@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.case.data_file import is_same_file
 from viscontact.cli.material.material_files import MaterialOptions
 from viscontact.cli.material.named_material import MaterialDisplay
@@ -104,7 +104,7 @@ def _table(named: MaterialDisplay, moduli: str, times: str) -> str:
     return "\n".join([*lines, ",".join(heads), *(_line(*row) for row in rows)]) + "\n"
 
 
-def _columns(named: MaterialDisplay) -> dict[str, NDArray[np.float64]]:
+def _columns(named: MaterialDisplay) -> dict[str, Floats]:
     law = named.material.law
     instants = _instants(named)
     # Numerical interconversion may oscillate in its last digits; a table must be monotonic.
@@ -116,7 +116,7 @@ def _columns(named: MaterialDisplay) -> dict[str, NDArray[np.float64]]:
     return columns
 
 
-def _instants(named: MaterialDisplay) -> NDArray[np.float64]:
+def _instants(named: MaterialDisplay) -> Floats:
     """Times of the rows [s]: a table's own, or logarithmic ones with 0 in front."""
     law = named.material.law
     if isinstance(law, TabulatedCreep | TabulatedRelaxation):

@@ -8,12 +8,12 @@ from pathlib import Path
 from textwrap import wrap
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.box import SIMPLE, SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from viscontact.backend.arrays import Integers
 from viscontact.cli.results.accuracy import (
     accuracy_lines,
     has_errors,
@@ -128,7 +128,7 @@ def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[st
     yield from accuracy_lines(ds)
 
 
-def _spread(count: int) -> NDArray[np.int_]:
+def _spread(count: int) -> Integers:
     return np.unique(np.linspace(0, count - 1, min(_ROWS, count)).round().astype(int))
 
 
@@ -156,9 +156,7 @@ class _Column:
         return max(map(len, (*self.head, *lines, *self.foot.splitlines())))
 
 
-def _columns(
-    ds: StoredResult, names: list[str], rows: NDArray[np.int_], *, errors: bool
-) -> list[_Column]:
+def _columns(ds: StoredResult, names: list[str], rows: Integers, *, errors: bool) -> list[_Column]:
     columns, axis = [], run_axis(ds)
     for name in names:
         largest = _largest(ds, name)
@@ -192,7 +190,7 @@ def _table(ds: StoredResult, columns: list[_Column], *, narrow: bool) -> Table:
 
 
 def _cells(
-    ds: StoredResult, name: str, rows: NDArray[np.int_], factor: float, *, errors: bool
+    ds: StoredResult, name: str, rows: Integers, factor: float, *, errors: bool
 ) -> list[str]:
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
     if name in AXES:

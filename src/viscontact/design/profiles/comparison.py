@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.design.goals import Value
 from viscontact.design.profiles.deviations import deviating
 from viscontact.design.profiles.named import NamedProfile
@@ -20,8 +20,6 @@ from viscontact.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
 from viscontact.units.formatting import format_quantity
 
-Array = NDArray[np.float64]
-
 _PEAK, _ERROR = "peak_pressure", "peak_pressure_error"
 
 
@@ -29,10 +27,10 @@ _PEAK, _ERROR = "peak_pressure", "peak_pressure_error"
 class FoundProfiles:
     """Profiles that the search has found; positions and drops in m."""
 
-    x: Array
+    x: Floats
     named: tuple[NamedProfile, ...]
-    free: Array
-    elastic: Array | None  # best without creep; None if the bodies do not creep
+    free: Floats
+    elastic: Floats | None  # best without creep; None if the bodies do not creep
     tolerance: float
     is_cut_short: bool
 

@@ -7,9 +7,9 @@ from functools import cached_property
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 #: Steepness of the knots towards the end: the last interval is this part of the first one.
 LAST_INTERVAL = 0.15
@@ -43,7 +43,7 @@ class ConvexCurves:
         return self.knots * (1 if self.symmetric else 2) + self.has_slope
 
     @property
-    def lowest(self) -> Array:
+    def lowest(self) -> Floats:
         """Least values of the coefficients [m]."""
         least = np.zeros(self.size)
         if self.has_slope:
@@ -51,12 +51,12 @@ class ConvexCurves:
         return least
 
     @cached_property
-    def places(self) -> Array:
+    def places(self) -> Floats:
         """Knots from the middle, 0, to the end, 1; they become denser towards the end."""
         intervals = np.geomspace(1.0, LAST_INTERVAL, self.knots - 1)
         return np.append(0.0, np.cumsum(intervals) / intervals.sum())
 
-    def shapes(self, x: ArrayLike) -> Array:
+    def shapes(self, x: ArrayLike) -> Floats:
         """Drop per coefficient at positions, shape (positions, coefficients) [-]."""
         u = np.asarray(x, dtype=np.float64) / self.half_length
         both = _double_integrals(self.places, np.abs(u))
@@ -66,17 +66,17 @@ class ConvexCurves:
             parts = [np.where((u < 0)[:, None], both, 0.0), np.where((u > 0)[:, None], both, 0.0)]
         return np.hstack([*parts, u[:, None]] if self.has_slope else parts)
 
-    def drop(self, coefficients: ArrayLike, x: ArrayLike) -> Array:
+    def drop(self, coefficients: ArrayLike, x: ArrayLike) -> Floats:
         """Drop at positions [m], zero at the highest point of a table."""
         found = self.shapes(x) @ np.asarray(coefficients, dtype=np.float64)
         return np.asarray(found - found.min())
 
-    def table(self) -> Array:
+    def table(self) -> Floats:
         """Positions of a table from the left end to the right end [m]."""
         right = self.half_length * np.arange(1, POINTS + 1) / POINTS
         return np.concatenate([-right[::-1], [0.0], right])
 
-    def fitted(self, drop: ArrayLike) -> Array:
+    def fitted(self, drop: ArrayLike) -> Floats:
         """Coefficients of the curve closest to drops at the positions of the table [m].
 
         Relative deviations count near the end, where the drop is steep, absolute ones elsewhere.
@@ -90,7 +90,7 @@ class ConvexCurves:
         return np.asarray(found.x)
 
 
-def _double_integrals(places: Array, u: Array) -> Array:
+def _double_integrals(places: Floats, u: Floats) -> Floats:
     """Curves with the curvature of one knot, zero with their slope at 0, and one at the end."""
     columns = []
     for knot in range(len(places)):

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.design.design import (
     in_use,
     require_instant,
@@ -36,8 +36,6 @@ from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.recipes import refuse_import_by_a_worker
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import non_negative, whole
-
-Array = NDArray[np.float64]
 
 #: Least and most knots of a profile from its middle to its end.
 FEWEST_KNOTS, MOST_KNOTS = 3, 20
@@ -211,7 +209,7 @@ def _size(best: NamedProfile, curves: ConvexCurves, amplitude: float) -> float:
 
 def _start(
     search: SearchRuns, curves: ConvexCurves, named: Sequence[NamedProfile], tolerance: float
-) -> Array:
+) -> Floats:
     """Coefficients of the best curve that approximates a named profile other than the cylinder."""
     x = curves.table()
     lines = [finite_table(each.profile, x, curves.half_length) for each in named[1:]]
@@ -224,13 +222,13 @@ def _least(
     search: SearchRuns,
     curves: ConvexCurves,
     grids: Sequence[Grid],
-    start: Array,
+    start: Floats,
     size: float,
     tolerance: float,
 ) -> Minimum:
     """Curve of the least largest pressure, on coarse cells and then on finer ones."""
 
-    def responses(points: Sequence[Array]) -> Sequence[RowPressures | None]:
+    def responses(points: Sequence[Floats]) -> Sequence[RowPressures | None]:
         return search.pressures([_group(curves, point, tolerance) for point in points])
 
     found = Minimum(start, np.inf, False)
@@ -239,7 +237,7 @@ def _least(
     return found
 
 
-def _group(curves: ConvexCurves, point: Array, tolerance: float) -> list[Any]:
+def _group(curves: ConvexCurves, point: Floats, tolerance: float) -> list[Any]:
     """Profiles of a point that are within the tolerance."""
     x = curves.table()
     drops = deviating(curves.drop(point, x), x / curves.half_length, tolerance)

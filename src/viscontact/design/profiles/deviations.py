@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 #: Deviations over the position u from -1 to 1, at most 1: the crown too deep or too flat, a taper
 #: to either side, and a wave.
-DEVIATIONS: Mapping[str, Callable[[Array], Array]] = {
+DEVIATIONS: Mapping[str, Callable[[Floats], Floats]] = {
     "none": np.zeros_like,
     "crown deeper": lambda u: u**2,
     "crown flatter": lambda u: -(u**2),
@@ -22,7 +21,7 @@ DEVIATIONS: Mapping[str, Callable[[Array], Array]] = {
 }
 
 
-def deviating(drop: Array, places: Array, tolerance: float) -> dict[str, Array]:
+def deviating(drop: Floats, places: Floats, tolerance: float) -> dict[str, Floats]:
     """Drops [m] of profiles within a tolerance [m] of a drop, at places from -1 to 1.
 
     >>> found = deviating(np.array([3.0, 0.0, 3.0]), np.array([-1.0, 0.0, 1.0]), 0.5)

@@ -8,9 +8,8 @@ from typing import Protocol
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
 
 #: Cost of a forbidden value over that of a value: an exact penalty.
 PENALTY = 10.0
@@ -29,11 +28,11 @@ class Response(Protocol):
     """Values at a point."""
 
     @property
-    def values(self) -> Array:
+    def values(self) -> Floats:
         """Values whose largest is to be least."""
 
     @property
-    def forbidden(self) -> Array:
+    def forbidden(self) -> Floats:
         """Values that are not to be positive."""
 
 
@@ -41,7 +40,7 @@ class Response(Protocol):
 class Minimum:
     """Point with the least largest value that was found."""
 
-    point: Array
+    point: Floats
     cost: float
     is_cut_short: bool  # the calls were used up before the gain was small
 
@@ -51,7 +50,7 @@ class CallsSpentError(Exception):
 
 
 #: Responses at several points; None where there is none. CallsSpentError if they are too many.
-Responses = Callable[[Sequence[Array]], Sequence[Response | None]]
+Responses = Callable[[Sequence[Floats]], Sequence[Response | None]]
 
 
 def cost(response: Response | None) -> float:
@@ -61,7 +60,7 @@ def cost(response: Response | None) -> float:
     return float(response.values.max() + PENALTY * response.forbidden.max(initial=0.0))
 
 
-def least_largest(responses: Responses, start: Array, sizes: Array, lowest: Array) -> Minimum:
+def least_largest(responses: Responses, start: Floats, sizes: Floats, lowest: Floats) -> Minimum:
     """Find the point, not below `lowest`, with the least largest value near a start.
 
     Notes
@@ -78,8 +77,8 @@ def least_largest(responses: Responses, start: Array, sizes: Array, lowest: Arra
 
     >>> @dataclass(frozen=True)
     ... class Deviations:
-    ...     values: Array
-    ...     forbidden: Array
+    ...     values: Floats
+    ...     forbidden: Floats
     >>> x = np.linspace(0, 1, 101)
     >>> def deviations(points):
     ...     lines = [x**2 - a - b * x for a, b in points]
@@ -112,11 +111,11 @@ def least_largest(responses: Responses, start: Array, sizes: Array, lowest: Arra
 
 
 def _jacobian(
-    responses: Responses, point: Array, here: Response, sizes: Array
-) -> tuple[Array, Array]:
+    responses: Responses, point: Floats, here: Response, sizes: Floats
+) -> tuple[Floats, Floats]:
     """Derivatives of the values and of the forbidden ones, shape (values, variables)."""
     moved = [point + STEP * sizes * axis for axis in np.eye(len(point))]
-    columns: tuple[list[Array], list[Array]] = ([], [])
+    columns: tuple[list[Floats], list[Floats]] = ([], [])
     for size, there in zip(sizes, responses(moved), strict=True):
         # Without values there, the program does not go there.
         columns[0].append(
@@ -133,8 +132,8 @@ def _jacobian(
 
 
 def _linear_step(
-    here: Response, jacobian: tuple[Array, Array], sizes: Array, radius: float, lowest: Array
-) -> tuple[Array, float]:
+    here: Response, jacobian: tuple[Floats, Floats], sizes: Floats, radius: float, lowest: Floats
+) -> tuple[Floats, float]:
     """Step to the least largest linear value within a region, and the cost there."""
     count, scale = len(sizes), float(np.abs(here.values).max()) or 1.0
     # Variables: the step in sizes, the largest value, and the largest forbidden one, in scales.

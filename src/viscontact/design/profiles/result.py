@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.case import Case
 from viscontact.design.profiles.loaded_roller import LoadedRoller, case_with_table
 from viscontact.design.year_of_creep import creeps_on, year_of_creep
@@ -20,8 +20,6 @@ from viscontact.errors import AccuracyWarning
 from viscontact.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
 from viscontact.runs.single import simulate
-
-Array = NDArray[np.float64]
 
 #: Profiles of the table beside the named ones.
 CASE, FREE, ELASTIC = "case", "free", "free, without creep"
@@ -59,12 +57,12 @@ class ProfileDesign:
     profiles: Mapping[str, Profile | None]  # by their name in the table; None for the case's own
 
     @property
-    def x(self) -> Array:
+    def x(self) -> Floats:
         """Positions along the roller [m]."""
         return np.asarray(self.table["x"].values)
 
     @property
-    def drop(self) -> Array:
+    def drop(self) -> Floats:
         """Drop of the free profile [m]."""
         return np.asarray(self.table["drop"].sel(profile=FREE).values)
 

@@ -5,14 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.design.profiles.result import ProfileDesign
 from viscontact.design.profiles.tables import RESOLUTION
 from viscontact.design.result_files import BEST_NAME, TRIALS_NAME
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place, replacing
-
-Array = NDArray[np.float64]
 
 #: The profile as a table, which a case takes as well, and as a drawing.
 CSV_NAME, DXF_NAME = "profile.csv", "profile.dxf"
@@ -39,7 +37,7 @@ def write_profile_design(directory: Path, found: ProfileDesign) -> None:
         fresh.unlink(missing_ok=True)
 
 
-def profile_csv(x: Array, drop: Array) -> str:
+def profile_csv(x: Floats, drop: Floats) -> str:
     r"""Profile as CSV text, positions in mm and drops in um.
 
     >>> profile_csv(np.array([-1e-3, 0.0]), np.array([2e-6, 0.0]))

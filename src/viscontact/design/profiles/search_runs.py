@@ -10,8 +10,8 @@ from functools import partial
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.checks.half_space_theory import AT_THE_END
 from viscontact.design.evaluation import ends_sharply
 from viscontact.design.goals import Value, magnitude
@@ -22,8 +22,6 @@ from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.indenters.profile import Profile
 from viscontact.runs.single import simulate
-
-Array = NDArray[np.float64]
 
 #: Coarse cells from the middle of the roller to its end, and beyond it.
 CELLS, BEYOND = 50, 4
@@ -46,8 +44,8 @@ TOLERANCE = 1e-5
 class RowPressures:
     """Largest pressures on the rows of cells across a roller, at all instants [Pa]."""
 
-    values: Array  # rows that may carry pressure
-    forbidden: Array  # rows at the ends; where the gap is open, minus its size as a pressure
+    values: Floats  # rows that may carry pressure
+    forbidden: Floats  # rows at the ends; where the gap is open, minus its size as a pressure
 
 
 @dataclass

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters.profile import Profile
 from viscontact.indenters.tabulated import TabulatedProfile
-
-Array = NDArray[np.float64]
 
 #: Last digit of a drop [m].
 RESOLUTION = 1e-10
 
 
-def rounded(drop: Array) -> Array:
+def rounded(drop: Floats) -> Floats:
     """Drops with the digits of the tables [m].
 
     >>> rounded(np.array([1.23456789e-6])).tolist()
@@ -23,12 +21,12 @@ def rounded(drop: Array) -> Array:
     return np.asarray(np.round(drop / RESOLUTION) / round(1 / RESOLUTION))
 
 
-def tabulated(x: Array, drop: Array) -> TabulatedProfile:
+def tabulated(x: Floats, drop: Floats) -> TabulatedProfile:
     """Profile through positions and drops [m]."""
     return TabulatedProfile(x, rounded(drop))
 
 
-def finite_table(profile: Profile, x: Array, half_length: float) -> Array:
+def finite_table(profile: Profile, x: Floats, half_length: float) -> Floats:
     """Drops of a profile at positions [m], continued where they are infinite at the ends.
 
     >>> from viscontact.indenters import LogarithmicProfile

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws.interconversion.log_curve import LogCurve
-from viscontact.laws.interconversion.product_integration import Floats, Function, Load, Mean
+from viscontact.laws.interconversion.product_integration import Function, Load, Mean
 from viscontact.laws.interconversion.volterra import Response, respond, steadied
 
 # Beyond this many decades after the first node the function equals its final value.

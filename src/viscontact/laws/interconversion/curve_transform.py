@@ -10,11 +10,9 @@ its two ends, where exp(-i ω t) only decays (Huybrechs & Vandewalle 2006, SIAM 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.interconversion.log_curve import LogCurve
-
-Floats = NDArray[np.float64]
 
 # Up to the first phase exp(-i x) = 1 - i x, to its square; beyond the second, steepest descent.
 _EARLY, _LATE = 1e-8, 30.0
@@ -25,7 +23,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 _DESCENTS, _DECAYED = np.polynomial.laguerre.laggauss(24)
 
 
-def oscillating(curve: LogCurve, omega: Floats) -> NDArray[np.complex128]:
+def oscillating(curve: LogCurve, omega: Floats) -> Complexes:
     """Return i ω L[f](i ω) of a curve f at angular frequencies > 0 [rad/s].
 
     For the creep compliance Phi it is the complex compliance, for G the complex modulus.
@@ -64,7 +62,7 @@ def _descended(curve: LogCurve, omega: float, start: float) -> complex:
     return complex(downs.sum() - _descent(curve, omega, edges[1:], middles[:-1]).sum())
 
 
-def _descent(curve: LogCurve, omega: float, ends: Floats, pieces: Floats) -> NDArray[np.complex128]:
+def _descent(curve: LogCurve, omega: float, ends: Floats, pieces: Floats) -> Complexes:
     t = ends[:, None] - 1j * _DESCENTS / omega
     rates = curve.rate(t, pieces[:, None] + 0 * t.real)
     return np.asarray((rates @ _DECAYED) * np.exp(-1j * omega * ends) / (1j * omega))

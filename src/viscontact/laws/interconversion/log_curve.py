@@ -8,13 +8,13 @@ Before the first point and beyond the last one it is extrapolated by a named rul
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from viscontact.backend.arrays import Floats, Integers, Numbers
 
 #: Rules before the first point: its value, the power of time through the first two, or one of a
 #: given exponent.
@@ -95,7 +95,7 @@ class LogCurve:
         beyond = self._tail(np.maximum(t, self.times[-1]))
         return np.asarray(np.where(t >= self.times[-1], beyond, values))
 
-    def rate(self, t: NDArray[Any], where: Floats) -> NDArray[Any]:
+    def rate(self, t: Numbers, where: Floats) -> Numbers:
         """Return df/dt at times `t`, by the formula of the pieces that contain the times `where`.
 
         The formulas are analytic: `t` may be complex.
@@ -152,16 +152,16 @@ class LogCurve:
 
     # --- among the points ------------------------------------------------------------------------
 
-    def _piece(self, t: Floats) -> NDArray[np.intp]:
+    def _piece(self, t: Floats) -> Integers:
         found = np.searchsorted(self.times, t, side="right") - 1
         return np.asarray(np.clip(found, 0, self._widths.size - 1))
 
-    def _cubic(self, piece: NDArray[np.intp], t: Floats) -> Floats:
+    def _cubic(self, piece: Integers, t: Floats) -> Floats:
         u = np.log(t / self.times[piece])
         c3, c2, c1, c0 = self._pieces[:, piece]
         return np.asarray(((c3 * u + c2) * u + c1) * u + c0)
 
-    def _primitive(self, piece: NDArray[np.intp], end: Floats, start: Floats) -> Floats:
+    def _primitive(self, piece: Integers, end: Floats, start: Floats) -> Floats:
         """Return the integral over a part of a piece."""
         c3, c2, c1, c0 = self._pieces[:, piece]
 

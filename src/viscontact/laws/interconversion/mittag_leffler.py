@@ -8,9 +8,9 @@ from typing import overload
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from viscontact.backend.arrays import Complexes, Floats
 
 # Nodes of the contour: its error falls as 3.89^-N, rounding grows as exp(0.17 N); both 1e-14 here.
 _NODES = 28
@@ -21,7 +21,7 @@ _ASYMPTOTIC_TIME, _ASYMPTOTIC_ARGUMENT, _TERMS = 40.0, 8.0, 60
 @overload
 def mittag_leffler(x: float, alpha: float, beta: float = 1.0) -> float: ...
 @overload
-def mittag_leffler(x: NDArray[np.float64], alpha: float, beta: float = 1.0) -> Floats: ...
+def mittag_leffler(x: Floats, alpha: float, beta: float = 1.0) -> Floats: ...
 def mittag_leffler(x: ArrayLike, alpha: float, beta: float = 1.0) -> float | Floats:
     """Return E_α,β(-x) = Σ (-x)^k / Γ(α k + β) for x >= 0, 0 < α <= 1 and α <= β <= 4 [-].
 
@@ -78,7 +78,7 @@ def _on_contour(x: Floats, alpha: float, beta: float) -> Floats:
 
 
 @cache
-def _contour() -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+def _contour() -> tuple[Complexes, Complexes]:
     """Return the nodes s and e^s ds / π in the upper half plane; the lower mirrors it."""
     theta = np.arange(1, _NODES, 2) * (math.pi / _NODES)
     turned = 0.6407 * theta

@@ -8,12 +8,12 @@ the storage (or vice versa) keeps its digits.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.laws.interconversion.series import RelaxationTerms, SeriesTerms
 
 
-def modulus_of_creep(terms: SeriesTerms, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+def modulus_of_creep(terms: SeriesTerms, omega: Floats) -> Complexes:
     """Return G* = 1/(2 J*) [Pa] of a series in Phi = J(t), at angular frequencies > 0 [rad/s]."""
     in_phase, lagging = _debye(omega, terms.times)
     storage = terms.instant + in_phase @ terms.amplitudes
@@ -21,24 +21,20 @@ def modulus_of_creep(terms: SeriesTerms, omega: NDArray[np.float64]) -> NDArray[
     return half_inverse(storage, loss)
 
 
-def modulus_of_relaxation(
-    terms: RelaxationTerms, omega: NDArray[np.float64]
-) -> NDArray[np.complex128]:
+def modulus_of_relaxation(terms: RelaxationTerms, omega: Floats) -> Complexes:
     """Return G* [Pa] of a relaxation series, at angular frequencies > 0 [rad/s]."""
     # x²/(1 + x²) is 1/(1 + 1/x²).
     in_phase, lagging = _debye(1.0 / omega, 1.0 / terms.times)
     return np.asarray(terms.equilibrium + in_phase @ terms.moduli + 1j * (lagging @ terms.moduli))
 
 
-def half_inverse(storage: NDArray[np.float64], loss: NDArray[np.float64]) -> NDArray[np.complex128]:
+def half_inverse(storage: Floats, loss: Floats) -> Complexes:
     """Return G* = 1/(2 Phi*) [Pa] of Phi* = storage - i loss [1/Pa], part by part."""
     size = np.hypot(storage, loss)
     return np.asarray(((storage + 1j * loss) / size) * (0.5 / size))
 
 
-def _debye(
-    omega: NDArray[np.float64], times: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _debye(omega: Floats, times: Floats) -> tuple[Floats, Floats]:
     """Return 1/(1 + x²) and x/(1 + x²) of x = ω τ, with a last axis for the times."""
     x = omega[..., None] * times
     size = np.hypot(1.0, x)

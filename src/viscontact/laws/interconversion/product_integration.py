@@ -25,9 +25,9 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from viscontact.backend.arrays import Floats
+
 Function = Callable[[Floats], Floats]
 Mean = Callable[[Floats, Floats], Floats]
 

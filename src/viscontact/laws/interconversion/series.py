@@ -32,7 +32,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats, Integers
 
 # Each bisection of a ratio halves its logarithm; 64 of them take any ratio that double
 # precision can hold (ln 1e600 = 1400) below one unit in the last place.
@@ -43,8 +45,8 @@ class SeriesTerms(NamedTuple):
     """The terms of J(t) = instant + sum amplitudes (1 - exp(-t/times)) + fluidity t."""
 
     instant: float
-    amplitudes: NDArray[np.float64]
-    times: NDArray[np.float64]
+    amplitudes: Floats
+    times: Floats
     fluidity: float
 
 
@@ -52,8 +54,8 @@ class RelaxationTerms(NamedTuple):
     """The terms of M(t) = equilibrium + sum moduli exp(-t/times)."""
 
     equilibrium: float
-    moduli: NDArray[np.float64]
-    times: NDArray[np.float64]
+    moduli: Floats
+    times: Floats
 
 
 def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLike) -> SeriesTerms:
@@ -122,7 +124,7 @@ def relaxation_from_creep(
     return RelaxationTerms(equilibrium, *merged(moduli, relaxation_times))
 
 
-def creep_function(terms: SeriesTerms, t: NDArray[np.float64]) -> NDArray[np.float64]:
+def creep_function(terms: SeriesTerms, t: Floats) -> Floats:
     """Return J(t) of a creep series; `t` of any shape, >= 0 [s]."""
     # expm1 keeps all digits of 1 - exp(-t/τ) at times far below τ.
     delayed = -np.expm1(-t[..., None] / terms.times) @ terms.amplitudes
@@ -131,9 +133,7 @@ def creep_function(terms: SeriesTerms, t: NDArray[np.float64]) -> NDArray[np.flo
     return np.asarray(terms.instant + delayed + flow, dtype=np.float64)
 
 
-def creep_mean(
-    terms: SeriesTerms, start: NDArray[np.float64], end: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def creep_mean(terms: SeriesTerms, start: Floats, end: Floats) -> Floats:
     """Return the mean of J over the times `start` to `end` [s], of equal shapes; J where equal."""
     begins, ratios = start[..., None] / terms.times, (end - start)[..., None] / terms.times
     # 1 - exp(-t/τ) at the start, and what it grows by on average: two parts of one sign.
@@ -142,7 +142,7 @@ def creep_mean(
     return np.asarray(terms.instant + shares @ terms.amplitudes + flow, dtype=np.float64)
 
 
-def mean_growth(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
+def mean_growth(ratio: Floats) -> Floats:
     """Return 1 - (1 - exp(-r))/r, the mean of 1 - exp(-x) for x from 0 to r >= 0."""
     small = ratio < 0.25  # beyond it the closed form loses less than a digit
     near = np.where(small, ratio, 0.0)
@@ -154,15 +154,13 @@ def mean_growth(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(small, series, 1 + np.expm1(-far) / far)
 
 
-def relaxation_function(terms: RelaxationTerms, t: NDArray[np.float64]) -> NDArray[np.float64]:
+def relaxation_function(terms: RelaxationTerms, t: Floats) -> Floats:
     """Return M(t) of a relaxation series; `t` of any shape, >= 0 [s]."""
     relaxing = np.exp(-t[..., None] / terms.times) @ terms.moduli
     return np.asarray(terms.equilibrium + relaxing, dtype=np.float64)
 
 
-def merged(
-    strengths: ArrayLike, times: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def merged(strengths: ArrayLike, times: ArrayLike) -> tuple[Floats, Floats]:
     """Return the series with times ascending, equal times added up, zero strengths left out."""
     strengths, times = np.asarray(strengths, np.float64), np.asarray(times, np.float64)
     present = strengths > 0
@@ -171,9 +169,7 @@ def merged(
     return sums.astype(np.float64), distinct
 
 
-def _secular_roots(
-    poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _secular_roots(poles: Floats, weights: Floats, constant: float) -> tuple[Floats, Floats]:
     """Return the roots x_j of F(x) = sum_i w_i/(x - p_i) - c, and the slopes -F'(x_j) > 0.
 
     `poles` ascend, `weights` are positive, `constant` is not negative.
@@ -199,9 +195,7 @@ def _secular_roots(
     return poles[origins] + offsets, slopes
 
 
-def _slopes(
-    to_poles: NDArray[np.float64], to_roots: NDArray[np.float64], leading: float
-) -> NDArray[np.float64]:
+def _slopes(to_poles: Floats, to_roots: Floats, leading: float) -> Floats:
     """Return -F'(x_j) from the distances of the roots to all poles and to each other.
 
     F is its leading coefficient, c or sum(w), times the product of all x - x_k over that of all x
@@ -217,8 +211,8 @@ def _slopes(
 
 
 def _nearest_poles(
-    poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
-) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    poles: Floats, weights: Floats, constant: float
+) -> tuple[Integers, Floats, Floats]:
     """Return, for each root, the index of its nearest pole, its side and its largest distance.
 
     Side is +1 where the root lies right of that pole and -1 where left.

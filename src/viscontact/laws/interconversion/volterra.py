@@ -18,9 +18,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws.interconversion.log_curve import Before, LogCurve
 from viscontact.laws.interconversion.product_integration import (
-    Floats,
     Function,
     Load,
     Mean,

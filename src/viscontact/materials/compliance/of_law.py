@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Floats
 from viscontact.laws import Law
 from viscontact.materials.compliance.base import ContactCompliance
 from viscontact.materials.compliance.sum import SummedCompliance
@@ -61,14 +59,12 @@ class LawCompliance(ContactCompliance):
         """Return the compliance of two bodies pressed on each other."""
         return SummedCompliance((self,)) + other
 
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _creep(self, t: Floats) -> Floats:
         return self.factor * self.law(t)
 
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _relaxation(self, t: Floats) -> Floats:
         # G is the inverse of 2 Phi.
         return 2.0 / self.factor * self.law.relaxation(t)
 
-    def _mean_creep(
-        self, start: NDArray[np.float64], end: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _mean_creep(self, start: Floats, end: Floats) -> Floats:
         return self.factor * self.law.mean_creep(start, end)

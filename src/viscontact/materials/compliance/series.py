@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws.arguments import check_series
 from viscontact.laws.interconversion.series import (
     RelaxationTerms,
@@ -55,8 +55,8 @@ class SeriesCompliance(ContactCompliance):
     """
 
     instant: float = field(metadata={"unit": "1/Pa"})
-    amplitudes: NDArray[np.float64] = field(metadata={"unit": "1/Pa"})
-    times: NDArray[np.float64] = field(metadata={"unit": "s"})
+    amplitudes: Floats = field(metadata={"unit": "1/Pa"})
+    times: Floats = field(metadata={"unit": "s"})
     fluidity: float = field(default=0.0, metadata={"unit": "1/(Pa s)"})
 
     def __post_init__(self) -> None:
@@ -102,15 +102,13 @@ class SeriesCompliance(ContactCompliance):
             self.fluidity + other.fluidity,
         )
 
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _creep(self, t: Floats) -> Floats:
         return creep_function(self._terms, t)
 
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _relaxation(self, t: Floats) -> Floats:
         return relaxation_function(self._inverse, t)
 
-    def _mean_creep(
-        self, start: NDArray[np.float64], end: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _mean_creep(self, start: Floats, end: Floats) -> Floats:
         return creep_mean(self._terms, start, end)
 
     @property

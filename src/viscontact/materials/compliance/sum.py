@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws.interconversion.volterra import invert
 from viscontact.materials.compliance.base import ContactCompliance
 from viscontact.units.numbers import store
@@ -59,14 +59,12 @@ class SummedCompliance(ContactCompliance):
         more = other.parts if isinstance(other, SummedCompliance) else (other,)
         return SummedCompliance((*self.parts, *more))
 
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _creep(self, t: Floats) -> Floats:
         return np.asarray(sum(part(t) for part in self.parts))
 
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _relaxation(self, t: Floats) -> Floats:
         values, _ = invert(self._creep, self._mean_creep, t)
         return values
 
-    def _mean_creep(
-        self, start: NDArray[np.float64], end: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _mean_creep(self, start: Floats, end: Floats) -> Floats:
         return np.asarray(sum(part.mean(start, end) for part in self.parts))

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws import Law
 
 #: Over time; the others are over angular frequency.
@@ -39,8 +39,8 @@ class Points:
 
     quantity: str
     what: str
-    at: NDArray[np.float64]
-    values: NDArray[np.float64]
+    at: Floats
+    values: Floats
     tolerance: float
 
     @property
@@ -48,7 +48,7 @@ class Points:
         """True if `at` are times, False if they are angular frequencies."""
         return self.quantity in _OVER_TIME
 
-    def of_law(self, law: Law) -> NDArray[np.float64]:
+    def of_law(self, law: Law) -> Floats:
         """Return the quantity of a law at `at`, in the unit of `values`.
 
         Parameters

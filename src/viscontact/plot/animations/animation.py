@@ -12,8 +12,9 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.animations.sheet import Sheet, new_sheet
 from viscontact.plot.histories.history import draw_scalars, drawn_scalars, needed_variables
 from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time, within_span
@@ -36,7 +37,6 @@ from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
 
 _NAME = "animation"
-Array = NDArray[np.float64]
 
 #: The least width of a history [inch].
 _HISTORY_WIDTH = 1.7
@@ -70,7 +70,7 @@ class Animation:
     """
 
     figure: Figure
-    instants: Array
+    instants: Floats
     frames_per_second: float
     show: Callable[[float], None]
 
@@ -84,10 +84,10 @@ class Animation:
 class _Scene:
     """Fixed parts of an animation: fields, limits and colours."""
 
-    stored: Array
+    stored: Floats
     read: Callable[[int], Snapshot]
     window: Window
-    levels: Array
+    levels: Floats
     unit: ReadableUnit
     along: Literal["x", "y"]
     note: str
@@ -186,7 +186,7 @@ def _frames(seconds: float, fps: float) -> int:
     return count
 
 
-def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
+def _scene(results: xr.Dataset, stored: Floats, shown: Floats) -> _Scene:
     """Find the limits of all instants to be shown."""
     note, read = peak_note([results], shown), snapshot_reader(results)
     part, boxes, highest = ORDINARY if note else 1.0, [], 0.0
@@ -227,14 +227,14 @@ def _histories(run: xr.Dataset, width: float) -> list[str]:
     return names[: max(1, int(width / _HISTORY_WIDTH))]
 
 
-def _spread_evenly(shown: Array, run: xr.Dataset, count: int) -> Array:
+def _spread_evenly(shown: Floats, run: xr.Dataset, count: int) -> Floats:
     """Stored instants nearest to equal steps along the time axis."""
     along = _place_on_axis(shown, run)
     wanted = np.linspace(along[0], along[-1], count)
     return np.asarray(shown[np.abs(along - wanted[:, None]).argmin(axis=1)])
 
 
-def _place_on_axis(instants: Array, run: xr.Dataset) -> Array:
+def _place_on_axis(instants: Floats, run: xr.Dataset) -> Floats:
     """Positions of instants along the time axis of histories, up to a constant factor."""
     if not suits_log_time(run):
         return instants
@@ -313,7 +313,7 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
     return curve, edges
 
 
-def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Array, Array]:
+def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Floats, Floats]:
     """Pressure along the middle line, as drawn."""
     wide = snapshot.with_border(1) if any(snapshot.periodic) else snapshot
     positions, pressure = wide.section(scene.along)

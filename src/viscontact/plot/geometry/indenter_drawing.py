@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter
 from viscontact.indenters.cross_section import SHOWN_PART, Section, cut, lines_through
 from viscontact.plot.geometry.indenter_facts import facts, in_lines, length
@@ -145,9 +146,9 @@ def _draw_section(
 
 def _draw_plan(
     axes: Axes,
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    gap: NDArray[np.float64],
+    x: Floats,
+    y: Floats,
+    gap: Floats,
     unit: ReadableUnit,
     contact: tuple[float, float, float, float] | None,
 ) -> list[float]:
@@ -168,9 +169,7 @@ def _draw_plan(
     return levels
 
 
-def _draw_body(
-    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], gap: NDArray[np.float64]
-) -> list[float]:
+def _draw_body(axes: Axes, x: Floats, y: Floats, gap: Floats) -> list[float]:
     """Fill the area of the body, with contour lines of the gap and the outline of its end."""
     solid = np.isfinite(gap)
     highest = float(np.quantile(gap[solid], SHOWN_PART))

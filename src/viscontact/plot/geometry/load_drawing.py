@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads import LoadHistory
 from viscontact.plot.layout import style
 from viscontact.units.formatting import readable_unit
@@ -62,7 +62,7 @@ def _quantity(load: LoadHistory) -> str:
     return load.control.capitalize()
 
 
-def _curve(load: LoadHistory, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _curve(load: LoadHistory, end: float) -> tuple[Floats, Floats]:
     """Times and levels of the curve, with both sides of every jump."""
     kinks = load.kinks[(load.kinks > 0) & (load.kinks < end)]
     instants = np.unique(np.concatenate([np.linspace(0.0, end, _POINTS), kinks]))

@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.loads import ApproachHistory
 from viscontact.plot.histories.exact_history import ExactHistory, exact_history, exact_label
 from viscontact.plot.histories.time_axis import scale_time, within_span
@@ -23,8 +24,6 @@ _NAME = "exact"
 _MARKERS_AT_MOST = 26
 # Between markers, against the diagonal of the axes.
 _APART = 0.05
-
-Array = NDArray[np.float64]
 
 
 def exact(
@@ -101,8 +100,8 @@ def exact(
 
 
 def _curves(
-    results: xr.Dataset, run: xr.Dataset, theory: ExactHistory, within: NDArray[np.bool_]
-) -> list[tuple[str, str, Array, Array]]:
+    results: xr.Dataset, run: xr.Dataset, theory: ExactHistory, within: Bools
+) -> list[tuple[str, str, Floats, Floats]]:
     """Label, unit, computed and exact history of each quantity that was not prescribed."""
     radius = np.sqrt(run["contact_area"].values / np.pi)
     by_approach = isinstance(recorded_object(results, "load", _NAME), ApproachHistory)

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter, Sphere
 from viscontact.laws import Elastic
 from viscontact.loads import ApproachHistory, ForceHistory
@@ -22,8 +22,6 @@ from viscontact.reference import (
 )
 from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_object
 
-Array = NDArray[np.float64]
-
 # Steps of the reference between corners of the load, and points of its pressure.
 _STEPS, _PLACES = 60, 48
 
@@ -33,10 +31,10 @@ class ExactHistory:
     """Exact histories at a run's times: lengths [m], force [N], pressure [Pa]."""
 
     solution: str
-    contact_radius: Array
-    approach: Array
-    force: Array
-    peak_pressure: Array
+    contact_radius: Floats
+    approach: Floats
+    force: Floats
+    peak_pressure: Floats
 
 
 def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
@@ -103,7 +101,7 @@ def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
     return compliance, all(isinstance(body.law, Elastic) for body in there)
 
 
-def _pressed(radius: float, load: Any, compliance: Any, instants: Array) -> AxisymmetricContact:
+def _pressed(radius: float, load: Any, compliance: Any, instants: Floats) -> AxisymmetricContact:
     """Reference solution under the load, with its own steps between those of the run."""
     corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
     corners = corners[corners <= instants[-1]]
@@ -122,7 +120,7 @@ def _pressed(radius: float, load: Any, compliance: Any, instants: Array) -> Axis
     return press_axisymmetric(profile, before[order], force=driven, creep_compliance=compliance)
 
 
-def _of_growing(contact: LeeRadokContact, instants: Array) -> ExactHistory:
+def _of_growing(contact: LeeRadokContact, instants: Floats) -> ExactHistory:
     radius = np.asarray(contact.contact_radius(instants))
     places = radius[:, None] * _places()
     pressure = np.asarray(contact.pressure(places, instants[:, None]))
@@ -135,7 +133,7 @@ def _of_growing(contact: LeeRadokContact, instants: Array) -> ExactHistory:
     )
 
 
-def _of_marched(contact: AxisymmetricContact, instants: Array, solution: str) -> ExactHistory:
+def _of_marched(contact: AxisymmetricContact, instants: Floats, solution: str) -> ExactHistory:
     last = np.searchsorted(contact.times, instants, side="right") - 1
     radius = contact.contact_radius[last]
     peaks = [
@@ -147,7 +145,7 @@ def _of_marched(contact: AxisymmetricContact, instants: Array, solution: str) ->
     )
 
 
-def _places() -> Array:
+def _places() -> Floats:
     # Denser towards the rim, where the pressure of a fluid is largest.
-    places: Array = np.sin(np.linspace(0.0, np.pi / 2, _PLACES, endpoint=False))
+    places: Floats = np.sin(np.linspace(0.0, np.pi / 2, _PLACES, endpoint=False))
     return places

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.histories.time_axis import within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
@@ -152,9 +153,9 @@ def compare_hysteresis(
 
 def _draw_bands(
     axes: Axes,
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    error: NDArray[np.float64],
+    x: Floats,
+    y: Floats,
+    error: Floats,
     colour: str,
     *,
     sideways: bool,
@@ -170,9 +171,7 @@ def _draw_bands(
     return [band for band in bands if band is not None]
 
 
-def _add_arrows(
-    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], look: dict[str, Any]
-) -> None:
+def _add_arrows(axes: Axes, x: Floats, y: Floats, look: dict[str, Any]) -> None:
     """Arrows along the loop, at fractions of its drawn length."""
     steps = [np.diff(values) / (np.ptp(values) or 1.0) for values in (x, y)]
     way = np.append(0.0, np.cumsum(np.hypot(*steps)))

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout import style
 from viscontact.results.run_axis import require_time
 from viscontact.results.shown_scalars import is_shown
@@ -60,7 +61,7 @@ def scale_time(
     panels: list[Axes],
     runs: Mapping[str, xr.Dataset],
     time_unit: ReadableUnit,
-    drawn: Iterable[NDArray[np.float64]] | None = None,
+    drawn: Iterable[Floats] | None = None,
 ) -> None:
     """Scale and label the time axes of panels, logarithmic where that suits all runs."""
     shown = [run["time"].values for run in runs.values()] if drawn is None else drawn
@@ -151,7 +152,7 @@ def suits_log_time(run: xr.Dataset) -> bool:
     return _steps_grow(run["time"].values) and _held_from(run)
 
 
-def _steps_grow(instants: NDArray[np.float64]) -> bool:
+def _steps_grow(instants: Floats) -> bool:
     """True if the steps are spread over decades, as on a logarithmic axis."""
     positive = instants[instants > 0]
     return positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1])

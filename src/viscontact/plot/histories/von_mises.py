@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.stress_lines import Progress, part_of
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
@@ -150,9 +151,9 @@ def compare_von_mises(
 class _StressHistory:
     """Largest stress [Pa] and its depth [m] over time [s]."""
 
-    instants: NDArray[np.float64]
-    stress: NDArray[np.float64]
-    depth: NDArray[np.float64]
+    instants: Floats
+    stress: Floats
+    depth: Floats
 
 
 _DRAWN = (("stress", "Pa", "Von Mises stress"), ("depth", "m", "Depth"))

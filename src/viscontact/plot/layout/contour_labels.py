@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
-from numpy.typing import NDArray
+
+from viscontact.backend.arrays import Floats
 
 _LABEL_SIZE = 6.5
 # Space between labels [pixels].
@@ -21,7 +22,7 @@ def label_contours(
     axes: Axes,
     lines: QuadContourSet,
     texts: Mapping[float, str],
-    fits: Callable[[NDArray[np.float64]], bool] = lambda corners: True,
+    fits: Callable[[Floats], bool] = lambda corners: True,
 ) -> None:
     """Label contours with texts by level, once the figure is laid out.
 
@@ -41,7 +42,7 @@ def label_contours(
 
 
 def _places_with_room(
-    axes: Axes, texts: Iterable[Text], fits: Callable[[NDArray[np.float64]], bool]
+    axes: Axes, texts: Iterable[Text], fits: Callable[[Floats], bool]
 ) -> list[tuple[float, float]]:
     """Positions of the texts that fit, lie wholly in the panel, and on no other."""
     kept: list[Bbox] = []

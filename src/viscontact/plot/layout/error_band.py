@@ -11,8 +11,9 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout import style
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import mesh_dependent
@@ -36,9 +37,9 @@ class Band:
     """Shaded error of a curve: half width along y, or along x if sideways."""
 
     axes: Axes
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
-    error: NDArray[np.float64]
+    x: Floats
+    y: Floats
+    error: Floats
     sideways: bool
 
     @property
@@ -60,9 +61,9 @@ class Band:
 
 def draw_band(
     axes: Axes,
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    error: NDArray[np.float64] | None,
+    x: Floats,
+    y: Floats,
+    error: Floats | None,
     colour: str,
     *,
     sideways: bool = False,

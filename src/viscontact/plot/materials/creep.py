@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.laws import Law
 from viscontact.materials.layers import creeping_laws
 from viscontact.plot.histories.time_axis import label_log_time
@@ -162,7 +163,7 @@ def creep_curve(
     return _curves({"": law} if isinstance(law, Law) else law, instants, width)
 
 
-def curve_times(end: float, first: float = np.inf) -> NDArray[np.float64]:
+def curve_times(end: float, first: float = np.inf) -> Floats:
     """Times up to the end of a run at which its law is drawn, from the first or earlier [s].
 
     Examples
@@ -173,7 +174,7 @@ def curve_times(end: float, first: float = np.inf) -> NDArray[np.float64]:
     return np.geomspace(min(first, _EARLIEST * end), end, _POINTS)
 
 
-def _curves(laws: Mapping[str, Law], times: NDArray[np.float64], width: Width | None) -> Figure:
+def _curves(laws: Mapping[str, Law], times: Floats, width: Width | None) -> Figure:
     compliances = [(law(times), float(law(0.0))) for law in laws.values()]
     stiff_at_once = all(at_once > 0 for _, at_once in compliances)
     count = 2 if stiff_at_once else 1
@@ -196,8 +197,8 @@ def _draw(
     axes: Axes,
     quantity: str,
     si_unit: str,
-    times: NDArray[np.float64],
-    curves: list[tuple[NDArray[np.float64], float]],
+    times: Floats,
+    curves: list[tuple[Floats, float]],
 ) -> None:
     """Draw curves, each with its value at time 0."""
     everything = [each for values, at_once in curves for each in (values, at_once)]
@@ -214,7 +215,7 @@ def _draw(
     style.dress(axes)
 
 
-def _mark_beginning(axes: Axes, values: NDArray[np.float64], at_once: NDArray[np.float64]) -> None:
+def _mark_beginning(axes: Axes, values: Floats, at_once: Floats) -> None:
     """Mark the value at time 0, which is not on a logarithmic axis."""
     level = float(at_once)
     axes.axhline(level, color=style.FAINT, linewidth=0.8, linestyle=(0, (4, 3)))

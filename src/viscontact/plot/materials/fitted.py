@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification import Fit, IndentationFit
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.units.formatting import ReadableUnit, readable_unit
-
-Array = NDArray[np.float64]
 
 _WIDE = 4.0  # ratio above which a column is drawn on a logarithmic axis
 LABELS = {
@@ -223,7 +222,7 @@ def _symbol(fit: Fit) -> str:
     return letter if "modulus" in fit.measured else f"{letter}′, {letter}″"
 
 
-def abscissa(measured: Mapping[str, Array], *, reduced: bool = False) -> str:
+def abscissa(measured: Mapping[str, Floats], *, reduced: bool = False) -> str:
     """Label of the axis of time or frequency, reduced by the shift factors or not."""
     oscillates = "storage" in measured
     label = "Angular frequency" if oscillates else "Time"
@@ -234,13 +233,13 @@ def abscissa(measured: Mapping[str, Array], *, reduced: bool = False) -> str:
     return f"{label} [{unit}]"
 
 
-def geometric(points: ArrayLike) -> Array:
+def geometric(points: ArrayLike) -> Floats:
     """Points for a curve over the range of measured ones, even on a logarithmic axis."""
     positive = np.asarray(points, dtype=np.float64)
     return np.geomspace(positive.min(), positive.max(), 400)
 
 
-def spans_decades(*columns: Array) -> bool:
+def spans_decades(*columns: Floats) -> bool:
     """True if columns need a logarithmic axis."""
     values = np.concatenate(columns)
     return bool(values.max() > _WIDE * values.min())

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.identification import Fit, MasterCurve, ShiftFit
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
@@ -103,7 +103,7 @@ def _draw_sets(
     sets: Axes,
     master: Axes,
     unit: ReadableUnit,
-    colours: NDArray[np.float64],
+    colours: Floats,
 ) -> None:
     """Draw the points of each set, as measured and reduced, in its colour."""
     for isotherm, reduced, colour in zip(

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.laws import Law
 from viscontact.materials.library import Points
 from viscontact.plot.layout import style
@@ -103,8 +103,8 @@ _LABELS = {
 def _draw_time(
     axes: Axes,
     quantity: str,
-    times: NDArray[np.float64],
-    values: NDArray[np.float64],
+    times: Floats,
+    values: Floats,
     solid: tuple[float, float],
     points: tuple[Points, ...],
 ) -> None:
@@ -119,7 +119,7 @@ def _draw_time(
 def _draw_oscillation(
     axes: Axes,
     law: Law,
-    times: NDArray[np.float64],
+    times: Floats,
     solid: tuple[float, float],
     points: tuple[Points, ...],
 ) -> None:
@@ -141,8 +141,8 @@ def _draw_oscillation(
 
 def _line(
     axes: Axes,
-    at: NDArray[np.float64],
-    values: NDArray[np.float64],
+    at: Floats,
+    values: Floats,
     solid: tuple[float, float],
     **how: Any,
 ) -> Any:
@@ -169,13 +169,13 @@ def _markers(
         )
 
 
-def _worth_showing(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _worth_showing(values: Floats) -> Bools:
     # What a liquid has left after ten of its longest times, or an elastic body as its loss, is
     # nothing: it must not press the rest of the curve together.
     return np.asarray(values > _DEPTH * values.max(initial=0.0))
 
 
-def _continuation(shown: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _continuation(shown: Bools, inside: Bools) -> Bools:
     """Mask of the curve beyond its range, up to its first zero."""
     within = np.flatnonzero(inside)
     if not within.size:
@@ -197,7 +197,7 @@ def _shade(axes: Axes, measured: tuple[float, float], *, frequency: bool) -> Non
         style.add_heading(axes, "shaded: what the constants rest on", aside=True)
 
 
-def _log_axes(axes: Axes, at: NDArray[np.float64]) -> None:
+def _log_axes(axes: Axes, at: Floats) -> None:
     axes.set(xscale="log", yscale="log", xlim=(at[0], at[-1]))
     low, high = axes.get_ylim()
     # Within one decade a logarithmic axis has hardly a tick to read, within two few.
@@ -210,7 +210,7 @@ def _log_axes(axes: Axes, at: NDArray[np.float64]) -> None:
         axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-def _middle_unit(si_unit: str, values: NDArray[np.float64]) -> ReadableUnit:
+def _middle_unit(si_unit: str, values: Floats) -> ReadableUnit:
     """Unit in which the middle of a logarithmic axis is readable."""
     good = values[_worth_showing(values)]
     return readable_unit(si_unit, float(np.exp(np.log(good).mean())) if good.size else 0.0)

@@ -6,9 +6,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from viscontact import reference
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter, Paraboloid, Roller, Sphere
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
@@ -17,8 +17,6 @@ from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_case import case_of, recorded_object
 from viscontact.results.variables import error_name
 from viscontact.units.formatting import readable_unit
-
-Floats = NDArray[np.float64]
 
 #: Bodies of constant curvature along their motion.
 _ROUND = (Paraboloid, Sphere, Roller)

@@ -6,8 +6,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.units.formatting import format_quantity, readable_unit
@@ -92,7 +93,7 @@ def motion_profile(
     return style.figure_of(axes)
 
 
-def _chosen(stored: NDArray[np.float64], speeds: ArrayLike | None) -> NDArray[np.intp]:
+def _chosen(stored: Floats, speeds: ArrayLike | None) -> Integers:
     """Positions of the speeds to draw among the stored ones, ascending."""
     if speeds is None:
         count = min(_MOST, len(stored))
@@ -101,9 +102,7 @@ def _chosen(stored: NDArray[np.float64], speeds: ArrayLike | None) -> NDArray[np
     return np.unique(np.abs(np.log(stored / wanted[:, None])).argmin(axis=1))
 
 
-def _mark_edges(
-    axes: Axes, places: NDArray[np.float64], pressure: NDArray[np.float64], colour: str
-) -> None:
+def _mark_edges(axes: Axes, places: Floats, pressure: Floats, colour: str) -> None:
     """Mark the trailing edge (hollow) and the leading edge (full) of a contact."""
     touched = np.flatnonzero(pressure > 0)
     if not touched.size:

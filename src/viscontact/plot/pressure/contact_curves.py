@@ -10,8 +10,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
@@ -20,8 +21,6 @@ from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
 from viscontact.units.formatting import ReadableUnit, readable_unit
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ class ContactCurve:
     units: str  # SI
     along: Literal["x", "y"]
     #: Positions [m], on a periodic grid slightly beyond the border, and the quantity [SI].
-    values: Callable[[Snapshot], tuple[Array, Array]]
+    values: Callable[[Snapshot], tuple[Floats, Floats]]
     largest: Callable[[Snapshot], float]  # which its unit is chosen for
     note: str  # of runs whose peak pressure depends on the mesh
     marks_edges: bool = (
@@ -42,8 +41,8 @@ class ContactCurve:
 
 
 def cut_at_ends(
-    snapshot: Snapshot, along: Literal["x", "y"], at: float | None, curve: tuple[Array, Array]
-) -> tuple[Array, Array]:
+    snapshot: Snapshot, along: Literal["x", "y"], at: float | None, curve: tuple[Floats, Floats]
+) -> tuple[Floats, Floats]:
     """The curve along an axis, falling to zero where the body ends, not at the next centre.
 
     The end is that on the row of cells next to `at` [m] on the other axis, by default the middle.
@@ -132,7 +131,7 @@ def compare_curves(
     return figure
 
 
-def in_contact(values: Array) -> Array:
+def in_contact(values: Floats) -> Floats:
     """Values with NaN outside the contact but for the zeros at its ends."""
     pressed = values > 0
     near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])

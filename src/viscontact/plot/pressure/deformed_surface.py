@@ -10,10 +10,11 @@ from matplotlib import colormaps
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import RegularGridInterpolator
 from scipy.ndimage import distance_transform_edt
 
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.page import Width, page_width
@@ -31,7 +32,6 @@ from viscontact.results.snapshots import Snapshot, field_at
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 _NAME = "surface-3d"
-Array = NDArray[np.float64]
 
 #: Margin around the contact, and space above the surface for the indenter, relative [-].
 _BESIDE, _ABOVE = 0.35, 0.3
@@ -48,10 +48,10 @@ class DeformedContact:
     """Surfaces of both bodies: gap, and displacement into the half-space [m], NaN if unknown."""
 
     snapshot: Snapshot
-    displacement: Array
+    displacement: Floats
 
     @property
-    def indenter(self) -> Array:
+    def indenter(self) -> Floats:
         """Depth of the indenter's lower side [m], shape (nx, ny), NaN where there is none."""
         depth = self.displacement - self.snapshot.gap
         return np.where(np.isfinite(depth), depth, np.nan)
@@ -132,7 +132,7 @@ def displacement_relief(contact: DeformedContact, window: Window, unit: Readable
     return relief(*mesh, depth, depth, np.isfinite(depth))
 
 
-def _points(at: Array, limits: tuple[float, float]) -> tuple[Array, NDArray[np.int_]]:
+def _points(at: Floats, limits: tuple[float, float]) -> tuple[Floats, Integers]:
     inside = np.flatnonzero((at >= limits[0]) & (at <= limits[1]))
     chosen = inside[:: -(-inside.size // _MOST)]
     return at[chosen], chosen
@@ -172,7 +172,7 @@ def _draw_rim(axes: Axes3D, contact: DeformedContact, window: Window, unit: Read
         axes.plot(x, y, unit(depth(polygon)), color=style.INK, linewidth=0.9, zorder=3)
 
 
-def _continued(depth: Array) -> Array:
+def _continued(depth: Floats) -> Floats:
     """Values continued beyond a body's end by those of its nearest cell."""
     nearest = distance_transform_edt(np.isnan(depth), return_distances=False, return_indices=True)
     return np.asarray(depth[tuple(nearest)])

@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout.page import Width
 from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
 from viscontact.results.snapshots import Snapshot
@@ -100,7 +101,7 @@ def compare_line_loads(
     return compare_curves(runs, _CURVE, times, width)
 
 
-def _values(snapshot: Snapshot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _values(snapshot: Snapshot) -> tuple[Floats, Floats]:
     x, load = snapshot.line_load()
     cell, _ = snapshot.cell_size
     if snapshot.periodic[0]:

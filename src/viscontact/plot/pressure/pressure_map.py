@@ -17,9 +17,10 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.ndimage import label
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.contour_labels import label_contours
@@ -216,7 +217,7 @@ def _add_colour_scale(figure: Figure, panels: list[Axes], top: float) -> None:
     _dress_colour_bar(bar, unit)
 
 
-def pressure_levels(highest: float) -> tuple[NDArray[np.float64], ReadableUnit]:
+def pressure_levels(highest: float) -> tuple[Floats, ReadableUnit]:
     """Round levels of pressure from 0 to beyond the highest [Pa], and their unit.
 
     >>> levels, unit = pressure_levels(152e6)
@@ -253,7 +254,7 @@ def _panels(count: int, window: Window, wanted: Width | None) -> tuple[Figure, l
 
 
 def draw_contours(
-    axes: Axes, snapshot: Snapshot, levels: NDArray[np.float64], window: Window
+    axes: Axes, snapshot: Snapshot, levels: Floats, window: Window
 ) -> QuadContourSet | None:
     """Draw contours at levels [Pa], and the outline; return the lines, None without contact."""
     if not snapshot.touching:
@@ -286,13 +287,13 @@ def _label_contours(
         if lowest < square < highest
     }
 
-    def fits(corners: NDArray[np.float64]) -> bool:
+    def fits(corners: Floats) -> bool:
         return bool(np.all(_pressed(snapshot, corners * window.unit.factor)))
 
     label_contours(axes, lines, texts, fits)
 
 
-def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _pressed(snapshot: Snapshot, points: Floats) -> Bools:
     """Mask of points, shape (n, 2) [m], whose cells are in contact."""
     first = np.array([snapshot.x[0], snapshot.y[0]])
     i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T
@@ -301,22 +302,20 @@ def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool
 
 
 def _add_colour_bar(
-    figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: ReadableUnit, extend: str
+    figure: Figure, panels: list[Axes], levels: Floats, unit: ReadableUnit, extend: str
 ) -> None:
     shown = _level_colours(levels, unit)
     bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
     _dress_colour_bar(bar, unit)
 
 
-def fill_colour_bar(
-    axes: Axes, levels: NDArray[np.float64], unit: ReadableUnit, extend: str
-) -> None:
+def fill_colour_bar(axes: Axes, levels: Floats, unit: ReadableUnit, extend: str) -> None:
     """Draw a colour bar for levels of pressure [Pa] in separate axes."""
     figure = style.figure_of(axes)
     _dress_colour_bar(figure.colorbar(_level_colours(levels, unit), cax=axes, extend=extend), unit)
 
 
-def _level_colours(levels: NDArray[np.float64], unit: ReadableUnit) -> ScalarMappable:
+def _level_colours(levels: Floats, unit: ReadableUnit) -> ScalarMappable:
     colours = style.pressure_colours(len(levels) - 1)
     return ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout.page import Width
 from viscontact.plot.pressure.contact_curves import (
     ContactCurve,
@@ -137,7 +137,7 @@ def _beyond_border(snapshot: Snapshot) -> Snapshot:
 
 def _section(
     snapshot: Snapshot, along: Literal["x", "y"], at: float | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Positions [m] and pressure [Pa], up to the ends of the body."""
     return cut_at_ends(snapshot, along, at, snapshot.section(along, at))
 

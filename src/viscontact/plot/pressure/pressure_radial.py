@@ -11,8 +11,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.indenters import Indenter, Sphere
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import peak_note
@@ -123,7 +124,7 @@ def _is_round(indenter: Indenter, radius: float) -> bool:
     return bool(np.allclose(gaps, gaps[0], rtol=1e-9, atol=0.0))
 
 
-def _near_x_axis(snapshot: Snapshot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _near_x_axis(snapshot: Snapshot) -> tuple[Floats, Floats]:
     """Distance and pressure of the cells in contact next to the positive x axis."""
     row = int(np.argmin(np.abs(snapshot.y)))
     chosen = (snapshot.x >= 0) & (snapshot.pressure[:, row] > 0)

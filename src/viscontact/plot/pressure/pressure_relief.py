@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.plot.layout.window import Window
 from viscontact.plot.pressure.relief import Relief, relief
 from viscontact.plot.pressure.rim_polygons import beyond_period
 from viscontact.plot.pressure.squared_pressure import squared_pressure
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit
-
-Array = NDArray[np.float64]
 
 #: Largest number of cells drawn along each axis; of more, blocks are drawn by their largest value.
 _MOST = 180
@@ -51,14 +49,14 @@ def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> R
     return Relief(surface.corners[raised], surface.values[raised])
 
 
-def _around_contact(squared: Array, x: Array, y: Array) -> tuple[Array, Array, Array]:
+def _around_contact(squared: Floats, x: Floats, y: Floats) -> tuple[Floats, Floats, Floats]:
     """Part with contact, and one cell more on each side."""
     i, j = (np.flatnonzero((squared > 0).any(axis=axis)) for axis in (1, 0))
     rows, columns = slice(max(i[0] - 1, 0), i[-1] + 2), slice(max(j[0] - 1, 0), j[-1] + 2)
     return squared[rows, columns], x[rows], y[columns]
 
 
-def _with_corners(squared: Array) -> Array:
+def _with_corners(squared: Floats) -> Floats:
     """Continue the square linearly to cells that share only a corner with the contact."""
     total, count = np.zeros_like(squared), np.zeros_like(squared)
     for i, j in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
@@ -70,7 +68,7 @@ def _with_corners(squared: Array) -> Array:
     return np.where(count > 0, total / np.maximum(count, 1), squared)
 
 
-def _refined(values: Array, parts: int) -> Array:
+def _refined(values: Floats, parts: int) -> Floats:
     """Interpolate along the first axis, with `parts` points per interval."""
     at = np.arange((len(values) - 1) * parts + 1) / parts
     lower = np.minimum(at.astype(int), len(values) - 2)
@@ -78,7 +76,7 @@ def _refined(values: Array, parts: int) -> Array:
     return np.asarray((1 - share) * values[lower] + share * values[lower + 1])
 
 
-def _to_rim(squared: Array) -> Array:
+def _to_rim(squared: Floats) -> Floats:
     """Distance from each point to the zero of the square by its slope [points]."""
     slope = np.stack([np.gradient(squared, axis=axis) for axis in (0, 1)], axis=-1)
     steepness = np.square(slope).sum(axis=-1, keepdims=True)
@@ -115,6 +113,6 @@ def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
     return Snapshot(snapshot.time, x, y, pressure.max((1, 3)), gap.min((1, 3)))
 
 
-def _neighbouring(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _neighbouring(contact: Bools) -> Bools:
     """Mask of the cells that share an edge or a corner with one in contact."""
     return np.asarray(binary_dilation(contact, np.ones((3, 3), dtype=np.bool_)), dtype=np.bool_)

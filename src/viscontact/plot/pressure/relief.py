@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.colors import Colormap, Normalize
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from viscontact.backend.arrays import Bools, Floats
 
 #: Towards the light, over the viewer's left shoulder, and what reaches the shade.
 _LIGHT = np.array([-0.55, -0.45, 0.7]) / np.linalg.norm([-0.55, -0.45, 0.7])
@@ -21,11 +20,11 @@ _SHADE = 0.58
 class Relief:
     """Quadrilaterals: corners x, y, height, as drawn, shape (n, 4, 3), and values, shape (n,)."""
 
-    corners: Array
-    values: Array
+    corners: Floats
+    values: Floats
 
 
-def relief(x: Array, y: Array, height: Array, values: Array, shown: NDArray[np.bool_]) -> Relief:
+def relief(x: Floats, y: Floats, height: Floats, values: Floats, shown: Bools) -> Relief:
     """Quadrilaterals between the shown points of a mesh, shape (nx, ny), coloured by mean values.
 
     >>> x, y = np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0], indexing="ij")
@@ -57,7 +56,7 @@ def draw_relief(axes: Axes3D, surface: Relief, colours: Colormap, norm: Normaliz
     )
 
 
-def _brightness(axes: Axes3D, corners: Array) -> Array:
+def _brightness(axes: Axes3D, corners: Floats) -> Floats:
     """Brightness of each quadrilateral, in the proportions of the drawing."""
     limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
     scale = np.asarray(axes.get_box_aspect()) / (limits[:, 1] - limits[:, 0])

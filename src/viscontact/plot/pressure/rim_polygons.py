@@ -8,9 +8,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from contourpy import LineType, contour_generator
 from matplotlib.path import Path
-from numpy.typing import NDArray
 from scipy.interpolate import splev, splprep
 
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.contact.body_edge import Outline
 from viscontact.results.snapshots import Snapshot
 
@@ -26,10 +26,10 @@ _LOOSE, _PIECES = 0.05, (8, 0.1)
 _CLOSE, _STRAY, _FINER, _ENOUGH = 0.02, 0.2, 6, 16
 
 #: Points on the mesh of cells, shape (n, 2).
-Corners: TypeAlias = NDArray[np.float64]
+Corners: TypeAlias = Floats
 
 
-def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
+def rim_polygons(snapshot: Snapshot) -> list[Floats]:
     """Closed polygons of the rim, shape (n, 2) [m]: one per spot, and per hole in a spot.
 
     Just outside a smooth rim the gap opens as distance^(3/2) for every law, so gap^(2/3) is linear
@@ -42,7 +42,7 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     return [first + cell * _closed(_spread(found)) for found, _, first, cell in _traced(snapshot)]
 
 
-def rim_curves(snapshot: Snapshot) -> list[NDArray[np.float64]]:
+def rim_curves(snapshot: Snapshot) -> list[Floats]:
     """Closed curves of the rim, shape (n, 2) [m]: splines where it is smooth, else the polygons.
 
     Smoothing spline of FITPACK (Dierckx, *Curve and Surface Fitting with Splines*, 1993) with the
@@ -84,7 +84,7 @@ def beyond_period(snapshot: Snapshot) -> Snapshot:
     return snapshot.with_border(_BEYOND) if any(snapshot.periodic) else snapshot
 
 
-def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> NDArray[np.float64]:
+def offsets_from_rim(contact: Bools, gap: Floats) -> Floats:
     """Offset of each open cell's centre from the rim [cells], shape (nx, ny, 2).
 
     The rim is where gap^(2/3), linear around the cell, is zero; NaN in contact and where that is
@@ -95,29 +95,29 @@ def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> ND
     slopes = np.stack([_slope(opening), _slope(opening.T).T], axis=-1)
     steepness = np.square(slopes).sum(axis=-1, keepdims=True)
     steepness[steepness == 0] = np.nan
-    offsets: NDArray[np.float64] = opening[..., None] * slopes / steepness
+    offsets: Floats = opening[..., None] * slopes / steepness
     return offsets
 
 
-def rim_path(polygons: Iterable[NDArray[np.float64]]) -> Path:
+def rim_path(polygons: Iterable[Floats]) -> Path:
     """Closed path of all polygons of a rim, without the holes in spots."""
     return Path.make_compound_path(*(Path(polygon, closed=True) for polygon in polygons))
 
 
-def _slope(opening: NDArray[np.float64]) -> NDArray[np.float64]:
+def _slope(opening: Floats) -> Floats:
     """Mean of the forward and backward differences that exist along the first axis."""
     outside = np.full((1, opening.shape[1]), np.nan)
     steps = np.diff(np.vstack([outside, opening, outside]), axis=0)
     both = np.stack([steps[:-1], steps[1:]])
     count = np.isfinite(both).sum(axis=0)
-    mean: NDArray[np.float64] = np.nansum(both, axis=0) / np.maximum(count, 1)
+    mean: Floats = np.nansum(both, axis=0) / np.maximum(count, 1)
     return mean
 
 
 def _moved(
-    corners: NDArray[np.float64],
-    contact: NDArray[np.bool_],
-    offsets: NDArray[np.float64],
+    corners: Floats,
+    contact: Bools,
+    offsets: Floats,
     body_end: Outline | None,
 ) -> tuple[Corners, bool]:
     """Corners half-way between cells, moved onto the rim, once for each open cell [cells]."""
@@ -157,16 +157,14 @@ def _spline(polygon: Corners) -> Corners:
     return _closed(_spread(polygon))
 
 
-def _fitted(corners: Corners, along: NDArray[np.float64], scatter: float) -> Any:
+def _fitted(corners: Corners, along: Floats, scatter: float) -> Any:
     """Periodic spline with a given mean-square distance from the corners [cells]."""
     left = len(corners) * scatter**2
     (spline, _), *_ = splprep(corners.T, u=along, per=1, s=left, full_output=1, quiet=2)
     return spline
 
 
-def _share_to_end(
-    before: NDArray[np.int_], after: NDArray[np.int_], body_end: Outline | None
-) -> NDArray[np.float64]:
+def _share_to_end(before: Integers, after: Integers, body_end: Outline | None) -> Floats:
     """Position of the end of the body between the inner and outer cell, 0.5 if unknown."""
     share = np.full(len(before), 0.5)
     if body_end is not None:

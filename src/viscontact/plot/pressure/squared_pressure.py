@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.pressure.rim_polygons import offsets_from_rim
 from viscontact.results.snapshots import Snapshot
 
@@ -13,7 +13,7 @@ from viscontact.results.snapshots import Snapshot
 _LEAST_DEPTH = 0.1
 
 
-def squared_pressure(snapshot: Snapshot) -> NDArray[np.float64]:
+def squared_pressure(snapshot: Snapshot) -> Floats:
     """Square of the pressure, continued below zero just outside the rim [Pa²], shape (nx, ny).
 
     At a smooth rim the pressure starts as the square root of the distance to it, so its square is

@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from viscontact.backend.arrays import Floats
 from viscontact.halfspace.stress_lines import Progress, part_of
 from viscontact.plot.layout import style
 from viscontact.plot.layout.contour_labels import label_contours
@@ -42,9 +43,9 @@ class Section:
     """Von Mises stress on the plane across the contact through its largest pressure."""
 
     time: float  # [s]
-    across: NDArray[np.float64]  # positions along the shorter extent of the contact [m], shape (n,)
-    depths: NDArray[np.float64]  # [m], shape (m,)
-    stress: NDArray[np.float64]  # [Pa], shape (m, n)
+    across: Floats  # positions along the shorter extent of the contact [m], shape (n,)
+    depths: Floats  # [m], shape (m,)
+    stress: Floats  # [Pa], shape (m, n)
     axis: str  # of `across`, "x" or "y"
     place: float  # of the plane on the other axis [m]
     half_width: float  # of the largest shown contact along that axis [m]
@@ -193,7 +194,7 @@ def stress_sections(
 def _sections_down_to(
     source: StressSource,
     touching: list[Snapshot],
-    depths: NDArray[np.float64],
+    depths: Floats,
     aside: float = np.inf,
     progress: Progress | None = None,
 ) -> list[Section]:
@@ -243,8 +244,8 @@ def _section(
     source: StressSource,
     snapshot: Snapshot,
     half_width: float,
-    depths: NDArray[np.float64],
-    stress: NDArray[np.float64],
+    depths: Floats,
+    stress: Floats,
     aside: float,
 ) -> Section:
     """The part near the contact of the stresses on the plane of an instant."""
@@ -274,7 +275,7 @@ def _place_of_peak(snapshot: Snapshot) -> tuple[int, int]:
     return int(i[nearest]), int(j[nearest])
 
 
-def _levels(sections: list[Section], unit: ReadableUnit) -> NDArray[np.float64]:
+def _levels(sections: list[Section], unit: ReadableUnit) -> Floats:
     largest = max(section.largest[0] for section in sections)
     ticks = MaxNLocator(nbins=9, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(unit(largest)))
     return np.asarray(ticks)
@@ -283,7 +284,7 @@ def _levels(sections: list[Section], unit: ReadableUnit) -> NDArray[np.float64]:
 def _draw(
     axes: Axes,
     section: Section,
-    levels: NDArray[np.float64],
+    levels: Floats,
     length: ReadableUnit,
     stress: ReadableUnit,
 ) -> tuple[QuadContourSet, QuadContourSet]:

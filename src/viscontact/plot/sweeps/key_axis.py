@@ -12,10 +12,9 @@ from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.results.largest_values import key_label
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
-
-Floats = NDArray[np.float64]
 
 #: Least ratio of the largest to the least value on a logarithmic axis.
 _DECADE = 9.0

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.plot.layout import style
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import NARROW, Width, page_width
@@ -26,8 +26,6 @@ from viscontact.results.largest_values import (
 )
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import ReadableUnit, readable_unit
-
-Floats = NDArray[np.float64]
 
 #: Least number of values of both keys for a contour map, and most curves in a panel.
 _LEAST_MAP, _MOST_CURVES = 5, 8
@@ -166,7 +164,7 @@ class _Values:
     unit: ReadableUnit
     values: Floats
     errors: Floats
-    missing: NDArray[np.bool_]
+    missing: Bools
 
     @classmethod
     def of(cls, ds: xr.Dataset, name: str, *order: str) -> _Values:

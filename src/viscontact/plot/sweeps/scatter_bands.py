@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.histories.time_axis import set_log_time
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
@@ -75,7 +75,7 @@ def scatter_bands(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     return figure
 
 
-def _scale(axes: Axes, places: NDArray[np.float64]) -> None:
+def _scale(axes: Axes, places: Floats) -> None:
     """Make the axis logarithmic from its second place on, if the places are spread over decades."""
     positive = places[places > 0]
     first, last = float(positive[0]), float(positive[-1])

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.sweeps.key_axis import KeyAxis
@@ -84,7 +84,7 @@ def _goal(table: xr.Dataset) -> str:
     return str(table.attrs["goal"]).split()[0]
 
 
-def _draw(axes: Axes, table: xr.Dataset, places: NDArray[np.float64], unit: ReadableUnit) -> None:
+def _draw(axes: Axes, table: xr.Dataset, places: Floats, unit: ReadableUnit) -> None:
     name = _goal(table)
     values, errors = (unit(table[each].values) for each in (name, error_name(name)))
     feasible, is_coarse = table["feasible"].values.astype(bool), table["level"].values == "coarse"

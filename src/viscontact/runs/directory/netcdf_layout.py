@@ -10,8 +10,8 @@ from typing import Any, Literal, NamedTuple
 
 import netCDF4
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
@@ -95,7 +95,7 @@ class Contents:
     """Quantities, grid and instants or speeds that the result of a run is to hold."""
 
     grid: Grid  # of the fields when the run begins
-    rows: NDArray[np.float64]  # instants [s] or speeds [m/s]
+    rows: Floats  # instants [s] or speeds [m/s]
     fields: str | Sequence[float] = "all"  # "all", "none" or the rows of kept fields
     attributes: Mapping[str, Any] = field(default_factory=dict)  # global ones
     errors: bool = False  # True if errors of the scalars will be added
@@ -195,7 +195,7 @@ def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState
         file.variables[name][row : row + len(states)] = values
 
 
-def read_scalars(file: netCDF4.Dataset) -> dict[str, NDArray[np.float64]]:
+def read_scalars(file: netCDF4.Dataset) -> dict[str, Floats]:
     """Read all scalars, and their instants or speeds, by name."""
     names = [name for name in (*AXES, *SCALARS) if name in file.variables]
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
@@ -216,7 +216,7 @@ def described_fields(file: netCDF4.Dataset) -> dict[str, Any] | None:
     return {"names": names, "axis": axis, "instants": instants, **grid}
 
 
-def write_errors(file: netCDF4.Dataset, values: Mapping[str, NDArray[np.float64]]) -> None:
+def write_errors(file: netCDF4.Dataset, values: Mapping[str, Floats]) -> None:
     """Write the errors of the scalars, for all rows, by the names of the scalars."""
     for name, errors in values.items():
         file.variables[error_name(name)][: len(errors)] = errors

@@ -9,8 +9,8 @@ import zlib
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Numbers
 from viscontact.time_integration.restart_data import RestartData
 
 #: Name of the JSON outline among the arrays, and the key in it that refers to an array.
@@ -33,7 +33,7 @@ def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
     >>> read_plain(file)
     {'work': 1.5, 'past': [None, 'left']}
     """
-    arrays: list[NDArray[Any]] = []
+    arrays: list[Numbers] = []
     outline = json.dumps(_outlined(restart_data, arrays))
     with zipfile.ZipFile(file, "w") as archive:
         _add(archive, _OUTLINE, np.frombuffer(outline.encode(), dtype=np.uint8))
@@ -41,7 +41,7 @@ def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
             _add(archive, f"a{index}", array)
 
 
-def _add(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
+def _add(archive: zipfile.ZipFile, name: str, array: Numbers) -> None:
     """Add an array in NumPy's format without copying it, which would take longer than a step."""
     kept = array if array.flags.c_contiguous or array.flags.f_contiguous else array.copy()
     with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
@@ -97,7 +97,7 @@ def outline_of(file: BinaryIO) -> Any:
         raise ValueError("it is damaged, or was written by something else") from error
 
 
-def _outlined(value: Any, arrays: list[NDArray[Any]]) -> Any:
+def _outlined(value: Any, arrays: list[Numbers]) -> Any:
     if isinstance(value, np.ndarray):
         arrays.append(value)
         return {_ARRAY: len(arrays) - 1}

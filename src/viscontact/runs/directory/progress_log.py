@@ -11,9 +11,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, Self
 
-import numpy as np
-from numpy.typing import NDArray
-
+from viscontact.backend.arrays import Floats
 from viscontact.results.variables import AXES, error_name, scalars_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
@@ -108,7 +106,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
     def finish(
         self,
-        errors: Mapping[str, NDArray[np.float64]] | None = None,
+        errors: Mapping[str, Floats] | None = None,
         fields: Mapping[str, Any] | None = None,
         judged: Mapping[str, str] | None = None,
     ) -> None:
@@ -196,7 +194,7 @@ def _entries(state: ContactState) -> dict[str, Any]:
     return {**entries, "outcome": outcome, "warnings": list(state.warnings)}
 
 
-def _errors(errors: Mapping[str, NDArray[np.float64]], row: int) -> dict[str, float | str | None]:
+def _errors(errors: Mapping[str, Floats], row: int) -> dict[str, float | str | None]:
     """Errors of the scalars at an instant."""
     values = {error_name(name): float(each[row]) for name, each in errors.items()}
     return {

@@ -8,10 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Generic, Protocol, Self, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 from viscontact.accuracy.error_bars import ErrorBars
+from viscontact.backend.arrays import Floats
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.atomic_files import fresh_name
 from viscontact.runs.directory.checkpoint import (
@@ -148,7 +146,7 @@ class Recorded(ABC, Generic[Run]):
     def error_bars(
         self,
         march: Marching,
-        history: Mapping[str, NDArray[np.float64]],
+        history: Mapping[str, Floats],
         writer: ResultWriter,
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:

@@ -7,10 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from viscontact.accuracy.error_bars import ErrorBars
+from viscontact.backend.arrays import Floats
 from viscontact.results.descriptions import describe
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.recorded import Marching, Recorded
@@ -120,7 +118,7 @@ class RecordedCurve(Recorded[SteadySetup]):
     def error_bars(
         self,
         march: Marching,
-        history: Mapping[str, NDArray[np.float64]],
+        history: Mapping[str, Floats],
         writer: ResultWriter,
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:

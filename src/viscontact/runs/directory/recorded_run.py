@@ -7,10 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from viscontact.accuracy.error_bars import ErrorBars, error_bars
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
@@ -113,7 +111,7 @@ class RecordedRun(Recorded[RunSetup]):
     def error_bars(
         self,
         march: Marching,
-        history: Mapping[str, NDArray[np.float64]],
+        history: Mapping[str, Floats],
         writer: ResultWriter,
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:

@@ -12,9 +12,9 @@ from typing import Any, Self
 
 import netCDF4
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.accuracy.error_bars import ErrorBars
+from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.results.enlarged_grid import enlargement
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
@@ -177,7 +177,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         with self._guard.writing():
             self._file()
 
-    def history(self) -> dict[str, NDArray[np.float64]]:
+    def history(self) -> dict[str, Floats]:
         """Return all scalars and instants so far."""
         with self._guard.writing():
             self._write_waiting()

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.units.parsing import parse_any_quantity, parse_quantity
 
@@ -96,7 +96,7 @@ def coordinate(key: str, dim: str, texts: Sequence[str]) -> xr.Variable:
     return xr.Variable(dim, np.array(texts, dtype=np.str_), attributes)
 
 
-def _numbers(key: str, texts: Sequence[str]) -> tuple[NDArray[np.float64], str]:
+def _numbers(key: str, texts: Sequence[str]) -> tuple[Floats, str]:
     """SI values of quantities of one dimension, NaN where none is given, and their unit.
 
     ValueError for other texts.

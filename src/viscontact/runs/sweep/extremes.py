@@ -6,8 +6,8 @@ from contextlib import suppress
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.runs.sweep.designs import Design
 from viscontact.units.parsing import parse_any_quantity
 
@@ -38,7 +38,7 @@ def extreme_rows(design: Design) -> list[int]:
     return sorted({0, *(int(row) for row in found)})
 
 
-def _ranks(values: tuple[str, ...]) -> NDArray[np.float64]:
+def _ranks(values: tuple[str, ...]) -> Floats:
     """Places of values in their order, from -1 to 1; texts are in the order of the design."""
     numbers = _numbers(list(dict.fromkeys(values)))
     order = {text: place for place, text in enumerate(sorted(numbers, key=numbers.__getitem__))}

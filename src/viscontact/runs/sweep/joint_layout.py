@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from viscontact import __version__
+from viscontact.backend.arrays import Floats
 from viscontact.results.variables import (
     AXES,
     ERRORS,
@@ -23,8 +23,6 @@ from viscontact.runs.sweep.axes import SweepAxes, sweep_axes
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 from viscontact.runs.sweep.run_scalars import COLUMNS, RunOutline, run_outline, run_scalars
 from viscontact.runs.sweep.states import RunState, State, run_state
-
-Floats = NDArray[np.float64]
 
 #: Called with the numbers of finished and of all runs.
 Progress = Callable[[int, int], None]

@@ -10,8 +10,8 @@ from typing import Any
 
 import netCDF4
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.results.variables import AXES, ERRORS, SCALARS
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import described_fields, opened
@@ -30,7 +30,7 @@ class RunOutline:
     """Instants or speeds of a finished run, and what its result holds."""
 
     over: str  # "time" or "speed"
-    rows: NDArray[np.float64]  # instants [s] or speeds [m/s]
+    rows: Floats  # instants [s] or speeds [m/s]
     columns: frozenset[str]  # those of `COLUMNS` that the result states
     fields: dict[str, Any] | None  # as `described_fields` returns it
     verdict: str = ""  # the worst on the allowable values; empty without any
@@ -54,7 +54,7 @@ def run_outline(directory: Path) -> RunOutline:
         return RunOutline(over, rows, frozenset(_stored(file)), described_fields(file))
 
 
-def run_scalars(directory: Path) -> NDArray[np.float64]:
+def run_scalars(directory: Path) -> Floats:
     """Read the scalars of a finished run: a row an instant or speed, `COLUMNS` in SI units.
 
     NaN where the result does not state a scalar. OSError or ValueError if it cannot be read.
@@ -89,7 +89,7 @@ def _stored(file: netCDF4.Dataset) -> list[str]:
     return [name for name in COLUMNS if name in file.variables]
 
 
-def _of_result(path: Path) -> NDArray[np.float64]:
+def _of_result(path: Path) -> Floats:
     with opened(path, "r") as file:
         table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
         for name in _stored(file):

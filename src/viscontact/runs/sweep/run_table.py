@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import IO, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats, Numbers
 from viscontact.results.variables import SCALARS, Place, error_name, shown_in
 from viscontact.runs.sweep.joint_layout import JointLayout, Progress
 
@@ -39,7 +39,7 @@ def write_run_table(layout: JointLayout, file: IO[str], progress: Progress) -> N
         progress(runs.stop, len(layout.runs))
 
 
-def _spread(layout: JointLayout, coordinate: Any) -> NDArray[Any]:
+def _spread(layout: JointLayout, coordinate: Any) -> Numbers:
     """Values of a coordinate over all dimensions of the runs."""
     sizes = [
         size if dim in coordinate.dims else 1
@@ -70,9 +70,7 @@ def _with_unit(name: str, units: str) -> str:
     return name if unit == "1" else f"{name} [{unit}]"
 
 
-def _scalars(
-    layout: JointLayout, names: list[str], values: NDArray[np.float64]
-) -> Iterator[float | str]:
+def _scalars(layout: JointLayout, names: list[str], values: Floats) -> Iterator[float | str]:
     """Cells of the scalars of a run from the values of `JointLayout.names` over its instants."""
     for name in names:
         row = values[layout.names.index(name)]
@@ -84,7 +82,7 @@ def _scalars(
                 yield _cell(bars, at)
 
 
-def _instants(row: NDArray[np.float64], force: NDArray[np.float64]) -> tuple[int | None, ...]:
+def _instants(row: Floats, force: Floats) -> tuple[int | None, ...]:
     """Places of the last instant, and of the largest magnitude; None without a value."""
     reached = np.flatnonzero(np.isfinite(force))
     if not reached.size:
@@ -94,7 +92,7 @@ def _instants(row: NDArray[np.float64], force: NDArray[np.float64]) -> tuple[int
     return int(reached[-1]), largest
 
 
-def _cell(values: NDArray[np.float64], at: int | None) -> float | str:
+def _cell(values: Floats, at: int | None) -> float | str:
     """Value at an instant; empty without one, as a spreadsheet has no NaN."""
     value = np.nan if at is None else float(values[at])
     return "" if np.isnan(value) else value

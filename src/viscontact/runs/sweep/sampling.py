@@ -10,8 +10,8 @@ from typing import Literal
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from viscontact.backend.arrays import Floats
 from viscontact.runs.sweep.designs import Design
 from viscontact.units.parsing import parse_any_quantity, split_quantity
 from viscontact.units.tolerances import read_toleranced
@@ -114,7 +114,7 @@ def sample_design(
     return Design("sample", tuple(each.key for each in ranges), tuple(rows))
 
 
-def _points(dimensions: int, number: int, seed: int, method: Method) -> NDArray[np.float64]:
+def _points(dimensions: int, number: int, seed: int, method: Method) -> Floats:
     """Points in the unit cube, shape (number, dimensions)."""
     generator = np.random.default_rng(seed)
     if method == "latin-hypercube":

@@ -1,0 +1,21 @@
+"""Types of arrays, by the kind of their numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+#: Real numbers in double precision.
+Floats = NDArray[np.float64]
+#: Real numbers in single precision, which the search for a contact uses.
+Singles = NDArray[np.float32]
+#: Complex numbers in double precision.
+Complexes = NDArray[np.complex128]
+#: Masks.
+Bools = NDArray[np.bool_]
+#: Indices and counts.
+Integers = NDArray[np.intp]
+#: Numbers of any kind: real or complex, in single or double precision.
+Numbers = NDArray[Any]
