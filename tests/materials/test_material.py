@@ -11,6 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viscontact.laws import (
+    WLF,
+    Arrhenius,
     BesideSpring,
     Burgers,
     CreepSeries,
@@ -19,6 +21,7 @@ from viscontact.laws import (
     RelaxationSeries,
     TabulatedCreep,
     TabulatedRelaxation,
+    TabulatedShift,
     Zener,
 )
 from viscontact.materials.compliance import SeriesCompliance
@@ -233,3 +236,55 @@ def test_table_knows_from_when_on_it_rests_on_data():
     assert Material(BesideSpring(modulus, 1.0), 0.3).known_from == 0.1
     assert Material(TabulatedCreep([0.0, 1.0, 10.0], [1.0, 2.0, 3.0]), 0.3).known_from == 0.0
     assert Material(Maxwell(3.0, 7.0), 0.3).known_from == 0.0
+
+
+SHIFTS = [
+    WLF(298.15, 17.44, 51.6),
+    Arrhenius(298.15, 80e3),
+    TabulatedShift([278.15, 298.15, 348.15], [7.5, 1.0, 1e-3]),
+]
+
+
+@pytest.mark.parametrize("shift", SHIFTS, ids=lambda each: type(each).__name__)
+@given(
+    law=st.sampled_from([law for law, _ in SPRINGS]),
+    temperature=st.floats(278.15, 348.15),
+    t=st.floats(0.0, 1e6),
+)
+def test_material_at_a_temperature_has_the_law_slowed_by_the_factor(shift, law, temperature, t):
+    material = Material(law, bulk_modulus=8.0, measured_until=100.0, notes=["a"], shift=shift)
+    factor = shift.factor(temperature)
+    there = material.at(temperature)
+    assert there.law(t) == law.slowed(factor)(t)
+    assert there.measured_until == factor * 100.0
+    assert there == dataclasses.replace(
+        material, law=there.law, measured_until=there.measured_until, shift=None
+    )
+
+
+@pytest.mark.parametrize("shift", SHIFTS, ids=lambda each: type(each).__name__)
+@pytest.mark.parametrize("law", [law for law, _ in SPRINGS])
+@given(t=st.floats(0.0, 1e6))
+def test_material_at_the_reference_temperature_has_its_own_law(shift, law, t):
+    material = Material(law, 0.3, shift=shift)
+    assert material.at(298.15).law(t) == law(t)
+    assert material.at(298.15) == Material(law, 0.3)
+
+
+def test_material_without_a_shift_has_no_other_temperature():
+    with pytest.raises(ValueError, match=r"shift must be given .* at 313\.15 K, got None; write"):
+        Material(Zener(3.0, 0.4, 7.0), 0.3).at(313.15)
+    with pytest.raises(ValueError, match=r"must be WLF, Arrhenius or TabulatedShift, got 2\.0"):
+        Material(Zener(3.0, 0.4, 7.0), 0.3, shift=2.0)
+    with pytest.raises(ValueError, match=r"must be used between 278\.15 and 348\.15 K"):
+        Material(Zener(3.0, 0.4, 7.0), 0.3, shift=SHIFTS[2]).at(273.15)
+
+
+@pytest.mark.parametrize("shift", SHIFTS, ids=lambda each: type(each).__name__)
+def test_results_keep_the_shift_of_a_material_that_has_one(shift):
+    plain = Material(Zener(3.0, 0.4, 7.0), 0.3)
+    assert "shift" not in describe(plain)  # the text of results from before
+    described = json.loads(json.dumps(describe(dataclasses.replace(plain, shift=shift))))
+    assert described["shift"]["type"] == type(shift).__name__
+    assert rebuild(described) == dataclasses.replace(plain, shift=shift)
+    assert rebuild(describe(plain)) == plain

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 
 from viscontact.display import Displayable
-from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
+from viscontact.laws import (
+    BesideSpring,
+    Law,
+    SeriesLaw,
+    Shift,
+    TabulatedCreep,
+    TabulatedRelaxation,
+)
 from viscontact.laws.arguments import compressibility
 from viscontact.laws.interconversion.series import relaxation_from_creep
 from viscontact.materials.compliance import (
@@ -41,11 +48,15 @@ class Material(Displayable):
         Notes on the origin of the law, such as the quality of its fit; results keep them.
     warning : str, optional
         Warning about the law, such as a fit that misses its data; each run issues it.
+    shift : WLF, Arrhenius or TabulatedShift, optional
+        Time-temperature shift, for `at`. The law, and `measured_until`, are those at its reference
+        temperature; a run uses them unshifted.
 
     Raises
     ------
     ValueError
-        If the law is not one, not exactly one of the two is given, or it is out of range.
+        If the law or the shift is not one, not exactly one of ν and K is given, or a number is out
+        of range.
 
     Examples
     --------
@@ -63,6 +74,7 @@ class Material(Displayable):
     thickness: float | None = field(default=None, metadata={"unit": "m"})
     notes: tuple[str, ...] = field(default=(), metadata={"recorded": "if given"})
     warning: str | None = field(default=None, metadata={"recorded": "if given"})
+    shift: Shift | None = field(default=None, metadata={"recorded": "if given"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
@@ -73,6 +85,56 @@ class Material(Displayable):
         store(self, poisson_ratio=ratio, bulk_modulus=bulk)
         check_fields(self, "measured_until", "thickness")
         object.__setattr__(self, "notes", tuple(self.notes))
+        if self.shift is not None and not isinstance(self.shift, Shift):
+            raise ValueError(
+                f"Material: shift must be WLF, Arrhenius or TabulatedShift, got {self.shift!r}"
+            )
+
+    def at(self, temperature: float) -> Material:
+        """Return the material at a constant temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        Material
+            The material whose law and `measured_until` have all their times multiplied by the
+            shift factor a_T. It has no shift: its law no longer holds at the reference temperature.
+
+        Raises
+        ------
+        ValueError
+            If the material has no shift, or the shift does not hold at this temperature.
+
+        Notes
+        -----
+        Phi(t) becomes Phi(t/a_T). Poisson's ratio and the bulk modulus do not change with
+        temperature.
+
+        Examples
+        --------
+        >>> from viscontact.laws import WLF, Maxwell
+        >>> fluid = Maxwell(shear_modulus=1e6, viscosity=1e9)
+        >>> warm = Material(fluid, 0.5, shift=WLF(293.15, c1=8.86, c2=101.6)).at(313.15)
+        >>> print(f"{warm.law.viscosity:.3g} Pa s")
+        3.49e+07 Pa s
+        """
+        if self.shift is None:
+            raise ValueError(
+                f"Material: shift must be given for the law at {temperature:g} K, got None; write "
+                "e.g. Material(law, poisson_ratio, shift=WLF(298.15, 17.44, 51.6))"
+            )
+        factor = self.shift.factor(temperature)
+        until = self.measured_until
+        return replace(
+            self,
+            law=self.law if factor == 1.0 else self.law.slowed(factor),
+            measured_until=None if until is None else factor * until,
+            shift=None,
+        )
 
     @property
     def known_until(self) -> float:

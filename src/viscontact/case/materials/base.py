@@ -100,24 +100,21 @@ class Medium(Section):
 
     def _at_temperature(self, material: Material, shift: Shift | None) -> Material:
         """Return the material at the temperature of the run, with its known range."""
-        factor = 1.0
-        if self.temperature is not None:
-            if shift is None:
+        keys = {"measured_until": self.measured_until, "thickness": self.thickness}
+        given: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
+        if self.temperature is None:
+            if self.shift is not None:
                 raise ValueError(
-                    "temperature: needs a shift, e.g. '{kind: wlf, reference_temperature: "
-                    "25 degC, c1: 17.44, c2: 51.6 K}'"
+                    "shift: needs a temperature to shift to, e.g. 'temperature: 60 degC'"
                 )
-            factor = shift.factor(self.temperature)
-        elif self.shift is not None:
-            raise ValueError("shift: needs a temperature to shift to, e.g. 'temperature: 60 degC'")
-        until = material.measured_until if self.measured_until is None else self.measured_until
-        return replace(
-            material,
-            law=material.law if factor == 1.0 else material.law.slowed(factor),
-            # The known range of the given law is shifted with it.
-            measured_until=None if until is None else factor * until,
-            thickness=material.thickness if self.thickness is None else self.thickness,
-        )
+            return replace(material, **given)
+        if shift is None:
+            raise ValueError(
+                "temperature: needs a shift, e.g. '{kind: wlf, reference_temperature: "
+                "25 degC, c1: 17.44, c2: 51.6 K}'"
+            )
+        # The given range is that of the unshifted law.
+        return replace(material, shift=shift, **given).at(self.temperature)
 
     @property
     def _in_volume(self) -> dict[str, Any]:
