@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from viscontact import plot
 from viscontact.figures.histories import history, panel_names
 from viscontact.figures.look import LIGHT
 from viscontact.figures.loops import loops, loops_of
@@ -16,6 +17,7 @@ from viscontact.figures.pressure_map import pressure_map
 from viscontact.figures.sections import section, section_place
 from viscontact.figures.shown_fields import shown_fields
 from viscontact.loads.motion import Motion
+from viscontact.notebook.result_card import result_card
 from viscontact.report.page import report_page
 from viscontact.report.section_csv import section_csv
 
@@ -82,6 +84,12 @@ def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) ->
     assert history(moved, "position_y").layout.meta["note"] == ""
     assert {"resistance_y", "friction_coefficient", "motion_work", "heat"} <= set(response)
     assert "resistance_x" not in response  # rounding
+    labels = [axes.get_ylabel() for axes in plot.history(moved).axes]
+    assert "Resistance along y [mN]" in labels
+    assert not [label for label in labels if label.startswith("Resistance along x")]
+    rows = [words for words, *_ in result_card(moved).rows]
+    assert "resistance along y" in rows
+    assert "resistance along x" not in rows
 
 
 def test_elastic_body_has_no_panels_of_resistance() -> None:

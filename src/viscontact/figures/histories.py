@@ -7,6 +7,7 @@ import plotly.graph_objects as go
 import xarray as xr
 
 from viscontact.backend.arrays import Floats, Singles
+from viscontact.drawing.content.history import is_idle
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers, words
 from viscontact.figures.run_scale import RunScale, run_scale
 from viscontact.results.recorded_case import prescribes_approach
@@ -18,8 +19,6 @@ from viscontact.results.stated_errors import (
     NOT_DRAWN,
     drawn_values,
     errors_of,
-    is_centred,
-    is_rounding,
     lacks_curve,
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
@@ -133,12 +132,7 @@ def _response(ds: xr.Dataset) -> list[str]:
     shown = shown_scalars(ds, Place.RESPONSE)
     if run_axis(ds) is SPEED:
         shown.append(f"eccentricity_{motion_axis(ds)}")  # the contact lies ahead of the axis
-    return [answer.get(name, name) for name in shown if not _is_idle(ds, name)]
-
-
-def _is_idle(ds: xr.Dataset, name: str) -> bool:
-    """Test for rounding under a centred load, on an elastic body, or across the motion."""
-    return is_rounding(ds, name) if SCALARS[name].moving else is_centred(ds, name)
+    return [answer.get(name, name) for name in shown if not is_idle(ds, name)]
 
 
 def _varies(ds: xr.Dataset, name: str) -> bool:

@@ -8,12 +8,13 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.history import is_idle
 from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
 from viscontact.results.formatting import format_scalar
 from viscontact.results.shown_scalars import shown_labels
-from viscontact.results.stated_errors import errors_of, is_centred
+from viscontact.results.stated_errors import errors_of
 from viscontact.results.summary import headline
 from viscontact.results.variables import REQUIRED, Place, shown_in
 from viscontact.units.formatting import format_quantity
@@ -38,7 +39,7 @@ def result_card(ds: xr.Dataset) -> Card:
     rows = [
         (label.lower(), *(format_scalar(ds, name, k) for k in shown))
         for name, label in shown_labels(ds, Place.CARD).items()
-        if not is_centred(ds, name)
+        if not is_idle(ds, name)
     ]
     return Card(_title(ds), [*rows, *_warnings(ds)], _drawings(ds), heads, headline(ds))
 

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from viscontact.drawing.content.history import is_idle
 from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
@@ -31,7 +32,6 @@ from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import (
     NOT_DRAWN,
     drawn_values,
-    is_centred,
     lacks_curve,
     stated_error,
 )
@@ -180,7 +180,7 @@ def _worth_a_panel(name: str, runs: Collection[xr.Dataset]) -> bool:
     if name == "force" or (name == "peak_line_load" and all(map(across_period, runs))):
         loads = (run[name].values for run in runs)
         return any(np.ptp(load) > 1e-6 * np.max(load) for load in loads)
-    return not all(is_centred(run, name) for run in runs)
+    return not all(is_idle(run, name) for run in runs)
 
 
 def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:

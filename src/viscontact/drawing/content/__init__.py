@@ -1,0 +1,1 @@
+"""Figures as plain data, made from results without a plotting library."""

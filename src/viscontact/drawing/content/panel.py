@@ -1,0 +1,124 @@
+"""Panels of curves as plain data: what is drawn, in which units and ranges, and what is noted.
+
+A figure is made in two steps. A function of this room takes results, and decides everything that a
+reader sees: which panels there are, their axes, units and ranges, curves with their errors, marks
+and notes. It returns panels. A renderer draws them: Matplotlib, Plotly or SVG. It chooses colours,
+fonts and places only. All numbers are in SI; each axis has the unit in which they are drawn.
+
+Examples
+--------
+>>> import numpy as np
+>>> times, areas = np.array([0.0, 1.0]), np.array([1e-6, 2e-6])
+>>> panel = Panel(
+...     Axis.of("Time", "s", times),
+...     Axis.of("Contact area", "m2", areas),
+...     (Curve(times, areas, error=0.1 * areas),),
+... )
+>>> panel.y.label, panel.y.unit(panel.curves[0].y).round(6).tolist()
+('Contact area [mm²]', [1.0, 2.0])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
+from viscontact.units.formatting import ReadableUnit, readable_unit
+
+#: Choice of a unit: called with an SI unit and values [SI], as `readable_unit` is.
+Units = Callable[..., ReadableUnit]
+
+#: Part per cent, of values without unit.
+PERCENT = ReadableUnit("%", 0.01)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Axis of a panel: quantity, unit, range and scale."""
+
+    quantity: str
+    unit: ReadableUnit
+    limits: tuple[float, float] | None = None  # [SI]; None: around what is drawn
+    #: "time" is logarithmic from the first step on, with the instant 0 at its beginning.
+    scale: Literal["linear", "log", "time"] = "linear"
+    texts: tuple[str, ...] = ()  # at 0, 1, 2, ... in place of numbers
+
+    @classmethod
+    def of(cls, quantity: str, si: str, *values: ArrayLike, units: Units = readable_unit) -> Axis:
+        """Linear axis for values of an SI unit."""
+        return cls(quantity, units(si, *values))
+
+    @property
+    def label(self) -> str:
+        """Quantity with its unit."""
+        return self.unit.label(self.quantity)
+
+
+@dataclass(frozen=True)
+class Ink:
+    """Colour of a curve by its meaning; each renderer has its own shades.
+
+    "run" is one of several different things, by its number from 0; "ordered" is one of a sequence,
+    by its place from 0 (first) to 1 (last).
+    """
+
+    kind: Literal["run", "ordered", "faint", "text", "fault"] = "run"
+    place: float = 0
+
+
+#: What is shown, what is compared with it, and lines of less importance.
+FIRST, SECOND, FAINT = Ink(), Ink(place=1), Ink("faint")
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Curve or points in the order in which they are joined [SI]; NaN interrupts a line."""
+
+    x: Floats
+    y: Floats
+    name: str = ""  # in the legend
+    ink: Ink = FIRST
+    look: Literal["line", "dashed", "dotted", "points", "hollow", "joined"] = "line"
+    #: Half widths: bands along a line, bars at points; NaN where unknown, inf on the mesh.
+    error: Floats | None = None
+    error_x: Floats | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """Range along the horizontal axis [SI], such as that of most samples."""
+
+    x: Floats
+    low: Floats
+    high: Floats
+    name: str = ""
+    ink: Ink = FIRST
+
+
+@dataclass(frozen=True)
+class Mark:
+    """Line across a panel at a place on one of its axes [SI], with a text."""
+
+    place: float
+    axis: Literal["x", "y"] = "x"
+    text: str = ""
+    look: Literal["line", "dashed", "dotted"] = "line"
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """Panel of a figure."""
+
+    x: Axis
+    y: Axis
+    curves: tuple[Curve, ...] = ()
+    bands: tuple[Band, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    title: str = ""
+    note: str = ""  # remark beside the title
+    in_place: str = ""  # text in place of curves that are not drawn
+    name: str = ""  # identifies the panel, such as a scalar
