@@ -39,7 +39,7 @@ _AT_BOUND = 1e-3  # part of a range that counts as its bound
 _RUNS_PER_UNKNOWN = 40
 
 
-def fit_case(
+def fit_case(  # noqa: PLR0913
     case: str | PathLike[str],
     records: Record | Sequence[Record],
     change: Mapping[str, Any],

@@ -44,7 +44,7 @@ RUNS = 60
 Progress = Callable[[int, int], None]
 
 
-def design(
+def design(  # noqa: PLR0913
     case: str | PathLike[str],
     change: Mapping[str, Any],
     *,

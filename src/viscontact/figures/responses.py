@@ -140,7 +140,7 @@ def _names(ds: xr.Dataset) -> list[str]:
     return [str(name) for name in names]
 
 
-def _figure(
+def _figure(  # noqa: PLR0913
     ds: xr.Dataset,
     name: str,
     axis: KeyAxis,

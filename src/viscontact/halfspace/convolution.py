@@ -62,7 +62,7 @@ class Convolution:
     1.452621
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913
         self,
         coefficients: Floats,
         *,

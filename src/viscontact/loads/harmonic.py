@@ -113,7 +113,7 @@ class HarmonicHistory(LoadHistory):
         return tuple(itertools.pairwise(ends))
 
 
-def harmonic(
+def harmonic(  # noqa: PLR0913
     mean: float | None = None,
     amplitude: float | None = None,
     period: float | None = None,

@@ -97,7 +97,7 @@ def ramp(
     return _history(control, times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
 
 
-def triangle(
+def triangle(  # noqa: PLR0913
     force: float | None = None,
     rise: float | None = None,
     fall: float | None = None,

@@ -127,7 +127,7 @@ class ContactEstimate:
         return x + self.length / 2, y + self.width / 2
 
 
-def elastic_contact(
+def elastic_contact(  # noqa: PLR0913
     open_gap: Floats,
     compliance: float,
     point: LoadPoint,

@@ -151,7 +151,7 @@ def series_complex_compliance(
     return complex(instant + delayed.sum() + fluidity / turn)
 
 
-def punch_harmonic_start(
+def punch_harmonic_start(  # noqa: PLR0913
     t: ArrayLike,
     mean: float,
     amplitude: float,

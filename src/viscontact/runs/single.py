@@ -34,7 +34,7 @@ from viscontact.state import ContactState
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
 
-def simulate(
+def simulate(  # noqa: PLR0913
     indenter: Indenter,
     material: Material | Layered,
     load: LoadHistory | LoadProgram,

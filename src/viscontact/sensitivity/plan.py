@@ -90,7 +90,7 @@ class Plan:
         return VariedRun(whole, settings, varied, name, directory, "sample")
 
 
-def planned(
+def planned(  # noqa: PLR0913
     path: Path,
     case: Case,
     settings: Mapping[str, str],

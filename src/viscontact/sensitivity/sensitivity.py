@@ -39,7 +39,7 @@ MOST_NAMED = 10
 MOST_STEP = 0.5
 
 
-def sensitivity(
+def sensitivity(  # noqa: PLR0913
     case: str | PathLike[str],
     of: Sequence[str] | str,
     *,

@@ -47,7 +47,7 @@ class FitOptions(TypedDict, total=False):
     tolerance: float
 
 
-def fit_creep(
+def fit_creep(  # noqa: PLR0913
     times: ArrayLike,
     compliance: ArrayLike,
     *,
@@ -134,7 +134,7 @@ def fit_creep(
     return Fit(law, series, data, instants, measured, weights, misfit, **volume)
 
 
-def fit_relaxation(
+def fit_relaxation(  # noqa: PLR0913
     times: ArrayLike,
     modulus: ArrayLike,
     *,
@@ -207,7 +207,7 @@ def fit_relaxation(
     return Fit(law, series, data, instants, measured, weights, misfit, **volume)
 
 
-def fit_dynamic(
+def fit_dynamic(  # noqa: PLR0913
     angular_frequency: ArrayLike,
     storage: ArrayLike,
     loss: ArrayLike,

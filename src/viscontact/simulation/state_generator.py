@@ -29,7 +29,7 @@ from viscontact.time_integration.requested_times import AdaptiveTimes
 Progress = Callable[[ContactState, int, int], None]
 
 
-def march(
+def march(  # noqa: PLR0913
     indenter: Indenter,
     material: Material | Layered,
     load: LoadHistory | LoadProgram,

@@ -29,7 +29,7 @@ from viscontact.steady.problem import steady_problem
 Progress = Callable[[ContactState, int, int], None]
 
 
-def steady(
+def steady(  # noqa: PLR0913
     indenter: Indenter,
     material: Material | Layered,
     load: LoadHistory,

@@ -41,7 +41,7 @@ from viscontact.units.numbers import non_negative, whole
 FEWEST_KNOTS, MOST_KNOTS = 3, 20
 
 
-def design_profile(
+def design_profile(  # noqa: PLR0913
     case: str | PathLike[str],
     *,
     knots: int = 6,

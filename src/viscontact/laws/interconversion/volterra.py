@@ -98,16 +98,15 @@ def respond(
     since: float = 0.0,
     kinks: Sequence[float] = (),
     load: Load | None = None,
-    steps: int = STEPS,
 ) -> Response:
     """Solve ∫ f(t - t') dg(t') = r(t) for g up to the time `end` [s].
 
     `function` and `mean` as in `invert`; before the node `first` [s] g is straight in t, or a
     power if f is one up to `since` [s], far after `first`; `kinks` [s] are made nodes; `load` is
-    r(t) for a growing f with f(0) > 0, and 1 if left out; `steps` counts the steps in a decade of
-    the coarsest grid. Values before a time do not depend on `end`.
+    r(t) for a growing f with f(0) > 0, and 1 if left out. Values before a time do not depend on
+    `end`.
     """
-    coarse = _nodes(first, end, kinks, steps)
+    coarse = _nodes(first, end, kinks)
     middle = _halved(coarse)
     fine = _halved(middle)
     at_once, rough = march(function, mean, coarse, load)
@@ -206,10 +205,10 @@ def _first_node(function: Function, early: float, late: float) -> float:
     return max(min(onset(function), late), late * 10.0**-_MOST_DECADES)
 
 
-def _nodes(first: float, end: float, kinks: Sequence[float], steps: int) -> Floats:
+def _nodes(first: float, end: float, kinks: Sequence[float]) -> Floats:
     """Return a grid even in ln t from the first node past the end, with each kink as a node."""
     # Differentiation loses the last nodes, so the grid ends after them.
-    decades = max(1, math.floor(math.log10(end / first) + 1.5 / steps) + 1)
+    decades = max(1, math.floor(math.log10(end / first) + 1.5 / STEPS) + 1)
     # Whole decades from the first node on: a later end adds nodes and moves none.
     marks = first * 10.0 ** np.arange(decades + 1)
     within = [kink for kink in kinks if first < kink < marks[-1]]
@@ -218,7 +217,7 @@ def _nodes(first: float, end: float, kinks: Sequence[float], steps: int) -> Floa
     parts = [np.array([first])]
     for low, high in itertools.pairwise(edges):
         ratio = high / low
-        count = max(1, math.ceil(steps * math.log10(ratio) - 1e-6))
+        count = max(1, math.ceil(STEPS * math.log10(ratio) - 1e-6))
         parts.append(np.append(low * ratio ** (np.arange(1, count) / count), high))
     return np.concatenate(parts)
 

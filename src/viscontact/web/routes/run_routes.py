@@ -158,7 +158,7 @@ async def interactive(
 
 
 @router.get("/runs/{name}/figure/{figure}.{kind}")
-async def draw(
+async def draw(  # noqa: PLR0913
     calculator: AppCalculator, name: str, figure: str, kind: Kind, request: Request,
     time: Times = None, speed: Speeds = None, dark: bool = False,
 ) -> Response:  # fmt: skip
@@ -171,7 +171,7 @@ async def draw(
 
 
 @router.get("/compare.{kind}")
-async def compare(
+async def compare(  # noqa: PLR0913
     calculator: AppCalculator, kind: Kind, runs: str, request: Request,
     figure: str = "history", time: Times = None, speed: Speeds = None, dark: bool = False,
 ) -> Response:  # fmt: skip
