@@ -17,7 +17,7 @@ from viscontact.results.recorded_case import (
     recorded_grid,
 )
 from viscontact.results.recorded_events import recorded_events
-from viscontact.results.run_axis import TIME, run_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.results.summary import SummaryRow, summary_rows, summary_scalars
 from viscontact.units.formatting import format_quantity
@@ -43,7 +43,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         "The gap under pressure and penetration elsewhere are no larger.",
     )
     yield "Balance", _balance(ds)
-    if run_axis(ds) is TIME:
+    if run_axis(ds).is_history:
         yield "Time discretisation error", _steps(ds)
     yield "Cells", _cells(ds)
     if memory := str(ds.attrs.get("memory", "")):
@@ -116,10 +116,9 @@ def _cells(ds: xr.Dataset) -> str:
 def _coarser_runs(ds: xr.Dataset) -> str:
     if not any(str(name).endswith("_error") and name != "time_error" for name in ds.data_vars):
         return "none: the errors of the numbers above are not estimated"
-    coarser = "runs" if run_axis(ds) is TIME else "contacts at each speed"
     return (
-        f"coarser {coarser} of the same problem, from which the errors are estimated: 95 of 100 "
-        "true errors are expected to lie within the stated ones"
+        f"coarser {run_axis(ds).coarser} of the same problem, from which the errors are estimated: "
+        "95 of 100 true errors are expected to lie within the stated ones"
     )
 
 

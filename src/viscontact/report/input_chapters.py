@@ -22,7 +22,7 @@ from viscontact.report.title_block import file_lines
 from viscontact.results.citation import citations
 from viscontact.results.filed_case import typed_case
 from viscontact.results.formatting import format_scalar
-from viscontact.results.run_axis import SPEED, TIME, run_axis
+from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.summary import legend
 from viscontact.results.variables import SCALARS
@@ -93,7 +93,7 @@ def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the table of errors, and the estimates behind them."""
     axis = run_axis(ds)
     ends = (axis.place(float(ds[axis.name][k])) for k in (0, -1))
-    heads = ("", *ends, "largest", "largest error", "when" if axis is TIME else "at")
+    heads = ("", *ends, "largest", "largest error", "when" if axis.is_history else "at")
     yield _table(heads, accuracy.error_rows(ds))
     yield element("p", legend(ds), class_="faint")
     yield _account(accuracy.accuracy_lines(ds))

@@ -11,7 +11,7 @@ import xarray as xr
 
 from viscontact.materials.layers import named_parts
 from viscontact.results.recorded_case import case_of, is_layered, recorded_object
-from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_axis import creep_times, run_axis
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_number, format_quantity
 
@@ -22,7 +22,7 @@ def notices(ds: xr.Dataset) -> list[str]:
     axis = run_axis(ds)
     times, reached = case_of(ds).get("times") or [], float(ds[axis.name][-1])
     speeds = (case_of(ds).get("motion") or {}).get("speed") or []
-    if axis is SPEED and ds.sizes["speed"] < len(speeds):
+    if not axis.is_history and ds.sizes["speed"] < len(speeds):
         said.append(
             f"The run ended after {ds.sizes['speed']} of {len(speeds)} speeds: this page shows "
             "what it had completed."
@@ -145,10 +145,7 @@ def _strain_of_shape(ds: xr.Dataset) -> tuple[int, float, str] | None:
 def _strain_of_stress(ds: xr.Dataset) -> tuple[int, float, str] | None:
     """Largest product of mean pressure and creep compliance, of the top layer, at one instant."""
     uppermost = next(iter(named_parts(recorded_object(ds, "material", "limits")).values()))
-    creep, times = uppermost.law, ds[run_axis(ds).name].values
-    if run_axis(ds) is SPEED:  # in the time of a passage
-        times = ds[f"contact_{_EXTENTS[str(ds.attrs.get('along', 'y'))]}"].values / times
-    strains = ds["mean_pressure"].values * np.asarray(creep(times))
+    strains = ds["mean_pressure"].values * np.asarray(uppermost.law(creep_times(ds)))
     index = int(np.nan_to_num(strains).argmax())
     strain = float(strains[index])
     definition = "mean pressure times creep compliance at the same instant"

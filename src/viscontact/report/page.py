@@ -25,7 +25,7 @@ from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
-from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
+from viscontact.results.run_axis import in_order, run_axis
 
 #: Titles of the chapters, by their places.
 CHAPTERS = {
@@ -136,8 +136,8 @@ def _body(
     name: str, ds: xr.Dataset, fields: ShownFields | None, over_run: tuple[list[Figure], ...]
 ) -> Iterable[Element]:
     histories = result_chapters.history_chapter(ds, *over_run)
-    titles = CHAPTERS if run_axis(ds) is TIME else CHAPTERS | {"histories": "Over speed"}
-    if run_axis(ds) is SPEED:
+    titles = CHAPTERS | {"histories": run_axis(ds).heading}
+    if not run_axis(ds).is_history:
         histories = chain(input_chapters.speed_table(ds), histories)
     chapters: dict[str, Iterable[Element]] = {
         "allowable": verdict_chapter(ds),

@@ -37,7 +37,7 @@ from viscontact.report.sweep_page import sweep_chapters, sweep_heading
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
 from viscontact.results.filed_case import started_at, title_block
-from viscontact.results.run_axis import SPEED, in_order, run_axis
+from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import is_long
 
 
@@ -100,7 +100,7 @@ def _write(
 
 
 def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
-    over_speed = run_axis(ds) is SPEED
+    axis = run_axis(ds)
     yield from title_lines(ds)
     yield result_chapters.opening(name, ds, {})
     chapters: dict[str, Callable[[xr.Dataset], Iterable[Element]]] = {
@@ -108,7 +108,7 @@ def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
         "pressure": _pressure,
         "spots": spots_chapter,
         "stress": stress_chapter,
-        "histories": _over_speed if over_speed else _history,
+        "histories": _history if axis.is_history else _over_speed,
         "inputs": input_chapters.inputs_chapter,
         "geometry": input_chapters.geometry_chapter,
         "material": input_chapters.material_chapter,
@@ -116,7 +116,7 @@ def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
         "limits": input_chapters.limits_chapter,
         "about": input_chapters.about_chapter,
     }
-    titles = CHAPTERS | ({"histories": "Over speed"} if over_speed else {})
+    titles = CHAPTERS | {"histories": axis.heading}
     for place, chapter in chapters.items():
         if parts := list(chapter(ds)):
             yield element("h2", titles[place])

@@ -26,7 +26,7 @@ from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
-from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import is_long, shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
@@ -152,9 +152,10 @@ def _facts(ds: xr.Dataset) -> Element:
 
 def _fact(ds: xr.Dataset, name: str) -> tuple[int, str]:
     """Row of a result at the head of the page, and its place: the end, or the worst speed."""
-    if run_axis(ds) is SPEED:
+    axis = run_axis(ds)
+    if not axis.is_history:
         index = int(np.nan_to_num(np.abs(ds[name].values)).argmax())
-        place = SPEED.place(float(ds["speed"][index]))
+        place = axis.place(float(ds["speed"][index]))
         return index, f" at {place}" if ds.sizes["speed"] == 1 else f", largest at {place}"
     area = ds["contact_area"].values
     if area[-1] > 0:

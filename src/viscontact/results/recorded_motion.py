@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
-from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_axis import run_axis
 
 
 def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
@@ -21,7 +21,7 @@ def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
     >>> motion_axis(moved), motion_axis(xr.Dataset())
     ('y', None)
     """
-    if run_axis(results) is SPEED:
+    if not run_axis(results).is_history:
         return "x" if results.attrs.get("along") == "x" else "y"
     if "position_x" not in results or "time" not in results["position_x"].dims:
         return None
@@ -46,7 +46,7 @@ def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None
     axis = motion_axis(results)
     if axis is None:
         return None
-    if run_axis(results) is SPEED:
+    if not run_axis(results).is_history:
         return (1.0, 0.0) if axis == "x" else (0.0, 1.0)
     index = max(1, int(np.abs(results["time"].values - time).argmin()))
     ways = [float(np.diff(results[f"position_{axis}"].values)[index - 1]) for axis in "xy"]

@@ -26,10 +26,20 @@ class RunAxis:
     ('t = 2 s', '500 mm/s')
     """
 
-    name: Literal["time", "speed"]  # dimension of the scalars
+    name: Literal["time", "speed"]  # dimension of the scalars, and label of the axis
     unit: str  # SI
     row: str  # name of a state in sentences
     symbol: str  # before a value
+    heading: str  # of the curves over it
+    kind_of_run: str  # after "a run is"
+    coarser: str  # what the errors are estimated from
+    #: True if each state follows from those before: there are steps, cycles and sums over time.
+    is_history: bool
+
+    @property
+    def rows(self) -> str:
+        """Name of the states in sentences."""
+        return f"{self.row}s"
 
     def values(self, results: Result) -> Floats:
         """Instants [s] or speeds [m/s] of a result."""
@@ -44,8 +54,12 @@ class RunAxis:
         return f"{self.symbol}{self.quantity(value, digits)}"
 
 
-TIME = RunAxis("time", "s", "instant", "t = ")
-SPEED = RunAxis("speed", "m/s", "speed", "")
+TIME = RunAxis("time", "s", "instant", "t = ", "Over time", "over time", "runs", True)
+SPEED = RunAxis(
+    *("speed", "m/s", "speed", "", "Over speed", "of steady motion"),
+    *("contacts at each speed", False),
+)
+RUN_AXES: dict[str, RunAxis] = {axis.name: axis for axis in (TIME, SPEED)}
 
 
 def run_axis(results: Result) -> RunAxis:
@@ -70,7 +84,7 @@ def in_order(results: xr.Dataset) -> xr.Dataset:
     >>> in_order(fast_first)["force"].values.tolist()
     [2.0, 1.0]
     """
-    if run_axis(results) is TIME:
+    if run_axis(results).is_history:
         return results
     ordered = results.sortby([name for name in ("speed", "field_speed") if name in results.dims])
     ordered.encoding = results.encoding  # the place of its file
@@ -89,7 +103,7 @@ def require_time(results: xr.Dataset, figure: str) -> None:
     ValueError: history: shows a run over time, and this result is of steady motion, over speed; \
 draw friction, motion-profile, pressure-map or pressure-profile
     """
-    if run_axis(results) is SPEED:
+    if not run_axis(results).is_history:
         raise ValueError(
             f"{figure}: shows a run over time, and this result is of steady motion, over speed; "
             "draw friction, motion-profile, pressure-map or pressure-profile"
@@ -108,8 +122,13 @@ def law_times(results: xr.Dataset) -> Floats:
     >>> law_times(xr.Dataset(passed, {"speed": [1.0, 2.0]}, {"along": "y"})).tolist()
     [0.005, 0.02]
     """
+    return np.sort(creep_times(results))
+
+
+def creep_times(results: xr.Dataset) -> Floats:
+    """Times for which the material has crept in each state of a run [s], as in `law_times`."""
     axis = run_axis(results)
-    if axis is TIME:
+    if axis.is_history:
         return axis.values(results)
     extent = "contact_length" if results.attrs.get("along") == "x" else "contact_width"
-    return np.sort(results[extent].values / axis.values(results))
+    return np.asarray(results[extent].values / axis.values(results), dtype=np.float64)

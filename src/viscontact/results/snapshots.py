@@ -13,7 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.contact.body_edge import Outline, trace_outline
 from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_object
-from viscontact.results.run_axis import SPEED, RunAxis, run_axis
+from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.units.formatting import time_labels
 
@@ -52,7 +52,7 @@ def take_snapshots(
     stored, axis = field_times(results, figure), run_axis(results)
     if times is not None:
         chosen = _nearest(stored, times, figure, axis)
-    elif axis is SPEED:
+    elif not axis.is_history:
         chosen = _ranked(stored, count)
     else:
         # From the scalars: all fields of a long run need not fit in memory.

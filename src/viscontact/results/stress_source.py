@@ -29,7 +29,7 @@ from viscontact.results.recorded_case import (
     recorded_object,
     recorded_poisson_ratio,
 )
-from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_axis import run_axis
 
 #: The bodies of a result, by the names of the arguments of `simulate`.
 Body = Literal["material", "indenter_material"]
@@ -132,7 +132,7 @@ class StressSource:
         stored = self.results["pressure"]
         if self.history is None or not self.history.times.size:
             return np.asarray(stored.values[list(places)], dtype=np.float64)[None]
-        if run_axis(self.results) is SPEED:
+        if not run_axis(self.results).is_history:
             raise ValueError(
                 "stresses: in these layers, which creep differently, they depend on the history of "
                 "the pressure, and are not available in steady motion; move the body in time "

@@ -135,7 +135,7 @@ def headline(ds: xr.Dataset) -> str:
     exceeds that of the sentence. In steady motion the largest friction coefficient, and the contact
     at its speed.
     """
-    if run_axis(ds) is SPEED:
+    if not run_axis(ds).is_history:
         return _headline_over_speed(ds)
     instants, area = ds["time"].values, ds["contact_area"].values
     end = format_quantity(float(instants[-1]), "s")

@@ -12,7 +12,7 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.results.formatting import format_scalar
 from viscontact.results.recorded_case import recorded_object
-from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_quantity
 
 #: Least part by which the largest value exceeds another one to be worth stating [-].
@@ -72,7 +72,7 @@ class LoadCycle:
 
 def last_cycle(ds: xr.Dataset, *, least: int = 2) -> LoadCycle | None:
     """Last whole cycle of the load; None if the load has fewer than `least` cycles."""
-    if run_axis(ds) is SPEED:
+    if not run_axis(ds).is_history:
         return None
     try:
         load = recorded_object(ds, "load", "summary")
@@ -91,7 +91,7 @@ def worst_places(ds: xr.Dataset, name: str, shown: int) -> dict[str, Any]:
 
     The largest is left out if it hardly exceeds the value at `shown` or those of the cycle.
     """
-    if run_axis(ds) is SPEED:
+    if not run_axis(ds).is_history:
         return {"cycle": None, "largest": None}
     cycle = last_cycle(ds)
     extremes = cycle.extremes(ds, name) if cycle else None

@@ -13,7 +13,7 @@ import xarray as xr
 
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.results.largest_values import over_of
-from viscontact.results.run_axis import SPEED, TIME, RunAxis
+from viscontact.results.run_axis import RUN_AXES, RunAxis
 from viscontact.results.variables import error_name, scalars_with_error
 
 #: Instant of an output: that of its worst value in each run, the last one, or a time [s].
@@ -50,7 +50,7 @@ class Outcomes:
     @property
     def shared_axis(self) -> RunAxis | None:
         """Time or speed, if all runs have the same instants or speeds."""
-        axis = SPEED if over_of(self.joint) == "speed" else TIME
+        axis = RUN_AXES[over_of(self.joint)]
         return axis if self.joint[axis.name].ndim == 1 else None
 
     def values(self, scalar: str) -> Floats:
@@ -76,7 +76,7 @@ class Outcomes:
 
     def _rows_of(self, wanted: float, runs: int) -> Integers:
         """Row of an instant [s] or a speed [m/s] in each run that has it, as the first one must."""
-        axis = SPEED if over_of(self.joint) == "speed" else TIME
+        axis = RUN_AXES[over_of(self.joint)]
         distance = np.abs(np.atleast_2d(self.joint[axis.name].values) - wanted)
         found = np.where(np.isnan(distance), np.inf, distance).argmin(axis=1)
         if not distance[0, found[0]] <= 1e-9 * abs(wanted):

@@ -171,7 +171,7 @@ def _wanted(times: Sequence[str], speeds: Sequence[str]) -> _Wanted | None:
 def _refuse_mixed(runs: Mapping[str, xr.Dataset]) -> None:
     """Refuse to compare runs over time with runs over speed."""
     if len({run_axis(ds).name for ds in runs.values()}) > 1:
-        steady = ", ".join(label for label, ds in runs.items() if run_axis(ds) is SPEED)
+        steady = ", ".join(label for label, ds in runs.items() if not run_axis(ds).is_history)
         refuse(f"compare needs runs over time only, or of steady motion only; over speed: {steady}")
 
 
@@ -222,8 +222,10 @@ def _refuse_outside(wanted: _Wanted | None, ds: xr.Dataset, directory: Path) -> 
         return
     axis = run_axis(ds)
     if wanted.axis is not axis:
-        motion = "of steady motion" if axis is SPEED else "over time"
-        refuse(f"{wanted.option}: the run {directory} is {motion}; give --{axis.name} in its place")
+        refuse(
+            f"{wanted.option}: the run {directory} is {axis.kind_of_run}; give --{axis.name} in "
+            "its place"
+        )
     start, end = float(axis.values(ds).min()), float(axis.values(ds).max())
     # Tolerance for rounding: "0.1 min" may differ from 6 s in the last digit.
     slack = 1e-9 * end

@@ -26,7 +26,7 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.recorded_events import recorded_events
-from viscontact.results.run_axis import SPEED, TIME, run_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.results.single_spot import ends_in_one_spot
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
 from viscontact.results.stored_result import StoredResult
@@ -98,7 +98,7 @@ def _print_verdicts(console: Console, directory: Path) -> None:
 def _shown(ds: StoredResult) -> list[str]:
     """Scalars of the table; over speed with the friction, and without a constant force."""
     shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
-    if run_axis(ds) is TIME:
+    if run_axis(ds).is_history:
         return shown
     left_out = () if prescribes_approach(ds) else ("force",)
     friction = () if is_rounding(ds, _FRICTION) else (_FRICTION,)
@@ -107,7 +107,7 @@ def _shown(ds: StoredResult) -> list[str]:
 
 def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[str]:
     """Lines about the loss per cycle and about errors."""
-    if run_axis(ds) is SPEED and not prescribes_approach(ds):
+    if not run_axis(ds).is_history and not prescribes_approach(ds):
         yield f"force: {format_quantity(float(ds['force'][0]), 'N')} at each speed"
     losses = ds["loss_per_cycle"].values if "loss_per_cycle" in ds else np.empty(0)
     # The loss of a cycle is repeated until the next cycle is complete.

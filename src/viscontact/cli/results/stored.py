@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.recorded_case import case_of
-from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stored_result import Result, StoredResult, stored_result
 from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
 from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
@@ -92,7 +92,7 @@ def early_end(ds: Result) -> str:
 def _made(ds: Result) -> str:
     """Progress of a run that ended early; empty for a complete one."""
     case = case_of(ds)
-    if run_axis(ds) is SPEED:
+    if not run_axis(ds).is_history:
         count, speeds = ds.sizes["speed"], case["motion"]["speed"]
         return f"{count} of {len(speeds)} speeds" if count < len(speeds) else ""
     times, reached = case["times"], float(ds["time"][-1])

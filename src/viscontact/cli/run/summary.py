@@ -19,7 +19,7 @@ from viscontact.cli.results.verdict_lines import verdict_lines
 from viscontact.results.contact_spots import last_spots
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_events import recorded_events
-from viscontact.results.run_axis import SPEED, RunAxis, run_axis
+from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.summary import SummaryRow, legend, summary_rows
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
@@ -43,7 +43,7 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
         console.print(legend(ds), highlight=False)
     axis, seconds = run_axis(ds), format_quantity(float(ds.attrs["wall_time"]), "s", 3)
     count = ds.sizes[axis.name]
-    rows_of = axis.row if axis is SPEED and count == 1 else f"{axis.row}s"
+    rows_of = axis.row if count == 1 and not axis.is_history else axis.rows
     console.print(
         f"{count} {rows_of} in {seconds}, {int(ds['iterations'].sum())} iterations, residual at "
         f"most {float(ds['residual'].max()):.1e}"

@@ -6,7 +6,7 @@ import time as clock
 from contextlib import suppress
 from dataclasses import replace
 
-from viscontact.results.run_axis import SPEED, TIME, RunAxis
+from viscontact.results.run_axis import RUN_AXES, RunAxis
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Child, Ended, RunProcess
@@ -47,7 +47,7 @@ class ManagedRun:
     @property
     def axis(self) -> RunAxis:
         """Quantity in which the states of the run differ."""
-        return SPEED if self.entry.over == "speed" else TIME
+        return RUN_AXES["speed" if self.entry.over == "speed" else "time"]
 
     @property
     def is_over(self) -> bool:

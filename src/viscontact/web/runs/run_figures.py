@@ -16,7 +16,7 @@ from viscontact.figures.pressure_map import map_remarks, pressure_map
 from viscontact.figures.run_scale import run_scale
 from viscontact.figures.sections import sections
 from viscontact.figures.shown_fields import ShownFields, shown_fields
-from viscontact.results.run_axis import SPEED, in_order, run_axis
+from viscontact.results.run_axis import in_order, run_axis
 from viscontact.units.systems import SYSTEMS
 from viscontact.web.workspace.problems import RequestError
 
@@ -62,7 +62,7 @@ def _fields(ds: xr.Dataset) -> ShownFields | None:
 
 def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list[Figure]:
     """Histories without what has a figure of its own; none over a single speed."""
-    if run_axis(ds) is SPEED and ds.sizes["speed"] < 2:
+    if not run_axis(ds).is_history and ds.sizes["speed"] < 2:
         return []
     load, response = panel_names(ds)
     left_out = "friction_coefficient" if has_friction(ds) else ""

@@ -143,12 +143,12 @@ def _kept(run: ManagedRun) -> str:
 
 
 def _figures(run: ManagedRun) -> list[str]:
-    return list(FIGURES if run.axis is TIME else FIGURES | STEADY_FIGURES)
+    return list(FIGURES if run.axis.is_history else FIGURES | STEADY_FIGURES)
 
 
 def _steps_of(run: ManagedRun, states: int) -> int:
     """Steps to reach a number of instants; each speed counts."""
-    return max(states - 1, 0) if run.axis is TIME else states
+    return max(states - 1, 0) if run.axis.is_history else states
 
 
 def _total(run: ManagedRun) -> int | None:
