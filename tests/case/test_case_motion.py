@@ -12,6 +12,7 @@ from tests.case.test_case_loads import problem, read
 import viscontact as vc
 from viscontact.case import Case, case_schema
 from viscontact.cli.entry import main
+from viscontact.loads.motion import STANDING
 from viscontact.report.inputs import inputs
 from viscontact.results.summary import summary_scalars
 from viscontact.simulation.setup import prepare_run
@@ -29,7 +30,6 @@ def moving(folder: Path, **sections: Any) -> Case:
 def test_points_are_positions_along_an_axis(tmp_path: Path) -> None:
     for along, place in (("y", [0.0, 5e-4]), ("x", [5e-4, 0.0])):
         motion = moving(tmp_path, motion={**TRAVEL, "along": along}).motion
-        assert motion is not None
         assert motion.position_at(1.0).tolist() == place
         assert motion.rolling is None
 
@@ -37,10 +37,13 @@ def test_points_are_positions_along_an_axis(tmp_path: Path) -> None:
 def test_file_gives_the_path_along_both_axes_and_belongs_to_the_run(tmp_path: Path) -> None:
     (tmp_path / "path.csv").write_text("time [s],x [um],y [mm]\n0,0,0\n2,100,1\n")
     case = moving(tmp_path, motion={"kind": "travel", "file": "path.csv", "rolling": True})
-    assert case.motion is not None
     assert case.motion.position_at(2.0).tolist() == pytest.approx([1e-4, 1e-3])
     assert case.motion.rolling is True
     assert list(case.files) == [("motion", "file")]
+
+
+def test_body_stands_without_a_motion(tmp_path: Path) -> None:
+    assert read(tmp_path, grid=GRID, load=LOAD).motion == STANDING
 
 
 def test_reciprocation(tmp_path: Path) -> None:

@@ -93,7 +93,7 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     across = float(history["cells_across"].max(initial=0.0))
     wanted = _cell_ratios(across if _may_have_larger_cells(run) else 0.0)
     spacings = _spacings(across, wanted, parities=_parities(run))
-    if run.problem.motion is not None and (whole := whole_cell_ratios(across)):
+    if not run.problem.motion.stands and (whole := whole_cell_ratios(across)):
         spacings = tuple((by, parity) for (by, _), (_, parity) in zip(whole, spacings, strict=True))
         step_ratios = (whole[0][1], whole[1][1])
     # Steps between two times become longer without leaving any of these out.
@@ -105,7 +105,7 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     if divides:
         spacing, step_ratio, left = levels[-1]
         parts = parts_of_shared_steps(own, step_ends(plan_steps(left, load, step_ratio)))
-        if run.problem.motion is not None:
+        if not run.problem.motion.stands:
             parts = np.union1d(parts, parts_of_first_steps(own, load.jumps))
         divided = _coarser_run(run, *spacing, step_ratio, np.union1d(left, parts))
         yield replace(divided, divides_steps=True)
@@ -120,7 +120,7 @@ def _has_program(run: RunSetup) -> bool:
 def _kept_times(run: RunSetup, times: Floats, step_ratio: int) -> Floats:
     """Times of a run of which about every `step_ratio`-th one is kept."""
     motion, stops = run.problem.motion, run.problem.history.stops
-    if motion is None:
+    if motion.stands:
         return fewer_times(times, stops, step_ratio)
     return fewer_moving_times(times, stops, motion, run.grid, step_ratio)
 
@@ -133,14 +133,14 @@ def _has_small_time_error(run: RunSetup, history: History) -> bool:
     times, peak, error = history["time"], history["peak_pressure"], history["time_error"]
     begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
     begins &= times[:-1] > 0
-    jumps = run.problem.motion is not None or run.problem.history.jumps.size > 0
+    jumps = not run.problem.motion.stands or run.problem.history.jumps.size > 0
     small = SMALL_WITH_JUMPS if jumps else SMALL_TIME_ERROR
     return bool(np.nanmax(error) <= small and (error[1:][begins] > 0).all())
 
 
 def _creeps_behind_jumps(run: RunSetup, ends: Floats) -> bool:
     """Test whether a moving body's first step behind a jump is long against the law."""
-    if run.problem.motion is None:
+    if run.problem.motion.stands:
         return False
     _, durations = first_steps(ends, run.problem.history.jumps)
     compliance = run.problem.compliance
@@ -240,7 +240,7 @@ def creeps(compliance: ContactCompliance, times: Floats) -> bool:
 def _coarser_run(
     run: RunSetup, spacing: float, parity: bool, step_ratio: int, times: Floats
 ) -> CoarserRun:
-    if (motion := run.problem.motion) is None:
+    if (motion := run.problem.motion).stands:
         ratios = aligned_spacing(run, spacing, parity)
         coarse = run.on(coarser_grid(run.grid, ratios, parity))
     else:

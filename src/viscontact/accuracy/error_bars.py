@@ -135,7 +135,7 @@ def error_bars_from(
     apart = _certainly_separated(run, history, touching)
     for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
-    if run.problem.motion is not None:
+    if not run.problem.motion.stands:
         before = apart & ~np.logical_or.accumulate(touching)
         for names, where in (
             (ZERO_WITHOUT_MOVING_CONTACT, apart),
@@ -183,7 +183,7 @@ def _bar(
     own = np.abs(levels.values[0])
     scale = moving_maximum(own)
     model = ERROR_MODELS[name]
-    if run.problem.motion is not None:
+    if not run.problem.motion.stands:
         model = MOVING_MODELS.get(name, model)
     by_cells = model.of(levels)
     if model.at_end is not None:

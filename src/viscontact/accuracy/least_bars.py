@@ -206,7 +206,7 @@ def _late_cells(run: RunSetup, history: History) -> Floats:
     radius = _half_breadth(run, history)
     if not creeps(run.problem.surface.creep, history["time"]):
         return np.zeros_like(radius)
-    if run.problem.motion is not None:  # the rear edge leaves a surface that is almost closed
+    if not run.problem.motion.stands:  # the rear edge leaves a surface that is almost closed
         return np.full_like(radius, MOST_LATE)
     grows = np.diff(radius, prepend=0.0) > 0
     last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))

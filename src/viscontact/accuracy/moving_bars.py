@@ -20,7 +20,6 @@ def least_resistance_bar(run: RunSetup, name: str, history: History) -> Floats:
     In the unit of the scalar, over the run's times.
     """
     motion = run.problem.motion
-    assert motion is not None
     extent = np.fmax(history["contact_length"], history["contact_width"])
     slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(np.nan_to_num(extent), TINY)
     coefficient = np.where(extent > 0, run.problem.solver_error * slope, 0.0)
@@ -41,7 +40,7 @@ def entry_rise(run: RunSetup, times: Floats) -> Floats:
     largest pressure of such a layer grows with the root of its stiffness.
     """
     motion, compliance = run.problem.motion, run.problem.compliance
-    if motion is None or not compliance.instant > 0:
+    if motion.stands or not compliance.instant > 0:
         return np.zeros(len(times))
     speeds = np.array([np.hypot(*motion.velocity_at(float(time))) for time in times])
     passing = min(run.grid.cell_size) / np.maximum(speeds, TINY)

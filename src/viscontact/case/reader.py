@@ -21,7 +21,7 @@ from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
-from viscontact.loads.motion import Motion
+from viscontact.loads.motion import STANDING, Motion
 from viscontact.series_fits.fit import Fit
 from viscontact.tables import split_sheet
 
@@ -150,7 +150,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         indenter=combined(found.indenter),
         material=found.material.built,
         load=found.history(),
-        motion=motion if isinstance(motion, Motion) else None,
+        motion=motion if isinstance(motion, Motion) else STANDING,
         title_block=found.report.entries,
         allowable=found.allowable.limits,
         steady=steady,

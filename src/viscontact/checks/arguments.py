@@ -61,7 +61,7 @@ def check_mixed(problem: Problem) -> None:
     """Refuse a load of mixed control where a grid is chosen, repeats, or the body moves."""
     if not isinstance(problem.load, MixedHistory):
         return
-    if problem.motion is not None:
+    if not problem.motion.stands:
         raise ValueError(
             "load: a program, or mixed control, is for a body that does not move; leave motion out"
         )

@@ -30,15 +30,8 @@ CONTACT_OF_TURN, LEFT_AFTER_TURN = 0.1, 0.01
 
 def check_motion(problem: Problem) -> None:
     """Refuse what a moving contact cannot be computed with, before its times are needed."""
-    motion = problem.motion
-    if motion is None:
-        return
-    _check_mate(problem, motion)
-
-
-def _check_mate(problem: Problem, motion: Motion) -> None:
-    mate = problem.indenter_material
-    if mate is None or not creeps(mate):
+    motion, mate = problem.motion, problem.indenter_material
+    if motion.stands or mate is None or not creeps(mate):
         return
     if motion.rolling is None:
         raise ValueError(
@@ -78,7 +71,7 @@ def _circumference(problem: Problem, motion: Motion) -> float:
 def turn_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a roller whose material returns to the contact before it has recovered."""
     motion, mate = problem.motion, problem.indenter_material
-    if motion is None or mate is None or not creeps(mate):
+    if motion.stands or mate is None or not creeps(mate):
         return {}
     turn = _circumference(problem, motion)
     parts = (mate,) if isinstance(mate, Material) else mate.materials
@@ -113,7 +106,7 @@ def left_after(compliance: ContactCompliance, turn: float) -> float:
 
 def check_path(problem: Problem, grid: Grid) -> None:
     """Refuse a path along which the body's axis leaves the grid."""
-    if problem.motion is None:
+    if problem.motion.stands:
         return
     for name, centres, repeats, (low, high) in zip(
         "xy", (grid.x, grid.y), grid.periodic, problem.motion.reach, strict=True
@@ -128,8 +121,6 @@ def check_path(problem: Problem, grid: Grid) -> None:
 
 def axle_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a tilt along the motion that is free of moment."""
-    if problem.motion is None:
-        return {}
     # A body that repeats itself along an axis is level there.
     level = problem.grid.periodic if isinstance(problem.grid, Grid) else (False, False)
     free = [
@@ -159,7 +150,7 @@ def free_tilt_warnings(free: Sequence[str]) -> dict[str, str]:
 
 def row_warnings(problem: Problem) -> dict[str, str]:
     """Warn of a grid that is periodic along the motion only: bodies follow each other."""
-    if problem.motion is None or not isinstance(problem.grid, Grid):
+    if not isinstance(problem.grid, Grid):
         return {}
     for axis, (repeats, moves) in enumerate(
         zip(problem.grid.periodic, problem.motion.moves, strict=True)
@@ -180,7 +171,7 @@ def heat_warnings(
     problem: Problem, grid: Grid, compliances: Sequence[ContactCompliance]
 ) -> dict[str, str]:
     """Warn of a law, among those in the form that the run uses, whose heat is not known."""
-    if problem.motion is None or not problem.has_datum(grid):
+    if problem.motion.stands or not problem.has_datum(grid):
         return {}
     if all(isinstance(each, SeriesCompliance) for each in compliances):
         return {}

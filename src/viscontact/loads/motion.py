@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +27,9 @@ class Motion(ABC):
     A derived class defines `position_at`, `velocity_at`, `kinks` and `moves`, `reach` and
     `times_at_cells`, and `longest_step` if its path is curved between its kinks.
     """
+
+    #: True for a body that stays where it is, which has no resistance, friction, or heat.
+    stands: ClassVar[bool] = False
 
     #: True if the material of both bodies flows through the contact, False if the body slides.
     rolling: bool | None = None
@@ -77,6 +81,51 @@ class Motion(ABC):
     def cycles(self) -> tuple[Cycle, ...]:
         """Begins and ends of the cycles of a reciprocating motion, in order [s]."""
         return ()
+
+    def history_under(self, load: LoadHistory) -> LoadHistory:
+        """Return a load with the kinks and cycles of the path."""
+        return MovingLoad(load, self)
+
+
+@dataclass(frozen=True)
+class Standing(Motion):
+    """Body that stays at the origin."""
+
+    stands: ClassVar[bool] = True
+
+    def position_at(self, times: ArrayLike) -> Floats:
+        """Return the origin, shape (..., 2) [m]."""
+        return np.zeros((*np.shape(times), 2))
+
+    def velocity_at(self, time: float) -> tuple[float, float]:
+        """Return no velocity [m/s]."""
+        return 0.0, 0.0
+
+    @property
+    def kinks(self) -> Floats:
+        """No times [s]."""
+        return np.empty(0)
+
+    @property
+    def reach(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The origin [m]."""
+        return (0.0, 0.0), (0.0, 0.0)
+
+    def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
+        """Return no times, as no cells are passed [s]."""
+        return np.empty(0)
+
+    @property
+    def top_speed(self) -> float:
+        """No speed [m/s]."""
+        return 0.0
+
+    def history_under(self, load: LoadHistory) -> LoadHistory:
+        """Return the load as it is."""
+        return load
+
+
+STANDING = Standing()
 
 
 @dataclass(frozen=True, eq=False)

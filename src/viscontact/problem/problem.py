@@ -17,7 +17,7 @@ from viscontact.laws import Law
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
 from viscontact.loads.mixed import as_history
-from viscontact.loads.motion import Motion, MovingLoad
+from viscontact.loads.motion import STANDING, Motion
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
@@ -81,8 +81,8 @@ class Problem:
         Times whose fields are kept [s].
     step_ratio : float
         Longest step between given times, relative to the longest one that the load allows [-].
-    motion : Motion or None
-        Motion of the body over the surface; None for a standing contact.
+    motion : Motion
+        Motion of the body over the surface.
     """
 
     indenter: Indenter
@@ -94,7 +94,7 @@ class Problem:
     tolerance: float = 1e-6
     fields: str | Sequence[float] = "all"
     step_ratio: float = 1.0
-    motion: Motion | None = None
+    motion: Motion = STANDING
 
     def __post_init__(self) -> None:
         if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
@@ -106,7 +106,7 @@ class Problem:
             ("load", (LoadHistory,), False),
             ("grid", (Grid, AutomaticGrid), True),
             ("indenter_material", (Material, Layered), True),
-            ("motion", (Motion,), True),
+            ("motion", (Motion,), False),
         ):
             value = getattr(self, name)
             if not (isinstance(value, kinds) or (optional and value is None)):
@@ -139,7 +139,7 @@ class Problem:
     @cached_property
     def surface(self) -> Surface:
         """Creep functions and frequency responses of both bodies together."""
-        has_times = self.times is not None or self.motion is not None
+        has_times = self.times is not None or self._steps_over_cells
         if not (has_times and any(map(follows_span, self.bodies))):
             return surface_of(self.bodies)
         first, *others = (material.contact_compliance() for material in self.materials)
@@ -169,7 +169,7 @@ class Problem:
     @cached_property
     def history(self) -> LoadHistory:
         """The load, of a moving body with the kinks and cycles of its path."""
-        return self.load if self.motion is None else MovingLoad(self.load, self.motion)
+        return self.motion.history_under(self.load)
 
     @cached_property
     def instants(self) -> Floats:
@@ -178,7 +178,7 @@ class Problem:
 
     def _instants(self, creep: ContactCompliance) -> Floats:
         """Times of the states, which may depend on the creep of all bodies [s]."""
-        if isinstance(self.times, CellTimes) or (self.times is None and self.motion is not None):
+        if isinstance(self.times, CellTimes) or self._steps_over_cells:
             if isinstance(self.grid, Grid):
                 return self.times_at_cells(self.grid.cell_size)
             # Until the cells are known, those of one that is longer than any path.
@@ -187,7 +187,6 @@ class Problem:
 
     def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Times of a moving contact at which the body has passed whole cells [s]."""
-        assert self.motion is not None  # they are requested with a motion only
         end = self.times.end if isinstance(self.times, CellTimes) else None
         kept = () if isinstance(self.fields, str) else self.fields
         return moving_times(self.motion, self.load, cell_size, end, kept)
@@ -195,8 +194,12 @@ class Problem:
     @property
     def awaits_cells(self) -> bool:
         """True if its times follow from cells that are not chosen yet."""
-        at_cells = self.times is None or isinstance(self.times, CellTimes)
-        return self.motion is not None and at_cells and not isinstance(self.grid, Grid)
+        return self._steps_over_cells and not isinstance(self.grid, Grid)
+
+    @property
+    def _steps_over_cells(self) -> bool:
+        """True if the body passes a cell, or several, in each step."""
+        return isinstance(self.times, CellTimes) or (self.times is None and not self.motion.stands)
 
     @cached_property
     def field_instants(self) -> Floats:
@@ -229,8 +232,7 @@ class Problem:
         """Return the sequence of steps from the start, on cells of a size (dx, dy) [m]."""
         if self.adaptive is None:
             return FixedSteps(self.planned_steps)
-        marks = None if self.motion is None else self.motion.times_at_cells(cell_size)
-        creep = self.surface.creep
+        creep, marks = self.surface.creep, self.motion.times_at_cells(cell_size)
         return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks)
 
     @property

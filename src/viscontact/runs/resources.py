@@ -42,7 +42,7 @@ BYTES_PER_STEP = 2000.0
 def run_memory(run: RunSetup) -> float:
     """Memory of a checked run [bytes], with the scalars of its steps."""
     kept = BYTES_PER_STEP * run.problem.step_count
-    further = 0.0 if run.problem.motion is None else ARRAYS_OF_MOTION
+    further = 0.0 if run.problem.motion.stands else ARRAYS_OF_MOTION
     fields = 0
     for plan in (run.hereditary, *run.other_terms):
         fields += plan.fields_kept

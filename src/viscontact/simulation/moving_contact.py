@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -33,18 +32,27 @@ LONG_WAY = 10.0
 LARGE_CONTACT = 0.5
 
 
-@dataclass(frozen=True)
-class MotionScalars:
-    """Scalars of a moving contact at the end of a step, named as in the result."""
+class StandingContact:
+    """Contact of a body that stays where it is, which does no work of the motion."""
 
-    position_x: float
-    position_y: float
-    resistance_x: float
-    resistance_y: float
-    friction_coefficient: float
-    motion_work: float
-    dissipation: float
-    heat: float
+    work = added = 0.0
+
+    def continue_on(self, run: RunSetup) -> None:
+        """Continue on a larger grid, as on any other."""
+
+    def evaluate(self, step: Step, solution: StepSolution) -> dict[str, float]:
+        """Return no scalars."""
+        return {}
+
+    def warnings(self) -> dict[str, str]:
+        """No warnings."""
+        return {}
+
+    def restart_data(self) -> None:
+        """Return nothing, as nothing is accumulated."""
+
+    def restore(self, restart_data: None) -> None:
+        """Continue from nothing."""
 
 
 class MovingContact:
@@ -66,10 +74,9 @@ class MovingContact:
         """Continue the same run on a larger grid."""
         self._run = run
 
-    def evaluate(self, step: Step, solution: StepSolution) -> MotionScalars:
-        """Return the scalars at the end of a step, and add its work and heat."""
+    def evaluate(self, step: Step, solution: StepSolution) -> dict[str, float]:
+        """Return the scalars at the end of a step, as in the result; add its work and heat."""
         motion = self._run.problem.motion
-        assert motion is not None
         position = np.array(self._run.position_at(step.time))
         way = position - self._position
         resistance = np.array(self._resistance_at(step, solution))
@@ -82,26 +89,25 @@ class MovingContact:
         velocity = np.array(motion.velocity_at(step.time))
         speed = float(np.hypot(*velocity))
         slides = speed > 0 and force > 0
-        return MotionScalars(
-            position_x=float(position[0]),
-            position_y=float(position[1]),
-            resistance_x=float(resistance[0]),
-            resistance_y=float(resistance[1]),
-            friction_coefficient=(
+        return {
+            "position_x": float(position[0]),
+            "position_y": float(position[1]),
+            "resistance_x": float(resistance[0]),
+            "resistance_y": float(resistance[1]),
+            "friction_coefficient": (
                 float((resistance * velocity)[velocity != 0].sum()) / (speed * force)
                 if slides
                 else math.nan
             ),
-            motion_work=self.work,
-            dissipation=solution.power,
-            heat=self._heat,
-        )
+            "motion_work": self.work,
+            "dissipation": solution.power,
+            "heat": self._heat,
+        }
 
     def _resistance_at(self, step: Step, solution: StepSolution) -> tuple[float, float]:
         """Resistance [N] in the form that is more accurate for the material and the speed."""
         grid, extents = self._run.grid, self._half_extents(solution)
         indenter, motion = self._run.indenter_at(step.time), self._run.problem.motion
-        assert motion is not None
         if self._relaxation_way(max(extents)) > LONG_WAY * max(extents):
             found = resistance_by_displacement(solution.pressure, solution.displacement, grid)
         else:
@@ -116,7 +122,6 @@ class MovingContact:
     def _half_extents(self, solution: StepSolution) -> tuple[float, float]:
         """Half the extents of the contact along the axes of motion, 0 along others [m]."""
         motion = self._run.problem.motion
-        assert motion is not None
         along_x, along_y = (
             cell * float(np.count_nonzero(solution.pressure.any(axis=1 - axis))) / 2 * moves
             for axis, (cell, moves) in enumerate(
@@ -128,7 +133,6 @@ class MovingContact:
     def _relaxation_way(self, half_extent: float) -> float:
         """Way of the body during the retardation time that loses most; inf without loss [m]."""
         motion, law = self._run.problem.motion, self._law
-        assert motion is not None
         if half_extent == 0:
             return 0.0
         shares = loss_shares(law, motion.top_speed / half_extent)
@@ -162,7 +166,6 @@ class MovingContact:
 
     def _edge_warnings(self) -> dict[str, str]:
         motion = self._run.problem.motion
-        assert motion is not None
         along = self._ends_reached & motion.moves
         across = self._ends_reached & ~along
         return edge_warnings(along=bool(along.any()), across=bool(across.any()))

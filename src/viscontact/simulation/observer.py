@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,7 @@ from viscontact.grid import MIN_CELLS_ACROSS
 from viscontact.loads.history import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import LoadCycleWork
-from viscontact.simulation.moving_contact import MovingContact
+from viscontact.simulation.moving_contact import MovingContact, StandingContact
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.warning_rules import geometry_of, loading_warnings, setup_warnings
@@ -43,7 +44,8 @@ class Observer:
     def __init__(self, run: RunSetup, *, warns: bool = True) -> None:
         self._warns = warns
         self._set_geometry(run)
-        self._motion = None if run.problem.motion is None else MovingContact(run)
+        stands = run.problem.motion.stands
+        self._motion = StandingContact() if stands else MovingContact(run)
         self._warnings = WarningCollector()
         self._open = setup_warnings(run) if warns else {}
         self._work = 0.0
@@ -58,21 +60,20 @@ class Observer:
         self._peak_checked = 0.0
 
     def _set_geometry(self, run: RunSetup, time: float = 0.0) -> None:
-        self._run, indenter = run, run.indenter_at(time)
+        self._run, self._position, indenter = run, run.position_at(time), run.indenter_at(time)
         self._outline = trace_outline(indenter, run.grid)
         self._geometry = geometry_of(run.problem, run.gap_at(time), run.grid, indenter=indenter)
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
         self._set_geometry(run)
-        if self._motion is not None:
-            self._motion.continue_on(run)
+        self._motion.continue_on(run)
         if self._before is not None:
             self._before = enlargement.solution(self._before)
 
     def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
         """Return the state at the end of a step, still without warnings."""
-        if self._motion is not None:
+        if self._run.position_at(step.time) != self._position:
             self._set_geometry(self._run, step.time)
         # Cells in contact, and the rim within cells, from the gap beside them.
         contact = solution.pressure > 0
@@ -80,20 +81,16 @@ class Observer:
         # Work since the step before, and the loss of a cycle that ends here.
         has_datum = self._run.problem.has_datum(rim.grid)
         self._work += self._work_of(point, solution) if has_datum else math.nan
-        moved = None
-        if self._motion is not None:
-            moved = self._motion.evaluate(step, solution)
-            # The surface takes up the work of the load and that of the motion.
-            self._work -= 0.0 if self._held else self._motion.added
-        total = self._work + (self._motion.work if self._motion is not None else 0.0)
-        self._cycles.record_work(step, total)
+        moved: dict[str, Any] = self._motion.evaluate(step, solution)
+        # The surface takes up the work of the load and that of the motion.
+        self._work -= 0.0 if self._held else self._motion.added
+        self._cycles.record_work(step, self._work + self._motion.work)
         if self._warns:
             self._collect_warnings(step, solution, rim)
         state = _state(
             *(step, solution, rim, self._work, self._cycles.last_loss), has_datum=has_datum
         )
-        if moved is not None:
-            state = replace(state, **vars(moved))
+        state = replace(state, **moved)
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
         if state.contact_area > self._largest_area:
@@ -114,7 +111,7 @@ class Observer:
         if last and self._largest_area:
             mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
             unreported = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
-        if last and self._motion is not None:
+        if last:
             moving = self._motion.warnings()
         found = self._warnings.new(self._open, mesh, unreported | moving)
         return replace(state, warnings=found) if found else state
@@ -145,7 +142,7 @@ class Observer:
             "spots_at_largest": self._cells_across_spots(),
             "peak": [self._peak, self._peak_time, self._peak_reported],
             "peak_checked": self._peak_checked,
-            "motion": None if self._motion is None else self._motion.restart_data(),
+            "motion": self._motion.restart_data(),
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -165,8 +162,7 @@ class Observer:
         self._spots_at_largest = restart_data["spots_at_largest"]
         self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
         self._peak_checked = restart_data["peak_checked"]
-        if self._motion is not None:
-            self._motion.restore(restart_data["motion"])
+        self._motion.restore(restart_data["motion"])
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted on demand."""

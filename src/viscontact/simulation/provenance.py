@@ -66,7 +66,7 @@ def event_attributes(
 
 def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
     """Describe a contact problem, solved on a grid, as plain data."""
-    motion = {} if problem.motion is None else {"motion": describe(problem.motion)}
+    motion = {} if problem.motion.stands else {"motion": describe(problem.motion)}
     return {
         "indenter": describe(problem.indenter),
         "material": describe(problem.material),

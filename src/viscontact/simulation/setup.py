@@ -95,12 +95,12 @@ class RunSetup:
         return replace(self, transforms=library)
 
     def position_at(self, time: float) -> tuple[float, float]:
-        """Position of the body's axis at a time [m]; the origin if it does not move."""
+        """Position of the body's axis at a time [m]."""
         return _position(self.problem, time)
 
     def gap_at(self, time: float) -> Floats:
         """The indenter's gap on the grid at a time [m]."""
-        if self.problem.motion is None:
+        if self.position_at(time) == self.position_at(0.0):
             return self.open_gap
         return _gap_on(self.problem, self.grid, time)
 
@@ -166,22 +166,16 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
 def _mesh_over_path(problem: Problem) -> Mesh:
     """Automatic mesh, of a moving body over its whole path."""
     mesh = choose_mesh(problem, problem.end)
-    if problem.motion is None:
-        return mesh
     return replace(mesh, grid=grid_over_path(mesh.grid, problem.motion))
 
 
 def _about_body(problem: Problem, grid: Grid) -> Grid:
     """The grid in positions from the body's axis at time 0."""
-    if problem.motion is None:
-        return grid
     x, y = (middle - at for middle, at in zip(grid.centre, _position(problem, 0.0), strict=True))
     return replace(grid, centre=(x, y))
 
 
 def _position(problem: Problem, time: float) -> tuple[float, float]:
-    if problem.motion is None:
-        return 0.0, 0.0
     x, y = problem.motion.position_at(time).tolist()
     return x, y
 
@@ -199,14 +193,15 @@ def _gap_on(problem: Problem, grid: Grid, time: float = 0.0) -> Floats:
 
 
 def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
-    if problem.motion is None:
-        return mirrored_axes(grid, open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
+    loads = (problem.load.is_even(0), problem.load.is_even(1))
+    if problem.motion.stands:
+        return mirrored_axes(grid, open_gap, loads)
     # Across the motion only, on the axis, and with all of the body that the grid comes to see.
     seen = cells_seen(grid, problem.motion)
     even = mirrored_axes(
         grid,
         problem.indenter.gap(seen[0][:, None], seen[1]),
-        (problem.load.is_even(0), problem.load.is_even(1)),
+        loads,
     )
     along_x, along_y = (
         each and limits == (0.0, 0.0)

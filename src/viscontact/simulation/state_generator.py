@@ -13,7 +13,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadProgram
 from viscontact.loads.mixed import as_history
-from viscontact.loads.motion import Motion
+from viscontact.loads.motion import STANDING, Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
@@ -116,7 +116,7 @@ def march(  # noqa: PLR0913
     problem = Problem(
         *(indenter, material, as_history(load), grid, times),
         *(indenter_material, tolerance, fields),
-        motion=motion,
+        motion=STANDING if motion is None else motion,
     )
     run = prepare_run(carried_out(problem, threads), threads)
     return march_run(run, report)

@@ -165,7 +165,7 @@ class Stepper:
             self._scale,
         )
         known, team = self._reference_history(step), self._domain.team
-        if self._run.problem.motion is None:
+        if self._run.problem.motion.stands:
             guess = self._reference_guess(predict(known, step.time, drive, team), response, past)
         else:
             moved = predict(self._moved(known, step), step.time, point.level, team)
@@ -194,7 +194,7 @@ class Stepper:
 
         Its elastic reference has a trace of where it was, which pressures have not.
         """
-        if self._run.problem.motion is None:
+        if self._run.problem.motion.stands:
             return trial.reference
         return replace(trial.reference, drive=trial.point.level, fields=trial.solution.values)
 
@@ -204,7 +204,7 @@ class Stepper:
         NaN without internal variables, and without a datum: part of it is lost by the approach.
         """
         run = self._run
-        if run.problem.motion is None or not run.problem.has_datum(run.grid):
+        if run.problem.motion.stands or not run.problem.has_datum(run.grid):
             return math.nan, math.nan
         lost = self._history.loss(pairs)
         if lost is None:

@@ -38,7 +38,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     warnings = law_warnings(memory_error, problem.compliance.inversion_error)
     warnings |= splitting_warnings(problem.surface.splitting_error)
     warnings |= origin_warnings(problem.materials)
-    lost = ("dissipation", "heat") if problem.motion is not None else ()
+    lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)
     warnings |= layer_warnings(problem.thinnest_layer, run.grid.cell_size)

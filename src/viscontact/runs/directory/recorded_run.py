@@ -48,7 +48,7 @@ class RecordedRun(Recorded[RunSetup]):
             attributes,
             self.errors,
             problem.tolerance if fits_single_precision(problem, problem.end) else 0.0,
-            moving=problem.motion is not None,
+            moving=not problem.motion.stands,
         )
 
     @property
