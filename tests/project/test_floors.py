@@ -52,7 +52,7 @@ OTHERS = {
     "pydantic": "case", "pydantic_core": "case", "ruamel": "materials",
     "SurfaceTopography": "surfaces", "afmformats": "identification",
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
-    "contourpy": "plot", "plotly": "plot", "typst": "report",
+    "plotly": "plot", "typst": "report",
     "typer": "cli", "click": "cli", "rich": "cli",
     "distributed": "cli", "ezdxf": "design",
     "fastapi": "web", "starlette": "web", "uvicorn": "web",

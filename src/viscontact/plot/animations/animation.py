@@ -20,6 +20,7 @@ from viscontact.plot.histories.history import draw_scalars, drawn_scalars, neede
 from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.map_axes import show_window
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_over
 from viscontact.plot.motion.body_mark import BODY_COLOUR, mark_body
@@ -287,7 +288,7 @@ def _stage(
 def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
     """Prepare map and section; return its empty curve, and markers of leading and trailing edge."""
     window, unit = scene.window, scene.unit
-    window.show(sheet.surface)
+    show_window(sheet.surface, window)
     sheet.surface.set_ylabel(window.unit.label("y"))
     if sheet.is_long and scene.along == "x":  # the section below shares the axis
         sheet.surface.tick_params(labelbottom=False)

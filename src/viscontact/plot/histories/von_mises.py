@@ -18,7 +18,7 @@ from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.pressure.stress_section import stress_sections
+from viscontact.plot.pressure.stress_planes import stress_sections
 from viscontact.results.run_axis import require_time
 from viscontact.results.snapshots import field_times, take_snapshots
 from viscontact.results.stress_source import stress_source

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from matplotlib.axes import Axes
-
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
@@ -50,10 +48,6 @@ class Window:
             if self.stretch > 1
             else f"x stretched {1 / self.stretch:g}×"
         )
-
-    def show(self, axes: Axes) -> None:
-        """Set limits and aspect of axes that are drawn in the window's unit."""
-        axes.set(xlim=self.unit(self.x), ylim=self.unit(self.y), aspect=self.stretch)
 
 
 def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAPE) -> Window:

@@ -14,10 +14,11 @@ from numpy.typing import ArrayLike
 
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
+from viscontact.plot.layout.map_axes import rim_path, show_window
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
-from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
+from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import headings_of, labels_of, take_snapshots
 
 _NAME = "contact-outline"
@@ -77,7 +78,7 @@ def contact_outline(
             )
     axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
     style.dress(axes)
-    window.show(axes)
+    show_window(axes, window)
     style.add_heading(axes, window.note, aside=True)
     lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
     labels = labels_of(snapshots)
@@ -143,7 +144,7 @@ def compare_contact_outlines(
         axes.add_patch(PathPatch(path, fill=False, **how))
     axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
     style.dress(axes)
-    window.show(axes)
+    show_window(axes, window)
     style.add_heading(axes, window.note, aside=True)
     instants = {heading for snapshot in snapshots for heading in headings_of([snapshot])}
     if len(instants) == 1:

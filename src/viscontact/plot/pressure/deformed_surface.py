@@ -17,6 +17,7 @@ from scipy.ndimage import distance_transform_edt
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
+from viscontact.plot.layout.lit_surface import draw_relief
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.solid_axes import (
     add_note,
@@ -26,7 +27,7 @@ from viscontact.plot.layout.solid_axes import (
     stretch_of_heights,
 )
 from viscontact.plot.layout.window import Window, window_around
-from viscontact.plot.pressure.relief import Relief, draw_relief, relief
+from viscontact.plot.pressure.relief import Relief, relief
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import Snapshot, field_at
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit

@@ -25,10 +25,11 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.map_axes import rim_path, show_window
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.motion.body_mark import mark_body
-from viscontact.plot.pressure.rim_polygons import beyond_period, rim_curves, rim_path
+from viscontact.plot.pressure.rim_polygons import beyond_period, rim_curves
 from viscontact.plot.pressure.squared_pressure import squared_pressure
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
@@ -245,7 +246,7 @@ def _panels(count: int, window: Window, wanted: Width | None) -> tuple[Figure, l
         unused.remove()
     for axes in panels[:count]:
         style.dress(axes)
-        window.show(axes)
+        show_window(axes, window)
     for axes in grid[:, 0]:
         axes.set_ylabel(window.unit.label("y"))
     for axes in grid[-1, :]:

@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike
 from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.lit_surface import draw_relief
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.solid_axes import add_note, add_side_bar, add_title, solid_panels
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.pressure_relief import pressure_relief
-from viscontact.plot.pressure.relief import draw_relief
 from viscontact.plot.pressure.rim_polygons import rim_polygons
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import readable_unit

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 import numpy as np
-from contourpy import LineType, contour_generator
-from matplotlib.path import Path
 from scipy.interpolate import splev, splprep
 
 from viscontact.backend.arrays import Bools, Floats, Integers
@@ -24,6 +22,9 @@ _LOOSE, _PIECES = 0.05, (8, 0.1)
 # Mean and largest distance of the drawn curve from the corners [cells], its pieces per corner, and
 # the least number of corners.
 _CLOSE, _STRAY, _FINER, _ENOUGH = 0.02, 0.2, 6, 16
+
+#: Steps to the four neighbours of a cell, anticlockwise.
+_WAYS = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])
 
 #: Points on the mesh of cells, shape (n, 2).
 Corners: TypeAlias = Floats
@@ -69,14 +70,39 @@ def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corner
     snapshot = beyond_period(snapshot).with_border(1)
     contact = snapshot.pressure > 0
     offsets = offsets_from_rim(contact, snapshot.gap)
-    tracer = contour_generator(
-        z=contact.T.astype(np.float64), line_type=LineType.Separate, name="serial"
-    )
     first = np.array([snapshot.x[0], snapshot.y[0]])
     cell = np.array([snapshot.x[1], snapshot.y[1]]) - first
-    # The contour of 1 inside and 0 outside runs half-way between the cells, in order.
-    for corners in tracer.lines(0.5):
-        yield (*_moved(np.asarray(corners), contact, offsets, snapshot.body_end), first, cell)
+    for inner, outer in _borders(contact):
+        yield (*_moved(inner, outer, offsets, snapshot.body_end), first, cell)
+
+
+def _borders(contact: Bools) -> Iterator[tuple[Integers, Integers]]:
+    """Cells inside and outside along each closed border, anticlockwise around a spot.
+
+    Spots that share a corner only are separate.
+    """
+    beyond = [np.roll(contact, tuple(-way), (0, 1)) for way in _WAYS]
+    side, i, j = np.nonzero(contact & ~np.array(beyond))
+    inner, outwards, ahead = np.stack([i, j], axis=1), _WAYS[side], _WAYS[(side + 1) % 4]
+    # In the order of the meshes, between four cells each, that the border enters.
+    entered = inner + np.minimum(outwards, 0) + np.minimum(ahead, 0)
+    order = np.lexsort(entered.T)
+    side, inner, outwards, ahead = (each[order] for each in (side, inner, outwards, ahead))
+    number = np.full((4, *contact.shape), -1)
+    number[side, *inner.T] = np.arange(side.size)
+    at_left, at_right = inner + ahead, inner + ahead + outwards
+    turned_right = number[(side - 1) % 4, *at_right.T]
+    straight = np.where(contact[*at_right.T], turned_right, number[side, *at_left.T])
+    following = np.where(contact[*at_left.T], straight, number[(side + 1) % 4, *inner.T]).tolist()
+    unused = [True] * side.size
+    for start in range(side.size):
+        border, at = [], start
+        while unused[at]:
+            unused[at] = False
+            border.append(at)
+            at = following[at]
+        if border:
+            yield inner[border], (inner + outwards)[border]
 
 
 def beyond_period(snapshot: Snapshot) -> Snapshot:
@@ -99,11 +125,6 @@ def offsets_from_rim(contact: Bools, gap: Floats) -> Floats:
     return offsets
 
 
-def rim_path(polygons: Iterable[Floats]) -> Path:
-    """Closed path of all polygons of a rim, without the holes in spots."""
-    return Path.make_compound_path(*(Path(polygon, closed=True) for polygon in polygons))
-
-
 def _slope(opening: Floats) -> Floats:
     """Mean of the forward and backward differences that exist along the first axis."""
     outside = np.full((1, opening.shape[1]), np.nan)
@@ -115,15 +136,10 @@ def _slope(opening: Floats) -> Floats:
 
 
 def _moved(
-    corners: Floats,
-    contact: Bools,
-    offsets: Floats,
-    body_end: Outline | None,
+    inner: Integers, outer: Integers, offsets: Floats, body_end: Outline | None
 ) -> tuple[Corners, bool]:
     """Corners half-way between cells, moved onto the rim, once for each open cell [cells]."""
-    before, after = np.floor(corners).astype(int), np.ceil(corners).astype(int)
-    starts_inside = contact[tuple(before.T)][:, None]
-    inner, outer = np.where(starts_inside, before, after), np.where(starts_inside, after, before)
+    before, after = np.minimum(inner, outer), np.maximum(inner, outer)
     offset = offsets[tuple(outer.T)]
     # Beyond a cell and a half there is no rim, but a gap that does not open monotonically.
     trusted = np.linalg.norm(offset, axis=1) <= 1.5
