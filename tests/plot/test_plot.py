@@ -17,9 +17,9 @@ from matplotlib.patches import PathPatch
 from matplotlib.text import Text
 
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
+from viscontact.drawing.content.rim import rim_curves
 from viscontact.laws import CreepSeries, Maxwell
 from viscontact.plot import COMPARISONS, FIGURES, creep_curve, save_figure
-from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import take_snapshots
 from viscontact.units.formatting import readable_unit
 

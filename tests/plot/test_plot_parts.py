@@ -10,9 +10,9 @@ import xarray as xr
 
 import viscontact as vc
 from synthetic_results import FORCE, RADIUS, maxwell_sphere, roller
+from viscontact.drawing.content.rim import rim_curves, rim_polygons
+from viscontact.drawing.content.window import window_around
 from viscontact.plot import FIGURES, save_figure
-from viscontact.plot.layout.window import window_around
-from viscontact.plot.pressure.rim_polygons import rim_curves, rim_polygons
 from viscontact.results.snapshots import Snapshot, take_snapshots
 from viscontact.units.formatting import readable_unit, time_labels
 

@@ -22,8 +22,7 @@ from synthetic_results import (
     roller,
 )
 from viscontact.plot import COMPARISONS, FIGURES, save_figure
-from viscontact.plot.layout import style
-from viscontact.plot.pressure import relief
+from viscontact.plot.layout import lit_surface, style
 
 FloatArray = NDArray[np.float64]
 TIMES = [0.0, 300.0]
@@ -34,13 +33,13 @@ class Caught:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.corners: list[FloatArray] = []
-        drawn = relief.Poly3DCollection
+        drawn = lit_surface.Poly3DCollection
 
         def catch(corners: FloatArray, **how: object) -> object:
             self.corners.append(np.asarray(corners))
             return drawn(corners, **how)
 
-        monkeypatch.setattr(relief, "Poly3DCollection", catch)
+        monkeypatch.setattr(lit_surface, "Poly3DCollection", catch)
 
 
 @pytest.fixture

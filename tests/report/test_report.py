@@ -20,12 +20,12 @@ import viscontact as vc
 from figures.figure_data import Data, array_of, shown_at, title_of
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
+from viscontact.drawing.content.rim import rim_curves
 from viscontact.figures.histories import history, panel_names
 from viscontact.figures.look import plain
 from viscontact.figures.pressure_map import pressure_map, strides_of
 from viscontact.figures.shown_fields import shown_fields
 from viscontact.notebook.html import as_script
-from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.inputs import inputs

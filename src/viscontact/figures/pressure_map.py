@@ -9,9 +9,9 @@ import numpy as np
 import plotly.graph_objects as go
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.rim import rim_curves
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
 from viscontact.figures.shown_fields import BodyPlace, ShownFields
-from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.run_axis import TIME
 from viscontact.results.snapshots import Snapshot, headings_of, labels_of
 from viscontact.units.formatting import ReadableUnit, format_compact

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
-from viscontact.plot.layout.window import Window, window_around
+from viscontact.drawing.content.window import Window, window_around
 from viscontact.plot.pressure.pressure_map import has_many_spots
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
 from viscontact.results.run_axis import run_axis

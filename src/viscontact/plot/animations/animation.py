@@ -15,6 +15,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.window import Window, window_over
 from viscontact.plot.animations.sheet import Sheet, new_sheet
 from viscontact.plot.histories.history import draw_scalars, drawn_scalars, needed_variables
 from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time, within_span
@@ -22,7 +23,6 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.map_axes import show_window
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.layout.window import Window, window_over
 from viscontact.plot.motion.body_mark import BODY_COLOUR, mark_body
 from viscontact.plot.pressure.pressure_map import (
     ORDINARY,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from viscontact.drawing.content.window import Window
 from viscontact.plot.layout import style
-from viscontact.plot.layout.window import Window
 
 #: Space [inch] for a heading, labels at the left and below, a colour bar, panels of curves.
 _HEAD, _LEFT, _BELOW, _BAR, _CURVES = 0.42, 0.68, 0.5, 0.95, 1.15

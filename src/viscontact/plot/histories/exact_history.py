@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.exact_sphere import exact_sphere, sphere_radius
 from viscontact.indenters import Indenter, Sphere
 from viscontact.laws import Elastic
 from viscontact.loads import ApproachHistory, ForceHistory
-from viscontact.plot.pressure.exact_sphere import exact_sphere, sphere_radius
 from viscontact.reference import (
     AxisymmetricContact,
     LeeRadokContact,

@@ -13,10 +13,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from viscontact.drawing.content.compared_runs import require_runs
 from viscontact.drawing.content.history import is_idle
 from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
-from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import (
     Band,
     draw_band,

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.compared_runs import require_runs
 from viscontact.plot.histories.time_axis import within_span
 from viscontact.plot.layout import style
-from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width

@@ -11,14 +11,14 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.compared_runs import require_runs
+from viscontact.drawing.content.stress_planes import stress_sections
 from viscontact.halfspace.stress_lines import Progress, part_of
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
-from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.pressure.stress_planes import stress_sections
 from viscontact.results.run_axis import require_time
 from viscontact.results.snapshots import field_times, take_snapshots
 from viscontact.results.stress_source import stress_source

@@ -8,7 +8,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
 from viscontact.backend.arrays import Floats
-from viscontact.plot.pressure.relief import Relief
+from viscontact.drawing.content.relief import Relief
 
 #: Towards the light, over the viewer's left shoulder, and what reaches the shade.
 _LIGHT = np.array([-0.55, -0.45, 0.7]) / np.linalg.norm([-0.55, -0.45, 0.7])

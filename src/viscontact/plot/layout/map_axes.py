@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.path import Path
 
 from viscontact.backend.arrays import Floats
-from viscontact.plot.layout.window import Window
+from viscontact.drawing.content.window import Window
 
 
 def show_window(axes: Axes, window: Window) -> None:

@@ -15,9 +15,9 @@ from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from mpl_toolkits.mplot3d.axis3d import Axis
 
+from viscontact.drawing.content.window import Window
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW
-from viscontact.plot.layout.window import Window
 from viscontact.units.formatting import ReadableUnit
 
 #: View direction: above the nearer corner of the long side [degrees].

@@ -8,8 +8,8 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.transforms import offset_copy
 
+from viscontact.drawing.content.window import Window
 from viscontact.plot.layout.style import figure_of
-from viscontact.plot.layout.window import Window
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
 
 #: Colour of what belongs to the body, and length of the arrow [points].

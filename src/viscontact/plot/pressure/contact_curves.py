@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.compared_runs import require_runs
 from viscontact.plot.layout import style
-from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width

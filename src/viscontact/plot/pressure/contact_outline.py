@@ -12,13 +12,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from numpy.typing import ArrayLike
 
+from viscontact.drawing.content.compared_runs import headed_snapshots
+from viscontact.drawing.content.rim import rim_curves
+from viscontact.drawing.content.window import Window, window_around
 from viscontact.plot.layout import style
-from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.map_axes import rim_path, show_window
 from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.layout.window import Window, window_around
-from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import headings_of, labels_of, take_snapshots
 
 _NAME = "contact-outline"

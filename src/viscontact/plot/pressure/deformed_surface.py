@@ -15,8 +15,11 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.ndimage import distance_transform_edt
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.drawing.content.compared_runs import headed_snapshots
+from viscontact.drawing.content.relief import Relief, relief
+from viscontact.drawing.content.rim import rim_curves
+from viscontact.drawing.content.window import Window, window_around
 from viscontact.plot.layout import style
-from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.lit_surface import draw_relief
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.solid_axes import (
@@ -26,9 +29,6 @@ from viscontact.plot.layout.solid_axes import (
     solid_panels,
     stretch_of_heights,
 )
-from viscontact.plot.layout.window import Window, window_around
-from viscontact.plot.pressure.relief import Relief, relief
-from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import Snapshot, field_at
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.ndimage import binary_dilation
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.plot.layout.window import Window
-from viscontact.plot.pressure.relief import Relief, relief
-from viscontact.plot.pressure.rim_polygons import beyond_period
-from viscontact.plot.pressure.squared_pressure import squared_pressure
+from viscontact.drawing.content.relief import Relief, relief
+from viscontact.drawing.content.rim import beyond_period
+from viscontact.drawing.content.squared_pressure import squared_pressure
+from viscontact.drawing.content.window import Window
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit
 

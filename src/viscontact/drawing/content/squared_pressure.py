@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.plot.pressure.rim_polygons import offsets_from_rim
+from viscontact.drawing.content.rim import offsets_from_rim
 from viscontact.results.snapshots import Snapshot
 
 # Least distance of a pressed cell's centre from the rim [cells]: it limits the slope of the
