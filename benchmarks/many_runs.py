@@ -17,9 +17,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from viscontact.cli import main as viscontact
-from viscontact.runs.executors.local import LocalWorkers
-from viscontact.runs.executors.task import Task, perform
 from viscontact.runs.processes.request import RunRequest
+from viscontact.studies.executors.local import LocalWorkers
+from viscontact.studies.executors.task import Task, perform
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from hypothesis import settings
 
-from viscontact.runs.executors import local
+from viscontact.studies.executors import local
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
@@ -29,7 +29,9 @@ for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SI
 # process that has. Doctests, scripts and commands in processes of their own start them as usual.
 if "forkserver" in multiprocessing.get_all_start_methods():
     forked = multiprocessing.get_context("forkserver")
-    forked.set_forkserver_preload(["viscontact.cli.run.execution", "viscontact.runs.many", "pint"])
+    forked.set_forkserver_preload(
+        ["viscontact.cli.run.execution", "viscontact.studies.sweep.many", "pint"]
+    )
     local._SPAWN = forked
 
 CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line to the summary

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from interrupted_runs import BODIES
 from viscontact.cli import main
-from viscontact.runs.sweep.manifest import SweepRun, write_manifest
+from viscontact.studies.sweep.manifest import SweepRun, write_manifest
 
 CASE = (
     BODIES

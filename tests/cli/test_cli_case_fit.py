@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.calibration.experiments import ELASTIC_BALL, hertz_depth
+from tests.studies.calibration.experiments import ELASTIC_BALL, hertz_depth
 
-from viscontact.calibration.fit_case import fit_case
 from viscontact.case import read_case
 from viscontact.cli.entry import main
 from viscontact.cli.material import case_fit
+from viscontact.studies.calibration.fit_case import fit_case
 
 COMMAND = ("fit", "a.csv", "--case", "ball.yaml")
 MODULUS = ("--change", "material.shear_modulus=0.5 MPa:9 MPa:log")

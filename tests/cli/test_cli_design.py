@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from tests.design.test_arguments import BALL
+from tests.studies.design.test_arguments import BALL
 
 from viscontact.case import read_case
 from viscontact.cli.design.options import DesignRequest

@@ -17,7 +17,7 @@ from viscontact.cli.many.request import ManyRequest
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.manifest import SweepRun, read_manifest
+from viscontact.studies.sweep.manifest import SweepRun, read_manifest
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}

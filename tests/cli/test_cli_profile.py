@@ -8,7 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 import xarray as xr
-from tests.design.test_profile_parts import ROLLER
+from tests.studies.design.test_profile_parts import ROLLER
 
 from viscontact.case import read_case
 from viscontact.cli import main

@@ -14,7 +14,7 @@ from viscontact.cli.many import single_task
 from viscontact.cli.terminal.messages import INTERRUPTED, stop
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.manifest import read_manifest
+from viscontact.studies.sweep.manifest import read_manifest
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}

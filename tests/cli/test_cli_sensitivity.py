@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from tests.sensitivity.cases import HERTZ
+from tests.studies.sensitivity.cases import HERTZ
 
 from viscontact.cli.entry import main
 

@@ -50,8 +50,8 @@ NOT_RUN = {
     "./go lock": "needs the network; tests/project/test_go.py",
     "viscontact serve": "goes on until it is stopped; it has tests of its own",
     "viscontact verify": "takes a minute; tests/verify/test_verify.py and tests/verification",
-    "dask scheduler": "goes on until it is stopped; tests/runs/executors/test_cluster.py",
-    "dask worker": "goes on until it is stopped; tests/runs/executors/test_cluster.py",
+    "dask scheduler": "goes on until it is stopped; tests/studies/executors/test_cluster.py",
+    "dask worker": "goes on until it is stopped; tests/studies/executors/test_cluster.py",
     "matlab": "another program",
     "paraview": "another program",
 }

@@ -31,7 +31,7 @@ FLOORS = (
     ("accuracy", "steady", "plot", "notebook"),
     ("figures",),
     ("report", "runs", "verify"),
-    ("web", "design", "sensitivity", "calibration"),
+    ("web", "studies"),
     ("cli",),
     ("__main__",),
 )
@@ -54,7 +54,7 @@ OTHERS = {
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
     "plotly": "plot", "typst": "report",
     "typer": "cli", "click": "cli", "rich": "cli",
-    "distributed": "cli", "ezdxf": "design",
+    "distributed": "cli", "ezdxf": "studies",
     "fastapi": "web", "starlette": "web", "uvicorn": "web",
 }  # fmt: skip
 # The only file that may import it.

@@ -15,7 +15,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.case import read_case
-from viscontact.runs.sweep.design_table import read_design
+from viscontact.studies.sweep.design_table import read_design
 from viscontact.tables import read_line, read_table
 
 CREEP = [("time [s]", "D [1/GPa]"), (1, 0.1), (10, 1 / 3), (100.5, 0.7)]

@@ -12,13 +12,13 @@ from viscontact.case import CaseError
 from viscontact.cli.design.options import DesignRequest, as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
-from viscontact.design.conclusions import InfeasibleError
-from viscontact.design.design import design
-from viscontact.design.history import HISTORY_NAME
-from viscontact.design.profiles.result import ProfileDesign
-from viscontact.design.result import DesignResult
-from viscontact.design.result_files import BEST_NAME
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.studies.design.conclusions import InfeasibleError
+from viscontact.studies.design.design import design
+from viscontact.studies.design.history import HISTORY_NAME
+from viscontact.studies.design.profiles.result import ProfileDesign
+from viscontact.studies.design.result import DesignResult
+from viscontact.studies.design.result_files import BEST_NAME
 
 T = TypeVar("T")
 

@@ -15,11 +15,11 @@ from viscontact.cli.design.execution import REPORT_NAME, performed, written_repo
 from viscontact.cli.design.options import instant, keys
 from viscontact.cli.many.design_options import split_values
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.design.profiles.design_profile import design_profile
-from viscontact.design.profiles.drawing import write_dxf
-from viscontact.design.profiles.result import ProfileDesign
-from viscontact.design.profiles.result_files import CSV_NAME, DXF_NAME
-from viscontact.design.result_files import BEST_NAME
+from viscontact.studies.design.profiles.design_profile import design_profile
+from viscontact.studies.design.profiles.drawing import write_dxf
+from viscontact.studies.design.profiles.result import ProfileDesign
+from viscontact.studies.design.profiles.result_files import CSV_NAME, DXF_NAME
+from viscontact.studies.design.result_files import BEST_NAME
 from viscontact.units.parsing import parse_quantity
 
 _PROFILE = re.compile(r"free(?::(?P<knots>\d+))?(?P<asymmetric>:asymmetric)?")

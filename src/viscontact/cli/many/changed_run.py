@@ -9,11 +9,11 @@ from pathlib import Path
 from viscontact.cli.many.design_options import key_of, share_a_branch
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.directory.lock import DirectoryInUse, locked
-from viscontact.runs.sweep.case_digests import with_digests
-from viscontact.runs.sweep.common_cells import KEY
-from viscontact.runs.sweep.continuation import has_begun
-from viscontact.runs.sweep.equal_values import comparable
-from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
+from viscontact.studies.sweep.case_digests import with_digests
+from viscontact.studies.sweep.common_cells import KEY
+from viscontact.studies.sweep.continuation import has_begun
+from viscontact.studies.sweep.equal_values import comparable
+from viscontact.studies.sweep.manifest import SweepRun, read_manifest, write_manifest
 
 #: Keys of a grid that is not automatic, and the key of the common cells of automatic ones.
 _OWN_GRID, _CELLS = {"grid", "grid.shape", "grid.size"}, f"grid.{KEY}"

@@ -23,7 +23,7 @@ from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.extremes import extreme_rows
+from viscontact.studies.sweep.extremes import extreme_rows
 
 #: Largest number of runs whose cases are all read.
 MOST_READ = 1000

@@ -15,7 +15,7 @@ from viscontact.runs.processes.job import Job
 from viscontact.units.formatting import format_number
 
 if TYPE_CHECKING:
-    from viscontact.runs.executors.remote import RemoteTasks
+    from viscontact.studies.executors.remote import RemoteTasks
 
 #: Largest time for the connection to a scheduler [s].
 _PATIENCE = 30
@@ -28,8 +28,8 @@ def cluster_tasks(
     scheduler: str, count: int, directory: Path, jobs: Sequence[Job], *, quiet: bool
 ) -> Iterator[RemoteTasks]:
     """Connect to a scheduler by its address or its file; `local` starts workers here."""
-    from viscontact.runs.executors.dask import dask_executor
-    from viscontact.runs.executors.remote import RemoteTasks
+    from viscontact.studies.executors.dask import dask_executor
+    from viscontact.studies.executors.remote import RemoteTasks
 
     with ExitStack() as opened:
         client = opened.enter_context(_client(scheduler, count))
@@ -48,7 +48,7 @@ def _client(scheduler: str, count: int) -> Iterator[Any]:
         distributed: Any = import_module("distributed")
     except ImportError:
         refuse("--scheduler needs Dask: install it with: pip install 'viscontact[cluster]'")
-    from viscontact.runs.executors.local import signals_blocked
+    from viscontact.studies.executors.local import signals_blocked
 
     with ExitStack() as opened:
         try:
@@ -96,7 +96,7 @@ def _address(scheduler: str) -> str:
 
 def _check_memory(client: Any, scheduler: str, jobs: Sequence[Job], *, quiet: bool) -> None:
     """Refuse runs that need more memory than any worker declares; say so if none declares any."""
-    from viscontact.runs.executors.dask import RESOURCE, declared_memory
+    from viscontact.studies.executors.dask import RESOURCE, declared_memory
 
     largest, needed = max(declared_memory(client)), max((job.memory for job in jobs), default=0.0)
     if not largest and not quiet:

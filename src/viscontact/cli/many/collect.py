@@ -9,10 +9,10 @@ from pathlib import Path
 from viscontact.cli.terminal.messages import refuse, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.runs.directory.atomic_files import replacing
-from viscontact.runs.sweep.collecting import write_joint_result
-from viscontact.runs.sweep.joint_layout import JointLayout, joint_layout
-from viscontact.runs.sweep.run_table import write_run_table
-from viscontact.runs.sweep.states import State
+from viscontact.studies.sweep.collecting import write_joint_result
+from viscontact.studies.sweep.joint_layout import JointLayout, joint_layout
+from viscontact.studies.sweep.run_table import write_run_table
+from viscontact.studies.sweep.states import State
 from viscontact.tables.workbook import WORKBOOK, write_csv_or_workbook
 
 #: Suffixes of the formats.

@@ -12,15 +12,15 @@ from viscontact.cli.many.request import PlannedRun
 from viscontact.cli.terminal.messages import CommandError, say
 from viscontact.run_files import CASE_NAME
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.common_cells import (
+from viscontact.studies.sweep.common_cells import (
     KEY,
     cell_setting,
     common_cells,
     keeps_own_cells,
     recorded_cells,
 )
-from viscontact.runs.sweep.manifest import SweepRun
-from viscontact.runs.sweep.varied_runs import case_name
+from viscontact.studies.sweep.manifest import SweepRun
+from viscontact.studies.sweep.varied_runs import case_name
 
 
 def with_common_cells(

@@ -13,15 +13,15 @@ from pathlib import Path
 from viscontact.case.yaml_source import SourceError, parse_value
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.processes.request import no_option
-from viscontact.runs.sweep.design_table import read_design
-from viscontact.runs.sweep.designs import (
+from viscontact.studies.sweep.design_table import read_design
+from viscontact.studies.sweep.designs import (
     NOTHING_VARIED,
     Design,
     EqualValuesError,
     grid_design,
     paired_design,
 )
-from viscontact.runs.sweep.sampling import Method, Range, read_range, sample_design
+from viscontact.studies.sweep.sampling import Method, Range, read_range, sample_design
 
 _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 

@@ -14,11 +14,11 @@ from viscontact.cli.terminal.interruption import Interruption, watched_interrupt
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
-from viscontact.runs.executors.driver import Workers, drive
-from viscontact.runs.executors.local import LocalTasks, LocalWorkers
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
-from viscontact.runs.sweep.states import State, state_at_end
+from viscontact.studies.executors.driver import Workers, drive
+from viscontact.studies.executors.local import LocalTasks, LocalWorkers
+from viscontact.studies.sweep.states import State, state_at_end
 
 #: Most failed runs that are named at the end.
 _MOST_NAMES = 20

@@ -18,7 +18,7 @@ from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.execution import before_the_first_step
 from viscontact.runs.processes.job import Job, Standing
-from viscontact.runs.sweep.job_array import JobArray, pbs_script, slurm_script
+from viscontact.studies.sweep.job_array import JobArray, pbs_script, slurm_script
 
 #: Suffixes of scripts: their text, and the command that submits them.
 _SYSTEMS = {

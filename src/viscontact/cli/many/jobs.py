@@ -20,11 +20,11 @@ from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.terminal.messages import say
 from viscontact.runs import resources
 from viscontact.runs.execution.case_digests import Digests
-from viscontact.runs.executors.driver import case_task
-from viscontact.runs.executors.task import Task
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.processes.job import Job
+from viscontact.studies.executors.driver import case_task
+from viscontact.studies.executors.task import Task
 from viscontact.units.formatting import format_number
 
 

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from viscontact.cli.many.request import PlannedRun
-from viscontact.runs.sweep.designs import Design
+from viscontact.studies.sweep.designs import Design
 
 #: Most problems that are printed, and most runs that are named in one.
 _MOST_PROBLEMS, _MOST_PLACES = 50, 5

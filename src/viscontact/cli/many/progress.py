@@ -19,10 +19,10 @@ from rich.progress import (
 )
 
 from viscontact.cli.terminal.messages import say
-from viscontact.runs.executors.driver import Active
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
-from viscontact.runs.sweep.states import State, state_at_end
+from viscontact.studies.executors.driver import Active
+from viscontact.studies.sweep.states import State, state_at_end
 from viscontact.units.formatting import format_quantity
 
 #: A plain line is printed after this part of all the work, or after this time [s].

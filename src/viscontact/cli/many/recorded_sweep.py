@@ -11,13 +11,13 @@ from viscontact.cli.many.request import PlannedRun
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option
-from viscontact.runs.sweep import continuation
-from viscontact.runs.sweep.case_digests import changed_since, with_digests
-from viscontact.runs.sweep.common_cells import KEY
-from viscontact.runs.sweep.continuation import OtherSweepError, continued, has_begun
-from viscontact.runs.sweep.equal_values import comparable
-from viscontact.runs.sweep.manifest import SweepRun, write_manifest
-from viscontact.runs.sweep.varied_runs import case_name
+from viscontact.studies.sweep import continuation
+from viscontact.studies.sweep.case_digests import changed_since, with_digests
+from viscontact.studies.sweep.common_cells import KEY
+from viscontact.studies.sweep.continuation import OtherSweepError, continued, has_begun
+from viscontact.studies.sweep.equal_values import comparable
+from viscontact.studies.sweep.manifest import SweepRun, write_manifest
+from viscontact.studies.sweep.varied_runs import case_name
 
 
 @dataclass(frozen=True)

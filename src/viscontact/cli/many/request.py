@@ -10,7 +10,7 @@ from viscontact.cli.many.design_options import DesignOptions
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.processes.request import RunRequest, command, no_option
-from viscontact.runs.sweep.designs import Design
+from viscontact.studies.sweep.designs import Design
 
 
 @dataclass(frozen=True)

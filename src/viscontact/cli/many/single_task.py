@@ -24,8 +24,8 @@ from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.processes.request import RunRequest, command, no_option
-from viscontact.runs.sweep.case_digests import case_path, changed_since
-from viscontact.runs.sweep.manifest import SweepRun, read_manifest
+from viscontact.studies.sweep.case_digests import case_path, changed_since
+from viscontact.studies.sweep.manifest import SweepRun, read_manifest
 
 
 def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 from textwrap import shorten
 
 from viscontact.cli.terminal.messages import STOPPED, refuse, stop
-from viscontact.runs.sweep.states import State
-from viscontact.runs.sweep.status import LISTED, ListedRun, SweepStatus, sweep_status
+from viscontact.studies.sweep.states import State
+from viscontact.studies.sweep.status import LISTED, ListedRun, SweepStatus, sweep_status
 from viscontact.units.formatting import format_quantity
 
 #: Time between two looks [s], and as a multiple of the time that a look takes.

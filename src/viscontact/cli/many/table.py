@@ -23,7 +23,7 @@ from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.results.verdicts import deciding, overall, verdicts
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.sweep.states import state_at_end
+from viscontact.studies.sweep.states import state_at_end
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: Largest number of runs named with a warning.

@@ -8,14 +8,14 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-from viscontact.calibration.fit_case import fit_case
-from viscontact.calibration.result import CaseFit
 from viscontact.case import CaseError
 from viscontact.cli.material.case_fit_options import CaseFitRequest, as_typed
 from viscontact.cli.material.fit_report import Drawing, draw_fit, write_section
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.studies.calibration.fit_case import fit_case
+from viscontact.studies.calibration.result import CaseFit
 
 #: Time between two lines of progress, where the output is no terminal [s].
 _LINE_SECONDS = 30.0

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.run_files import MANIFEST_NAME
-from viscontact.runs.sweep.manifest import read_manifest
-from viscontact.runs.sweep.states import State, run_state
+from viscontact.studies.sweep.manifest import read_manifest
+from viscontact.studies.sweep.states import State, run_state
 
 #: Most runs in a figure, of which each has a colour and dashes of its own.
 MOST = 24

@@ -18,8 +18,8 @@ from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.results.run_axis import SPEED, TIME, RunAxis, run_axis
-from viscontact.runs.sweep.open_many import open_many
-from viscontact.runs.sweep.states import State
+from viscontact.studies.sweep.open_many import open_many
+from viscontact.studies.sweep.states import State
 from viscontact.units.parsing import parse_quantity
 
 #: Name of the animation, which is written differently.

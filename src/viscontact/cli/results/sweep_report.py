@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.cli.terminal.messages import refuse
-from viscontact.runs.sweep.filed_sweep import filed_attributes
-from viscontact.runs.sweep.open_many import open_many
+from viscontact.studies.sweep.filed_sweep import filed_attributes
+from viscontact.studies.sweep.open_many import open_many
 
 
 def write_page(package: Any, directory: Path, page: Path) -> None:

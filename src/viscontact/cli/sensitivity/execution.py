@@ -13,9 +13,9 @@ from viscontact.case import CaseError
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.run_files import MANIFEST_NAME
-from viscontact.sensitivity.result import SensitivityResult
-from viscontact.sensitivity.result_files import TABLE_NAME, write_table
-from viscontact.sensitivity.sensitivity import sensitivity
+from viscontact.studies.sensitivity.result import SensitivityResult
+from viscontact.studies.sensitivity.result_files import TABLE_NAME, write_table
+from viscontact.studies.sensitivity.sensitivity import sensitivity
 from viscontact.units.parsing import parse_quantity
 
 #: Report in the directory of the runs.

@@ -1,0 +1,1 @@
+"""Studies: many runs of one case with other values, in search of something or for an overview."""

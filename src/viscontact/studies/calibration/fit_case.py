@@ -1,0 +1,229 @@
+"""Identification through the simulator: `fit_case`."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+from warnings import warn
+
+from viscontact.errors import AccuracyWarning
+from viscontact.studies.calibration.evaluation import Evaluation
+from viscontact.studies.calibration.preparation import (
+    Record,
+    check_bounds,
+    digest,
+    experiment_of,
+    read_records,
+    refuse_repeated,
+    require_at_rest,
+    require_rows,
+)
+from viscontact.studies.calibration.response import case_with
+from viscontact.studies.calibration.result import CaseFit, result_of
+from viscontact.studies.calibration.search import Optimum, search
+from viscontact.studies.calibration.trial_log import TrialLog
+from viscontact.studies.calibration.unknowns import (
+    Unknown,
+    unknowns_of,
+)
+from viscontact.studies.executors.local import LocalWorkers
+from viscontact.studies.sweep.recipes import refuse_import_by_a_worker
+from viscontact.units.numbers import whole
+
+_INSEPARABLE = 0.99  # correlation from which on two parameters are not distinguished
+_AT_BOUND = 1e-3  # part of a range that counts as its bound
+_RUNS_PER_UNKNOWN = 40
+
+
+def fit_case(  # noqa: PLR0913
+    case: str | PathLike[str],
+    records: Record | Sequence[Record],
+    change: Mapping[str, Any],
+    *,
+    drive: Literal["force", "approach", "case"] | None = None,
+    contact_point: Sequence[str] | None = None,
+    machine_stiffness: Sequence[str] | None = None,
+    settings: Mapping[str, Any] | None = None,
+    confidence: float = 0.95,
+    rows: int = 60,
+    runs: int | None = None,
+    workers: int = 1,
+    trials: str | PathLike[str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> CaseFit:
+    """Fit values of a case to measured records by runs of the case, with confidence intervals.
+
+    Parameters
+    ----------
+    case : path-like
+        Case file: bodies, starting values and cells. The record takes the place of its load, except
+        for eccentricity and tilts, and of its times.
+    records : ContactRecord or path-like, or sequence of them
+        Records, or tables with columns time, and force or approach or both. All are of this case.
+    change : mapping
+        Unknowns by dotted key: a tuple of two bounds, and ``"log"`` for a logarithmic scale, as
+        ``{"material.amplitudes[1]": ("0.1 / MPa", "10 / MPa", "log")}``.
+    drive : {"force", "approach", "case"}, optional
+        What is prescribed in the runs, and taken as exact: a column of the record, or the load of
+        the case; the other quantity is fitted. By default the column that the load of the case
+        prescribes, or that load itself if the record lacks this column.
+    contact_point : tuple, optional
+        Range of the reading of the approach at first touch, as ``("-5 um", "5 um")``: an unknown
+        for each record. It is 0 if left out.
+    machine_stiffness : tuple, optional
+        Range of the stiffness of the machine, as ``("1 kN/mm", "100 kN/mm", "log")``: an unknown,
+        the same for all records. Force over stiffness is part of the reading of the approach. The
+        machine is rigid if left out.
+    settings : mapping, optional
+        Values of other keys, the same in all runs.
+    confidence : float, optional
+        Level of the intervals, between 0 and 1.
+    rows : int, optional
+        Most rows of a record, and steps of its run; of longer records means over equal numbers of
+        rows are fitted.
+    runs : int, optional
+        Most runs on coarse cells; by default 40 for each unknown and record, and 40 more.
+    workers : int, optional
+        Number of parallel processes.
+    trials : path-like, optional
+        Keep each run in this file; the same call again goes on from there.
+    progress : callable, optional
+        Called after each run with the number of runs so far and the most allowed ones.
+
+    Returns
+    -------
+    CaseFit
+        Parameters, intervals, correlations, discretisation errors and fitted curves.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit, the case or a bound is refused (as `CaseError`), a record
+        lacks a column, has fewer rows than twice the unknowns or ends after the load of the case,
+        or no run has a result.
+
+    Warns
+    -----
+    AccuracyWarning
+        If two parameters are correlated by more than 0.99, one lies at its bound, its interval
+        is longer than its range, or the runs were used up; kept in ``notes``.
+
+    Notes
+    -----
+    Least squares of the residuals over the largest value of each record, by the trust-region
+    reflective algorithm (Branch, Coleman and Li 1999) with differences, on cells that are coarser
+    than those of the case and the same in all runs, with steps through the rows of the record.
+    Gauss-Newton steps lead from there to the least squares on the cells of the case with steps half
+    as long. The intervals are those of the linearised model there, with Student's t and the scatter
+    of the residuals: valid for scatter that is independent from row to row, and of equal size
+    relative to the largest value in all records. Rows with less than a twentieth of the
+    largest force do not count where the approach is fitted.
+
+    If the approach is prescribed, contact point and stiffness of the machine are subtracted from
+    its readings, with the measured force and so with its scatter. Take the force as the drive where
+    the machine is about as soft as the contact.
+
+    For a sphere, cone or round punch on a half-space, `fit_indentation` needs no runs.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> from viscontact.studies.calibration.record import ContactRecord
+    >>> file = Path(tempfile.mkdtemp(), "ball.yaml")
+    >>> _ = file.write_text(
+    ...     "{indenter: {shape: sphere, radius: 5 mm}, "
+    ...     "material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}, "
+    ...     "load: {kind: step, force: 0.1 N}, time: {end: 1 s, steps: 1}, "
+    ...     "grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}}"
+    ... )
+    >>> force = 0.1 * np.linspace(0.2, 1.0, 9)
+    >>> depth = (3 * force / (16 * 2e6 * np.sqrt(5e-3))) ** (2 / 3)  # Hertz, G = 2 MPa, nu = 0.5
+    >>> fit = fit_case(
+    ...     file,
+    ...     ContactRecord(np.arange(9.0), force, depth + 2e-6),
+    ...     {"material.shear_modulus": ("0.5 MPa", "9 MPa", "log")},
+    ...     contact_point=("-9 um", "9 um"),
+    ... )
+    >>> f"{fit.parameters['contact_point']:.1g} {fit.units['contact_point']}"
+    '2e-06 m'
+    """
+    refuse_import_by_a_worker()
+    path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
+    if not 0 < confidence < 1:
+        raise ValueError(f"confidence: must lie between 0 and 1, got {confidence!r}")
+    most_rows, count = whole("rows", rows, 5), whole("workers", workers, 1)
+    if drive not in (None, "force", "approach", "case"):
+        raise ValueError(f"drive: must be 'force', 'approach' or 'case', got {drive!r}")
+    own = case_with(path, fixed)
+    require_at_rest(path, own)
+    given = [each.thinned(most_rows) for each in read_records(records)]
+    unknowns = unknowns_of(change, contact_point, machine_stiffness, len(given), own)
+    refuse_repeated(unknowns, fixed)
+    check_bounds(path, fixed, unknowns)
+    experiments = [experiment_of(path, fixed, own, each, drive) for each in given]
+    require_rows(experiments, unknowns)
+    default = _RUNS_PER_UNKNOWN * (1 + len(unknowns)) * len(experiments)
+    budget = default if runs is None else whole("runs", runs, 1)
+    arguments = {
+        "case": hashlib.sha256(b"".join(sorted(own.digests.values()))).hexdigest(),
+        "records": [digest(each) for each in given],
+        **{"unknowns": repr(unknowns), "drives": [each.drive for each in experiments]},
+        **{
+            "settings": fixed,
+            "cells": repr([(each.own_cells, each.coarse_cells) for each in experiments]),
+        },
+    }
+    log = None if trials is None else TrialLog(Path(trials), arguments)
+    with _workers(min(count, len(experiments) * len(unknowns))) as executor:
+        evaluation = Evaluation(experiments, unknowns, budget, executor, log, progress or _silent)
+        found = search(evaluation)
+        notes = tuple(_notes(unknowns, found, confidence, budget))
+        for note in notes:
+            warn(f"fit_case: {note}", AccuracyWarning, stacklevel=2)
+        return result_of(evaluation, found, confidence, notes, path, fixed)
+
+
+@contextmanager
+def _workers(count: int) -> Iterator[LocalWorkers | None]:
+    """Warm processes; none for one run at a time."""
+    if count == 1:
+        yield None
+        return
+    pool = LocalWorkers(count)
+    try:
+        yield pool
+    except BaseException:
+        pool.kill()
+        raise
+    finally:
+        pool.shutdown()
+
+
+def _silent(done: int, allowed: int) -> None:
+    """Show nothing."""
+
+
+def _notes(
+    unknowns: Sequence[Unknown], found: Optimum, confidence: float, budget: int
+) -> Iterator[str]:
+    names, correlation = [each.name for each in unknowns], found.correlation
+    for n in range(len(names)):
+        for m in range(n):
+            if abs(correlation[n, m]) > _INSEPARABLE:
+                yield (
+                    f"{names[m]} and {names[n]} cannot be distinguished (correlation "
+                    f"{correlation[n, m]:+.4f}): fix one of them, or add a record with another "
+                    "rate or a hold"
+                )
+    for each, part, reach in zip(unknowns, found.point, found.reach(confidence), strict=True):
+        if not _AT_BOUND < part < 1 - _AT_BOUND:
+            yield f"{each.name} lies at its bound {each.text(round(part))}; widen its range"
+        elif reach > 0.5:
+            yield f"{each.name} is left open: its interval is longer than its range"
+    if not found.complete:
+        yield f"the search ended after {budget} runs, before it had converged; allow more runs"

@@ -1,0 +1,167 @@
+"""Runs of a calibration: the response of a case to the load of a record, on fixed cells."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
+from viscontact.backend.arrays import Floats
+from viscontact.case import Case, CaseError, read_case
+from viscontact.errors import AccuracyWarning
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
+from viscontact.loads.history import Control
+from viscontact.problem.problem import Problem
+from viscontact.simulation.march import March
+from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.studies.calibration.record import ContactRecord, Drive, compared_column
+
+#: Cells of the search across the longer and the shorter edge of the grid, at least, if the case has
+#: more.
+_LONG_EDGE, _SHORT_EDGE = 64, 16
+#: Least ratio of cells that makes coarser ones worth while.
+_LEAST_RATIO = 1.25
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """Measured record with the case that describes it, and the cells of its runs."""
+
+    case: Path
+    settings: Mapping[str, str]  # fixed values by key
+    record: ContactRecord
+    drive: Drive
+    control: Control  # of the load of the case
+    own_cells: Grid  # of the case
+    coarse_cells: Grid  # of the search
+    may_grow: bool  # the grid of the case is automatic
+
+    @property
+    def compared(self) -> Control:
+        """Column that is fitted."""
+        return compared_column(self.drive, self.control)
+
+    @property
+    def measured(self) -> Floats:
+        """Values that are fitted [N or m]."""
+        return self.record.column(self.compared)
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """Where the approach is zero, and how the machine yields."""
+
+    contact_point: float = 0.0  # reading at first touch [m]
+    compliance: float = 0.0  # of the machine [m/N]
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Run of a test with some values; a call without arguments returns force and approach.
+
+    Both at the rows of the record, without the machine [N, m].
+    """
+
+    experiment: Experiment
+    values: Mapping[str, str]  # by key of the case
+    mounting: Mounting  # counts if the reading of the approach is prescribed
+    on_own_cells: bool
+
+    def __call__(self) -> tuple[Floats, Floats]:
+        """Simulate the run; ValueError, ConvergenceError or DomainError if it fails."""
+        test = self.experiment
+        cells = test.own_cells if self.on_own_cells else test.coarse_cells
+        case = case_with(test.case, {**test.settings, **self.values})
+        load, rows, instants = history_of(case, test.record, test.drive, self.mounting)
+        if self.on_own_cells:
+            instants = _halved(instants)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AccuracyWarning)
+            run = prepare_run(_problem(case, load, instants, cells))
+            if test.may_grow:  # the cells stay, but a larger contact gets more of them
+                run = replace(run, problem=replace(run.problem, grid=case.automatic_grid))
+            states = [state for state in March(run, warns=False) if state is not None]
+        chosen = np.searchsorted([state.time for state in states], rows * (1 - 1e-12))
+        force, approach = (
+            np.array([getattr(states[n], name) for n in chosen], dtype=np.float64)
+            for name in ("force", "approach")
+        )
+        return force, approach
+
+
+def case_with(path: Path, settings: Mapping[str, str]) -> Case:
+    """Read a case with settings; CaseError without the name of an option."""
+    try:
+        return read_case(path, [f"{key}={value}" for key, value in settings.items()])
+    except CaseError as error:
+        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
+
+
+def history_of(
+    case: Case, record: ContactRecord, drive: Drive, mounting: Mounting
+) -> tuple[LoadHistory, Floats, Floats]:
+    """Load of the run of a record, its rows' times in the run, and all instants of the run [s]."""
+    if drive == "case":
+        rows = record.times
+        own = case.instants if case.adaptive is None else np.zeros(0)
+        return case.load, rows, np.unique(np.concatenate([rows, own[own <= rows[-1]]]))
+    times = record.times - record.times[0]
+    points = [case.load.at(float(time)) for time in times]
+
+    def along(name: str) -> list[float] | None:
+        values = [getattr(point, name) for point in points]
+        return None if values[0] is None else values
+
+    tilts = (along("tilt_x"), along("tilt_y"))
+    arms = (along("eccentricity_x") or 0.0, along("eccentricity_y") or 0.0)
+    if drive == "force":
+        force = np.maximum(record.column("force"), 0.0)
+        return ForceHistory(times, force, *arms, *tilts), times, np.unique(times)
+    if any(map(np.any, arms)):
+        raise ValueError(
+            "load: an eccentricity goes with a prescribed force; under a prescribed approach give "
+            "load.tilt_x or load.tilt_y"
+        )
+    level = record.column("approach") - mounting.contact_point
+    if mounting.compliance:
+        level = level - mounting.compliance * record.column("force")
+    return ApproachHistory(times, level, *tilts), times, np.unique(times)
+
+
+def cells_of(case: Case, record: ContactRecord, drive: Drive) -> tuple[Grid, Grid]:
+    """Cells of the runs of a record: those of the case, and coarser ones of the search."""
+    load, _, instants = history_of(case, record, drive, Mounting())
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)
+        run = prepare_run(_problem(case, load, instants, case.grid))
+    return run.grid, _coarse(run)
+
+
+def _problem(
+    case: Case, load: LoadHistory, instants: Floats, cells: Grid | AutomaticGrid | None
+) -> Problem:
+    return Problem(
+        *(case.indenter, case.material, load, cells, instants, case.indenter_material),
+        tolerance=case.tolerance,
+        fields="none",
+    )
+
+
+def _coarse(run: RunSetup) -> Grid:
+    """Coarser cells over the same region; those of the run if it has few."""
+    edges = [n for n in run.grid.shape if n > 1]
+    ratio = min(max(2.0, max(edges) / _LONG_EDGE), min(edges) / _SHORT_EDGE)
+    if ratio < _LEAST_RATIO:
+        return run.grid
+    return coarser_grid(run.grid, aligned_spacing(run, ratio, True), True)
+
+
+def _halved(instants: Floats) -> Floats:
+    """Instants with further ones in the middle of the steps, from time 0 on [s]."""
+    whole = np.union1d([0.0], instants)
+    return np.union1d(whole, (whole[1:] + whole[:-1]) / 2)

@@ -1,0 +1,50 @@
+"""Files of a profile design: the profile for a grinding machine, the best case, and the table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.runs.directory.atomic_files import fresh_name, put_in_place, replacing
+from viscontact.studies.design.profiles.result import ProfileDesign
+from viscontact.studies.design.profiles.tables import RESOLUTION
+from viscontact.studies.design.result_files import BEST_NAME, TRIALS_NAME
+
+#: The profile as a table, which a case takes as well, and as a drawing.
+CSV_NAME, DXF_NAME = "profile.csv", "profile.dxf"
+#: Digits of a drop [um].
+_DIGITS = round(-np.log10(RESOLUTION * 1e6))
+
+
+def write_profile_design(directory: Path, found: ProfileDesign) -> None:
+    """Write the profile as CSV, the best case with it, and the table of all profiles."""
+    with replacing(directory / CSV_NAME) as file:
+        file.write(profile_csv(found.x, found.drop).encode())
+    case = found.best_case(directory / CSV_NAME)
+    with replacing(directory / BEST_NAME) as file:
+        file.write(case.text.encode())
+    for source, name in case.file_names.items():
+        if name != CSV_NAME:
+            with replacing(directory / name) as file:
+                file.write(source.read_bytes())
+    fresh = fresh_name(directory / TRIALS_NAME)
+    try:
+        found.table.to_netcdf(fresh.absolute(), format="NETCDF4", engine="netcdf4")
+        put_in_place(fresh, directory / TRIALS_NAME)
+    finally:
+        fresh.unlink(missing_ok=True)
+
+
+def profile_csv(x: Floats, drop: Floats) -> str:
+    r"""Profile as CSV text, positions in mm and drops in um.
+
+    >>> profile_csv(np.array([-1e-3, 0.0]), np.array([2e-6, 0.0]))
+    'x [mm],drop [um]\n-1,2.0000\n0,0.0000\n'
+    """
+    rows = (
+        f"{1e3 * place:.12g},{1e6 * level:.{_DIGITS}f}\n"
+        for place, level in zip(x.tolist(), drop.tolist(), strict=True)
+    )
+    return "".join(["x [mm],drop [um]\n", *rows])

@@ -1,0 +1,262 @@
+"""Result of a design: the best trial, all trials as a table, and what is to be known of them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from viscontact.case import Case, read_case
+from viscontact.display import write_design_report
+from viscontact.errors import AccuracyWarning
+from viscontact.results.formatting import format_with_error
+from viscontact.results.variables import SCALARS, error_name
+from viscontact.studies.design.goals import Constraint, Goal, Value
+from viscontact.studies.design.scenarios import Scenario
+from viscontact.studies.design.trade_off import costs_of, not_dominated
+from viscontact.studies.design.trials import Trial, goal_name
+from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
+from viscontact.studies.sweep.axes import coordinate
+from viscontact.studies.sweep.varied_runs import VariedRun
+
+
+@dataclass(frozen=True)
+class DesignResult:
+    """Best values of the parameters of a case, and the trials that lead to them.
+
+    Attributes
+    ----------
+    table : xarray.Dataset
+        All trials along the dimension ``trial``, in their order, in SI units: the varied keys as
+        coordinates, the goal and the constraints by their names, in the worst scenario, with their
+        errors; the goal over (trial, scenario) as ``<name>_of_scenarios``; ``level`` ("coarse", or
+        "case" for the cells of the case), ``feasible`` and ``message``, the reason of a failed run.
+        A trade-off has ``on_front``, the trials that are not dominated. Trial 0 is the case as it
+        is.
+    settings : mapping of str to str
+        Best values by key, as ``--set`` takes them.
+    notes : tuple of str
+        What is to be known of the optimum: that it lies at a bound, that a constraint is kept only
+        within the error, that the runs were used up, and the warnings of its runs.
+    runs : int
+        Number of runs of the trials.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscontact.studies.design.design import design
+    >>> file = Path(tempfile.mkdtemp(), "ball.yaml")
+    >>> _ = file.write_text(
+    ...     "{indenter: {shape: sphere, radius: 5 mm}, "
+    ...     "material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}, "
+    ...     "load: {kind: step, force: 0.1 N}, time: {end: 1 s, steps: 1}, "
+    ...     "grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}}"
+    ... )
+    >>> found = design(file, {"indenter.radius": ["2 mm", "8 mm"]}, minimise="peak_pressure")
+    >>> found.settings, found.runs
+    ({'indenter.radius': '8 mm'}, 3)
+    >>> before = found.table.isel(trial=0)
+    >>> round(float(found.best.peak_pressure / before.peak_pressure), 2)  # Hertz: (5/8)**(2/3)
+    0.73
+    """
+
+    table: xr.Dataset
+    settings: Mapping[str, str]
+    notes: tuple[str, ...]
+    runs: int
+    case: Path
+    fixed: Mapping[str, str]
+    goals: tuple[Goal, ...]
+    number: int  # of the best trial
+    scenarios: tuple[Scenario, ...]
+
+    @property
+    def best(self) -> xr.Dataset:
+        """Best trial: its row of the table."""
+        return self.table.isel(trial=self.number)
+
+    @property
+    def goal(self) -> Goal:
+        """The scalar that is to be least or largest; of several the first one."""
+        return self.goals[0]
+
+    @property
+    def front(self) -> xr.Dataset:
+        """Trials of which no other one is better in one scalar and as good in all others.
+
+        They are on the cells of the case, and sorted by the first scalar; of a design with one
+        scalar it is the best trial.
+        """
+        if len(self.goals) == 1:
+            return self.table.isel(trial=[self.number])
+        return self.table.isel(trial=self.table["on_front"].values).sortby(self.goal.scalar)
+
+    @property
+    def best_case(self) -> Case:
+        """Best case, without the values of a scenario."""
+        settings = {**self.fixed, **self.settings}
+        return read_case(self.case, [f"{key}={value}" for key, value in settings.items()])
+
+    @property
+    def case_text(self) -> str:
+        """Best case as YAML."""
+        return self.best_case.text
+
+    def report(self, path: str | PathLike[str]) -> None:
+        """Write a page of HTML: pressures before and after, gains, and all trials.
+
+        The case and the best one are computed once more, in the scenario that decides, and, if the
+        load is held and the bodies creep, up to a year.
+
+        Parameters
+        ----------
+        path : path-like
+            The page, by custom ending in ``.html``.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If the packages of figures are not installed.
+        OSError
+            If the file cannot be written.
+        """
+        title = f"Design of {self.case.stem}: {_listed(map(str, self.goals))}"
+        words = {"title": title, "headline": str(self)}
+        runs, years = self.before_and_after(), self.over_a_year()
+        write_design_report(self.table, runs, path, years=years, **words)
+
+    def before_and_after(self) -> dict[str, xr.Dataset]:
+        """Results of the case and of the best one, in the scenario that decides.
+
+        Fields are kept at the first and at the last instant. The case is left out if it fails.
+        """
+        runs = {"case": self._run({})} if not self.table["message"].values[0] else {}
+        return runs | {"best": self._run(self.settings)}
+
+    def over_a_year(self) -> dict[str, xr.Dataset | str]:
+        """Results of the case and of the best one up to a year, in the scenario that decides.
+
+        The reason in place of one that fails. There is none if the load is not held at the end of
+        the case, or the bodies do not creep after it. The instants of the case are followed by
+        others, a day, a week and a year among them.
+        """
+        runs = {"case": self._varied({}), "best": self._varied(self.settings)}
+        if not creeps_on(read_case(self.case, runs["best"].assignments)):
+            return {}
+        found: dict[str, xr.Dataset | str] = {}
+        for name, run in runs.items():
+            try:
+                case = read_case(self.case, run.assignments)
+            except ValueError as error:
+                found[name] = str(error).splitlines()[0]
+            else:
+                found[name] = year_of_creep(case, run.arguments)
+        return found
+
+    def _run(self, settings: Mapping[str, str]) -> xr.Dataset:
+        run = self._varied(settings)
+        instants = read_case(self.case, run.assignments).instants
+        ends = dict.fromkeys((float(instants[0]), float(instants[-1])))
+        fields = f"[{', '.join(f'{time!r} s' for time in ends)}]"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
+            return replace(run, settings={**run.settings, "output.fields": fields})()
+
+    def _varied(self, settings: Mapping[str, str]) -> VariedRun:
+        """Run of some values in the scenario that decides."""
+        values = self.best[f"{self.goal.scalar}_of_scenarios"].values
+        number = values.argmax() if self.goal.least else values.argmin()
+        scenario = self.scenarios[int(number)]
+        whole = {**self.fixed, **scenario.settings(settings)}
+        whole["output.fields"] = "none"
+        return VariedRun(self.case, whole, tuple(settings), "", "", "cases")
+
+    def __str__(self) -> str:
+        values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
+        if len(self.goals) == 1:
+            goal = self.goal
+            return f"{goal}: {self._format(goal, self.number)} at {values}{self._before(goal)}"
+        each = (f"{g.scalar} {self._format(g, self.number)}{self._before(g)}" for g in self.goals)
+        return (
+            f"{_listed(map(str, self.goals))}: {self.front.sizes['trial']} trials are not "
+            f"dominated; the compromise has {_listed(each)}, at {values}"
+        )
+
+    def _before(self, goal: Goal) -> str:
+        if not np.isfinite(self.table[goal.scalar].values[0]):
+            return ""
+        return f", where the case has {self._format(goal, 0)}"
+
+    def _format(self, goal: Goal, trial: int) -> str:
+        name = goal.scalar
+        value, error = (float(self.table[n].values[trial]) for n in (name, error_name(name)))
+        return format_with_error(value, error, SCALARS[name].units)
+
+
+def table_of(
+    trials: Sequence[Trial],
+    keys: Sequence[str],
+    own: Mapping[str, str],
+    scenarios: Sequence[str],
+    goals: tuple[Goal, ...],
+    constraints: tuple[Constraint, ...],
+) -> xr.Dataset:
+    """Table of the trials; `own` are the values of the case, of trials without others."""
+    columns = {key: [t.settings.get(key, own.get(key, "")) for t in trials] for key in keys}
+    coords = {key: coordinate(key, "trial", texts) for key, texts in columns.items()}
+    names = xr.Variable("scenario", np.array(scenarios, dtype=np.str_))
+    data: dict[str, xr.Variable] = {}
+    for each in constraints:
+        data |= _columns(each.scalar, [trial.extreme(each) for trial in trials])
+    for goal in goals:
+        data |= _columns(goal.scalar, [trial.worst(goal) for trial in trials])
+        data |= _of_scenarios(trials, goal)
+    feasible = [trial.is_feasible(goals, constraints) for trial in trials]
+    if len(goals) > 1:
+        data["on_front"] = _on_front(trials, goals, feasible)
+    data["feasible"] = xr.Variable("trial", feasible, {"long_name": "all constraints are kept"})
+    data["level"] = _texts([trial.level for trial in trials], "cells of the runs")
+    data["message"] = _texts([trial.failure for trial in trials], "reason of a failed run")
+    return xr.Dataset(data, {"trial": np.arange(len(trials)), "scenario": names, **coords})
+
+
+def _columns(name: str, values: Sequence[Value]) -> dict[str, xr.Variable]:
+    about = {"units": SCALARS[name].units, "long_name": SCALARS[name].long_name}
+    error = {"units": about["units"], "long_name": f"estimated error of: {about['long_name']}"}
+    return {
+        name: xr.Variable("trial", [each.value for each in values], about),
+        error_name(name): xr.Variable("trial", [each.error for each in values], error),
+    }
+
+
+def _of_scenarios(trials: Sequence[Trial], goal: Goal) -> dict[str, xr.Variable]:
+    none = Value(np.nan, np.nan)
+    found = [[r.values.get(goal_name(goal), none) for r in trial.results] for trial in trials]
+    about = {"units": SCALARS[goal.scalar].units}
+    dims, name = ("trial", "scenario"), f"{goal.scalar}_of_scenarios"
+    return {
+        name: xr.Variable(dims, [[v.value for v in row] for row in found], about),
+        error_name(name): xr.Variable(dims, [[v.error for v in row] for row in found], about),
+    }
+
+
+def _on_front(
+    trials: Sequence[Trial], goals: tuple[Goal, ...], feasible: Sequence[bool]
+) -> xr.Variable:
+    compared = np.array([each.level == "case" for each in trials]) & feasible
+    costs = np.where(compared[:, None], costs_of(trials, goals), np.nan)
+    about = {"long_name": "no trial is better in one scalar and as good in all others"}
+    return xr.Variable("trial", not_dominated(costs), about)
+
+
+def _listed(texts: Iterable[str]) -> str:
+    return " and ".join(texts)
+
+
+def _texts(texts: Sequence[str], long_name: str) -> xr.Variable:
+    return xr.Variable("trial", np.array(texts, dtype=np.str_), {"long_name": long_name})

@@ -1,0 +1,148 @@
+"""Scenarios of a design: the values under which each trial counts, and their scatter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any
+
+from viscontact.studies.design.parameters import Choice, Space
+from viscontact.studies.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
+from viscontact.studies.sweep.sampling import Range, range_of
+from viscontact.units.parsing import parse_any_quantity
+from viscontact.units.tolerances import read_toleranced
+
+#: Most keys that scatter: each trial takes a run for all corners of their ranges.
+MOST_SCATTERED = 3
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """Deviation of a parameter from the value that is tried.
+
+    >>> Deviation("-0.5 mm", "").added_to("12 mm")
+    '0.0115 m'
+    """
+
+    text: str
+    own: str  # value of the case, for the trial without others
+
+    def added_to(self, value: str) -> str:
+        """Sum of a value and the deviation, in the SI unit."""
+        number, unit = parse_any_quantity(value or self.own)
+        amount, _ = parse_any_quantity(self.text)
+        return f"{number + amount:.12g} {unit}" if unit != "1" else f"{number + amount:.12g}"
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """Values of the case by key, and deviations from the values of the trial by key."""
+
+    name: str
+    values: Mapping[str, str] = field(default_factory=dict)
+    deviations: Mapping[str, Deviation] = field(default_factory=dict)
+
+    def settings(self, trial: Mapping[str, str]) -> dict[str, str]:
+        """Values of the run of a trial.
+
+        >>> wide = Scenario("wide", {"load.force": "1 N"}, {"load.x": Deviation("2 mm", "5 mm")})
+        >>> wide.settings({"load.x": "3 mm"})
+        {'load.force': '1 N', 'load.x': '0.005 m'}
+        """
+        changed = {key: each.added_to(trial.get(key, "")) for key, each in self.deviations.items()}
+        return {**self.values, **trial, **changed}
+
+
+def scenarios_of(
+    over: Mapping[str, Sequence[Any]] | None,
+    scatter: Mapping[str, Any] | None,
+    space: Space,
+    own: Mapping[str, str],
+) -> list[Scenario]:
+    """Return all scenarios of `design`, those of `over` at every corner of `scatter`.
+
+    `own` are the values of the case by key. ValueError names the fault.
+    """
+    given, spread = _given(over), _scattered(scatter, space, own)
+    found = []
+    for row, corner in product(range(len(given.rows)), _corners(spread)):
+        values = dict(zip(given.keys, given.rows[row], strict=True))
+        texts = {key: text for key, text in corner.items() if key not in space.keys}
+        deviations = {
+            key: Deviation(text, own[key]) for key, text in corner.items() if key in space.keys
+        }
+        apart = "with " + ", ".join(f"{_short(key)} {text}" for key, text in corner.items())
+        name = f"{given.name(row)} {apart if corner else ''}".strip()
+        found.append(Scenario(name, {**values, **texts}, deviations))
+    return found
+
+
+def _given(over: Mapping[str, Sequence[Any]] | None) -> Design:
+    if not over:
+        return NOTHING_VARIED
+    for key, values in over.items():
+        if isinstance(values, str) or not len(values):
+            raise ValueError(
+                f"over: {key}: must be a list of values, as ['0 mm', '5 mm'], got {values!r}"
+            )
+    try:
+        return grid_design({key: [str(value) for value in values] for key, values in over.items()})
+    except EqualValuesError as error:
+        raise ValueError(f"over: {error}") from None
+
+
+def _scattered(
+    scatter: Mapping[str, Any] | None, space: Space, own: Mapping[str, str]
+) -> list[Range]:
+    """Ranges of the scattered keys: deviations for a parameter, values for any other key."""
+    given = scatter or {}
+    if len(given) > MOST_SCATTERED:
+        raise ValueError(f"scatter: must have {MOST_SCATTERED} keys at most, got {len(given)}")
+    choices = {each.key for each in space.parameters if isinstance(each, Choice)}
+    found = []
+    for key, bounds in given.items():
+        try:
+            found.append(range_of(key, _bounds(bounds, is_changed=key in space.keys)))
+        except ValueError as error:
+            raise ValueError(f"scatter: {key}: {error}") from None
+        if key in choices:
+            raise ValueError(f"scatter: {key}: is a choice between values, which cannot deviate")
+        if key in space.keys:
+            _require_deviations(found[-1], own)
+    return found
+
+
+def _bounds(given: Any, *, is_changed: bool) -> tuple[str, ...]:
+    """Texts of both bounds, or of a number with its tolerance, which of a parameter is all."""
+    if isinstance(given, str):
+        toleranced = read_toleranced(given) if is_changed else None
+        return (f"± {toleranced.deviation}" if toleranced else given,)
+    if not isinstance(given, tuple) or len(given) != 2:
+        raise ValueError(
+            "must be a tuple of two bounds, as ('0.36', '0.40'), or a number with its tolerance, "
+            f"as '0.38 ± 0.02', got {given!r}"
+        )
+    return tuple(map(str, given))
+
+
+def _require_deviations(found: Range, own: Mapping[str, str]) -> None:
+    low, high = found.value(0.0), found.value(1.0)
+    if not found.low <= 0 <= found.high:
+        raise ValueError(
+            f"scatter: {found.key}: is changed, so that its scatter is a deviation from each value "
+            f"that is tried, as ('-0.02 mm', '0.02 mm'), got {low} and {high}"
+        )
+    if found.key not in own:
+        raise ValueError(f"scatter: {found.key}: give the case a value of it, which can deviate")
+
+
+def _corners(ranges: Sequence[Range]) -> list[dict[str, str]]:
+    """Nominal values, which are none, and all combinations of both ends of the ranges."""
+    ends = product(*((each.value(0.0), each.value(1.0)) for each in ranges))
+    corners = [{each.key: text for each, text in zip(ranges, texts, strict=True)} for texts in ends]
+    return [{}, *corners] if ranges else [{}]
+
+
+def _short(key: str) -> str:
+    return key.rpartition(".")[2]

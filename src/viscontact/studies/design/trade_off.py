@@ -1,0 +1,78 @@
+"""Trade-off between several goals: the trials that are not dominated by any other one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.studies.design.evaluation import Evaluation
+from viscontact.studies.design.goals import Goal
+from viscontact.studies.design.objectives import Objective
+from viscontact.studies.design.parameters import Space
+from viscontact.studies.design.search import Point, Search
+from viscontact.studies.design.trials import Trial
+
+#: Weights of the compromises are multiples of its inverse.
+_PARTS = 4
+
+
+def compromises(count: int) -> list[tuple[float, ...]]:
+    """Weights of the goals in the compromises, all above zero; equal ones are the last.
+
+    >>> compromises(2)
+    [(0.25, 0.75), (0.75, 0.25), (0.5, 0.5)]
+    """
+    equal = (1 / count,) * count
+    lattice = (row for row in product(range(1, _PARTS), repeat=count) if sum(row) == _PARTS)
+    found = [tuple(each / _PARTS for each in row) for row in lattice]
+    return [*(row for row in found if not np.allclose(row, equal)), equal]
+
+
+def searched_trade_off(space: Space, evaluation: Evaluation) -> list[tuple[Search, Trial | None]]:
+    """Search for the best trial of each goal, then for compromises; the equal one is the last.
+
+    All searches know the trials of the others. If a goal has no feasible trial, its search is the
+    last.
+    """
+    goals = evaluation.goals
+    weights = compromises(len(goals))
+    found: list[tuple[Search, Trial | None]] = []
+    points: dict[int, Point] = {}
+
+    def search(objective: Objective) -> Trial | None:
+        left = len(goals) + len(weights) - len(found) - 1
+        held = (evaluation.budget - evaluation.runs) * left // (left + 1)
+        made = Search(space, evaluation, objective, points, held)
+        found.append((made, made.run()))
+        return found[-1][1]
+
+    best = [search(Objective((goal,))) for goal in goals]
+    ends = [each for each in best if each is not None]
+    if len(ends) < len(goals):
+        return found
+    costs = costs_of(ends, goals)
+    least = costs.min(axis=0)
+    spans = np.maximum(costs.max(axis=0) - least, 1e-6 * abs(least) + 1e-300)
+    for each in weights:
+        search(Objective(goals, each, tuple(least), tuple(spans)))
+    return found
+
+
+def costs_of(trials: Sequence[Trial], goals: Sequence[Goal]) -> Floats:
+    """Costs of all goals in some trials, of shape (trials, goals)."""
+    return np.array([[goal.cost(each.worst(goal).value) for goal in goals] for each in trials])
+
+
+def not_dominated(costs: Floats) -> Bools:
+    """Rows of which no other one is as good in every cost and better in one.
+
+    >>> not_dominated(np.array([[1.0, 3.0], [2.0, 2.0], [2.0, 4.0], [np.nan, 0.0]])).tolist()
+    [True, True, False, False]
+    """
+    no_worse = np.all(costs[None] <= costs[:, None], axis=2)
+    better = np.any(costs[None] < costs[:, None], axis=2)
+    is_dominated = np.any(no_worse & better, axis=1)
+    return np.asarray(~is_dominated & ~np.isnan(costs).any(axis=1))

@@ -1,0 +1,82 @@
+"""Trials of a design: the values of the parameters, and what their runs gave."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from viscontact.studies.design.goals import Constraint, Goal, Value
+
+#: Scalar that shows how far a contact reaches, where it reaches a sharp end.
+REACH = "contact_length"
+
+#: Cells of a run: coarse ones of the search, or those of the case.
+Level = Literal["coarse", "case"]
+
+
+@dataclass(frozen=True)
+class ScenarioResult:
+    """Scalars of the run of one scenario, or the reason why it has none."""
+
+    values: Mapping[str, Value]  # of the goal at its instant, and of the constraints, by name
+    failure: str = ""
+    warnings: str = ""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Values of the parameters, and the results of all scenarios."""
+
+    settings: Mapping[str, str]  # by key
+    level: Level
+    results: tuple[ScenarioResult, ...]
+
+    @property
+    def failure(self) -> str:
+        """Reason of the first run that failed; empty if all have a result."""
+        return next((each.failure for each in self.results if each.failure), "")
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings of all runs, each once."""
+        lines = (line for each in self.results for line in each.warnings.splitlines())
+        return tuple(dict.fromkeys(lines))
+
+    def worst(self, goal: Goal) -> Value:
+        """Value of the goal in the scenario that is farthest off; NaN if a run failed."""
+        values = [each.values.get(goal_name(goal), _NONE) for each in self.results]
+        if any(math.isnan(each.value) for each in values):
+            return _NONE
+        # A value without a limit is worse than any number.
+        return max(values, key=lambda each: (each.depends_on_mesh, goal.cost(each.value)))
+
+    def reach(self) -> float:
+        """Largest extent of a contact along x [m]; zero if it is not known."""
+        lengths = [each.values.get(REACH, _NONE).value for each in self.results]
+        return max((each for each in lengths if not math.isnan(each)), default=0.0)
+
+    def extreme(self, constraint: Constraint) -> Value:
+        """Value of a constraint in the scenario that comes closest to its bound, or exceeds it."""
+        values = [each.values.get(str(constraint), _NONE) for each in self.results]
+        return max(values, key=lambda each: constraint.violation(each.value))
+
+    def violation(self, constraints: tuple[Constraint, ...]) -> float:
+        """Largest relative excess over a bound; zero if all constraints are kept."""
+        excess = (each.violation(self.extreme(each).value) for each in constraints)
+        return max(0.0, *excess, 0.0)
+
+    def is_feasible(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
+        """True if all runs have a result with a limit, and all constraints are kept."""
+        values = [self.worst(goal) for goal in goals]
+        have_limits = all(math.isfinite(v.value) and not v.depends_on_mesh for v in values)
+        return have_limits and self.violation(constraints) == 0.0
+
+
+_NONE = Value(math.nan, math.nan)
+
+
+def goal_name(goal: Goal) -> str:
+    """Name of a goal among the values of a scenario."""
+    return f"{goal.scalar} at {goal.at}"

@@ -1,0 +1,193 @@
+"""Plan of a sensitivity: the runs around the values of a case, all on one grid."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from viscontact.case import Case, CaseError, read_case
+from viscontact.grid import Grid
+from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.preparation import PreparedRun, prepared
+from viscontact.studies.sensitivity.common_grid import coarser, covering, grid_setting
+from viscontact.studies.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
+from viscontact.studies.sensitivity.inputs import Input
+from viscontact.studies.sensitivity.samples import Samples
+from viscontact.studies.sweep.continuation import recorded_runs
+from viscontact.studies.sweep.varied_runs import VariedRun
+
+#: Halvings of the step of an input that is close to a limit, before its differences are one-sided.
+HALVINGS = 3
+#: Parts of a distribution whose values the common grid covers.
+EXTREMES = (1e-4, 1 - 1e-4)
+#: Name of the run with the values of the case.
+NOMINAL = "nominal"
+
+#: Cells of a run: those of the case, or twice as long ones, which show the error of the cells.
+Cells = Literal["case", "coarse"]
+
+_WITHOUT_ERRORS = {"output.errors": "false"}
+
+
+@dataclass(frozen=True)
+class Derivative:
+    """Derivative of the outputs by an input: its stencil, and the step in the logarithm."""
+
+    given: Input
+    stencil: Stencil
+    step: float
+
+    def settings(self, point: int) -> dict[str, str]:
+        """Setting of the case at a point."""
+        return {self.given.key: self.given.at(point * self.step)}
+
+    def run_name(self, point: int, cells: Cells = "case") -> str:
+        """Name of the run at a point; the nominal one has the values of the case."""
+        return named(f"{self.given.key}{point:+d}" if point else NOMINAL, cells)
+
+
+def named(name: str, cells: Cells) -> str:
+    """Name of a run on the cells of the case, or on coarser ones."""
+    return name if cells == "case" else f"{name}, coarse"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Runs of a sensitivity."""
+
+    case: Path
+    settings: Mapping[str, str]  # of all runs
+    cells: Mapping[Cells, Mapping[str, str]]  # settings of the common grid, by kind
+    derivatives: tuple[Derivative, ...]
+    samples: Samples | None = None
+
+    def runs(self) -> list[VariedRun]:
+        """Return all runs, first that of the case itself."""
+        return list(self._runs())
+
+    def _runs(self) -> Iterator[VariedRun]:
+        for cells in self.cells:
+            # Only the run of the case needs error bars.
+            own = {} if cells == "case" else _WITHOUT_ERRORS
+            yield self._run(named(NOMINAL, cells), own, (), cells)
+            for each in self.derivatives:
+                for point in each.stencil.points:
+                    own = {**_WITHOUT_ERRORS, **each.settings(point)}
+                    yield self._run(each.run_name(point, cells), own, (each.given.key,), cells)
+        for name, settings in self.samples.runs() if self.samples else ():
+            yield self._run(name, {**_WITHOUT_ERRORS, **settings}, tuple(settings), "case")
+
+    def _run(
+        self, name: str, own: Mapping[str, str], varied: tuple[str, ...], cells: Cells
+    ) -> VariedRun:
+        settings = {**self.settings, **self.cells[cells], "output.fields": "none", **own}
+        directory = re.sub(r"[^\w.+-]+", "-", name)
+        whole = self.case.parent.resolve() / self.case.name
+        return VariedRun(whole, settings, varied, name, directory, "sample")
+
+
+def planned(  # noqa: PLR0913
+    path: Path,
+    case: Case,
+    settings: Mapping[str, str],
+    inputs: Sequence[Input],
+    step: float,
+    directory: Path | None,
+    samples: Samples | None = None,
+    *,
+    chosen: bool,
+) -> tuple[Plan, list[str]]:
+    """Return the plan of derivatives by some inputs and of samples, and notes on what is left out.
+
+    CaseError if an input that was `chosen` cannot change, or a bound of the samples is refused.
+    """
+    found, notes, grids = [], [], []
+    nominal = prepared(case)
+    for given in inputs:
+        try:
+            derivative, runs = _derivative(path, settings, given, step)
+        except CaseError as error:
+            if chosen:
+                raise
+            notes.append(f"{given.key}: left out, as it cannot change: {error.problems[0]}")
+            continue
+        found.append(derivative)
+        grids += [each.run.grid for each in runs]
+    if samples is not None:
+        grids += _of_samples(path, settings, samples)
+    recorded = _recorded_grid(path, settings, directory)
+    grid = recorded or covering(nominal.run.grid, grids)
+    cells = _settings_of(case, grid)
+    if not case.errors:
+        del cells["coarse"]
+    return Plan(path, settings, cells, tuple(found), samples), notes
+
+
+def _of_samples(path: Path, settings: Mapping[str, str], samples: Samples) -> list[Grid]:
+    """Grids of the bounds of each input, and of those together that have large or small grids."""
+
+    def grid(values: Mapping[str, str]) -> Grid:
+        return prepared(read_plainly(path, {**settings, **values})).run.grid
+
+    found, corners = [], ({}, {})  # type: tuple[list[Grid], tuple[dict[str, str], dict[str, str]]]
+    for each in samples.inputs:
+        ends = sorted(
+            ((grid({each.key: value}), value) for value in map(each.value, EXTREMES)),
+            key=lambda end: math.prod(end[0].size),
+        )
+        found += [end for end, _ in ends]
+        for corner, (_, value) in zip(corners, ends, strict=True):
+            corner[each.key] = value
+    return [*found, *(map(grid, corners) if len(samples.inputs) > 1 else ())]
+
+
+def _settings_of(case: Case, grid: Grid) -> dict[Cells, Mapping[str, str]]:
+    """Settings of the common grid; the case may have given one."""
+    if isinstance(case.grid, Grid):
+        nx, ny = coarser(case.grid).shape
+        return {"case": {}, "coarse": {"grid.shape": f"[{nx}, {ny}]"}}
+    return {"case": grid_setting(grid), "coarse": grid_setting(coarser(grid))}
+
+
+def _derivative(
+    path: Path, settings: Mapping[str, str], given: Input, step: float
+) -> tuple[Derivative, list[PreparedRun]]:
+    """Derivative with the first step and stencil whose outer points the case accepts."""
+    tried = [Derivative(given, CENTRAL, step / 2**n) for n in range(HALVINGS + 1)]
+    tried += [Derivative(given, each, step / 4) for each in (BELOW, ABOVE)]
+    problem: CaseError | None = None
+    for each in tried:
+        outer = {min(each.stencil.points), max(each.stencil.points)}
+        try:
+            runs = [
+                prepared(read_plainly(path, {**settings, **each.settings(point)}))
+                for point in sorted(outer)
+            ]
+        except CaseError as error:
+            problem = problem or error
+        else:
+            return each, runs
+    assert problem is not None
+    raise problem
+
+
+def read_plainly(path: Path, settings: Mapping[str, str]) -> Case:
+    """Read a case; CaseError without the name of an option of the command line."""
+    try:
+        return read_case(path, [f"{key}={value}" for key, value in settings.items()])
+    except CaseError as error:
+        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
+
+
+def _recorded_grid(path: Path, settings: Mapping[str, str], directory: Path | None) -> Grid | None:
+    """Grid of the runs that a directory holds; None without any."""
+    if directory is None or not (directory / MANIFEST_NAME).exists():
+        return None
+    first = recorded_runs(directory)[0].settings
+    kept = {key: value for key, value in first.items() if key.partition(".")[0] == "grid"}
+    grid = read_plainly(path, {**settings, **kept}).grid
+    return grid if isinstance(grid, Grid) else None

@@ -1,0 +1,105 @@
+"""Designs of a sweep: the values of the varied keys in each run."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from viscontact.studies.sweep.equal_values import comparable
+
+
+class EqualValuesError(ValueError):
+    """Values that are equal, however they are written, so that two runs would be the same."""
+
+
+@dataclass(frozen=True)
+class Heading:
+    """Heading of a column of a table, and the unit in it; empty if the cells have their own."""
+
+    text: str
+    key: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Design:
+    """Values of the varied keys, as ``--set`` takes them: a row for each run.
+
+    Rows of a table have their lines in the file, and keys their headings.
+    """
+
+    kind: str  # grid, zip, table, sample, or cases without varied keys
+    keys: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    lines: tuple[int, ...] = ()
+    headings: tuple[Heading, ...] = ()
+
+    def settings(self, row: int) -> tuple[str, ...]:
+        """Settings of a row, as KEY=VALUE."""
+        return tuple(f"{key}={value}" for key, value in zip(self.keys, self.rows[row], strict=True))
+
+    def name(self, row: int) -> str:
+        """Name of a row for its directory: its values, or its number if values may be any."""
+        if self.kind in ("table", "sample"):
+            return f"{row:04d}"
+        short = _short_names(self.keys)
+        values = zip(short, self.rows[row], strict=True)
+        return "_".join(f"{_safe(key)}={_safe(value)}" for key, value in values)
+
+
+#: Design of cases of which no key is varied.
+NOTHING_VARIED = Design("cases", (), ((),))
+
+
+def grid_design(values: Mapping[str, Sequence[str]]) -> Design:
+    """All combinations of the values of some keys; those of the last key change fastest.
+
+    >>> found = grid_design({"load.force": ["5 kN", "10 kN"], "grid.shape": ["[32, 32]"]})
+    >>> found.settings(1), found.name(1)
+    (('load.force=10 kN', 'grid.shape=[32, 32]'), 'force=10kN_shape=32-32')
+    """
+    for key, given in values.items():
+        _refuse_equal((key,), [(value,) for value in given])
+    return Design("grid", tuple(values), tuple(product(*values.values())))
+
+
+def paired_design(values: Mapping[str, Sequence[str]]) -> Design:
+    """The first values of all keys, the second ones, and so on.
+
+    >>> paired_design({"load.force": ["5 kN", "10 kN"], "time.end": ["1 s", "2 s"]}).rows
+    (('5 kN', '1 s'), ('10 kN', '2 s'))
+    """
+    count = {key: len(given) for key, given in values.items()}
+    if len(set(count.values())) > 1:
+        numbers = ", ".join(f"{number} of {key}" for key, number in count.items())
+        raise ValueError(f"pairs need equal numbers of values, got {numbers}")
+    rows = tuple(zip(*values.values(), strict=True))
+    _refuse_equal(tuple(values), rows)
+    return Design("zip", tuple(values), rows)
+
+
+def _refuse_equal(keys: Sequence[str], rows: Sequence[tuple[str, ...]]) -> None:
+    """Raise ValueError for two rows of equal values, which would be the same run twice."""
+    seen: dict[Hashable, str] = {}
+    for row in rows:
+        pairs = list(zip(keys, row, strict=True))
+        text = ", ".join(f"{key}={value}" for key, value in pairs)
+        before = seen.setdefault(tuple(comparable(key, value) for key, value in pairs), text)
+        if before is not text:
+            raise EqualValuesError(f"{before} and {text} are equal; give each once")
+
+
+def _short_names(keys: Sequence[str]) -> list[str]:
+    """Last part of each key, or the whole key where that is ambiguous."""
+    last = [key.rpartition(".")[2] for key in keys]
+    count = Counter(last)
+    return [name if count[name] == 1 else key for key, name in zip(keys, last, strict=True)]
+
+
+def _safe(text: str) -> str:
+    """Text with only those characters that directory names may have on any system."""
+    words = re.sub(r"[^\w.+%-]+", "-", re.sub(r"\s+", "", text))
+    return words.strip("-.") if text.strip()[:1] != "-" else "-" + words.strip("-.")

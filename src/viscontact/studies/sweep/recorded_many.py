@@ -1,0 +1,159 @@
+"""Independent runs from Python that are recorded in directories."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from viscontact.runs.execution.stop_requests import StopRequests
+from viscontact.runs.processes.child import Ended
+from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
+from viscontact.studies.executors.driver import Active, Workers, case_task, drive
+from viscontact.studies.executors.simulation_task import SimulationTask, change_of_results
+from viscontact.studies.executors.task import RecordedTask
+from viscontact.studies.sweep.case_digests import changed_since, with_digests
+from viscontact.studies.sweep.continuation import (
+    OtherSweepError,
+    continued,
+    has_begun,
+    recorded_runs,
+)
+from viscontact.studies.sweep.manifest import SweepRun, write_manifest
+from viscontact.studies.sweep.recipes import Recipe, known_memory
+from viscontact.studies.sweep.varied_runs import VariedRun, case_name, sweep_run
+
+#: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.
+Progress = Callable[[int, int, int], None]
+
+#: Most failed runs whose messages are raised.
+_MOST_NAMED = 5
+
+
+def record_many(
+    recipes: Sequence[Recipe],
+    directory: Path,
+    workers: Workers,
+    progress: Progress,
+    *,
+    return_exceptions: bool,
+) -> None:
+    """Compute runs in directories within one, or what is left of them.
+
+    ValueError if a run cannot be recorded, or the directory holds other runs; RuntimeError after
+    the end of all runs if any has failed, unless `return_exceptions`.
+    """
+    runs = _recorded(recipes, directory)
+    jobs = [_job(run, recipe, directory) for run, recipe in zip(runs, recipes, strict=True)]
+    given = {job.directory: recipe for job, recipe in zip(jobs, recipes, strict=True)}
+    digests = {job.directory: run.digests for job, run in zip(jobs, runs, strict=True)}
+
+    def task_of(job: Job, token: str) -> RecordedTask:
+        recipe = given[job.directory]
+        if isinstance(recipe, VariedRun):
+            return replace(case_task(job, token), digests=digests[job.directory])
+        assert isinstance(recipe, Mapping)  # checked above
+        return SimulationTask(recipe, job.directory)
+
+    display = _Reports([job.directory for job in jobs], progress)
+    ended = drive(jobs, workers, StopRequests(), display, task_of)
+    if len(ended) < len(jobs) or any(each.code == INTERRUPTED for each in ended):
+        raise KeyboardInterrupt
+    failed = [each for each in ended if each.code == STOPPED]
+    if failed and not return_exceptions:
+        lines = [f"{each.job.name}: {'; '.join(each.said)}" for each in failed[:_MOST_NAMED]]
+        raise RuntimeError("\n".join((f"{len(failed)} of {len(jobs)} runs failed", *lines)))
+
+
+def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
+    """Write the manifest of runs, and return its lines; ValueError if it is one of other runs."""
+    if not recipes:
+        raise ValueError("runs: there are none to record")
+    earlier = recorded_runs(directory)
+    place = directory.resolve()
+    cases = {each.case for each in recipes if isinstance(each, VariedRun)}
+    names = {case: case_name(case, place) for case in cases}
+    runs = [_sweep_run(n, recipe, names, earlier) for n, recipe in enumerate(recipes)]
+    try:
+        found = continued(directory, runs, earlier)
+    except OtherSweepError as error:
+        raise ValueError(f"{directory}: holds other runs: {error}; choose another one") from None
+    name, count = Counter(each.directory for each in found).most_common(1)[0]
+    if count > 1:
+        raise ValueError(f"runs: {count} of them would go to {directory / name}; give each once")
+    for run, recipe in zip(found, recipes, strict=True):
+        _refuse_other_results(run, recipe, directory)
+    pinned = with_digests(directory, found)
+    for before, now in zip(found, pinned, strict=True):
+        _refuse_changed_case(before, now, directory)
+    if found != earlier:
+        write_manifest(directory, pinned)
+    return pinned
+
+
+def _sweep_run(
+    number: int, recipe: Recipe, names: Mapping[Path, str], earlier: Sequence[SweepRun]
+) -> SweepRun:
+    """Line of the manifest of a run."""
+    if isinstance(recipe, VariedRun):
+        return sweep_run(number, recipe, names[recipe.case], earlier)
+    if isinstance(recipe, Mapping):
+        return SweepRun(number, f"run{number}", f"run{number}", {}, (), "", "cases")
+    raise ValueError(
+        f"runs[{number}]: a run in a directory is given by the arguments of simulate or by vary, "
+        f"got {recipe!r}"
+    )
+
+
+def _refuse_other_results(run: SweepRun, recipe: Recipe, directory: Path) -> None:
+    """Raise ValueError for arguments of `simulate` whose directory has results of others."""
+    if not isinstance(recipe, Mapping):
+        return
+    try:
+        change = change_of_results(recipe, directory / run.directory)
+    except (ValueError, TypeError) as error:
+        kind = TypeError if isinstance(error, TypeError) else ValueError
+        raise kind(f"runs[{run.run}]: {error}") from error
+    if change:
+        raise ValueError(
+            f"{directory}: holds other runs: its {run.directory} has {change}; runs that are given "
+            "as mappings are known by their position: keep their order and append others at the "
+            "end, or choose another directory"
+        )
+
+
+def _refuse_changed_case(before: SweepRun, now: SweepRun, directory: Path) -> None:
+    """Raise ValueError for a run with results, by its digests of a case that has changed since."""
+    if before.digests == now.digests or not has_begun(directory / before.directory):
+        return
+    if parts := changed_since(directory, before):
+        raise ValueError(
+            f"{directory}: holds runs of the case {Path(before.case).name} before it changed: "
+            f"{', '.join(parts)}; choose another directory, or undo the change"
+        )
+
+
+def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:
+    place = directory / run.directory
+    case = recipe.case if isinstance(recipe, VariedRun) else Path(run.directory)
+    request = RunRequest(case, place, resume=True, settings=run.assignments)
+    memory = known_memory(recipe)
+    return Job(request, place, run.name, Standing.STOPPED, None, 0.0, 1.0, memory)
+
+
+class _Reports:
+    """Display that reports the end of each run."""
+
+    def __init__(self, places: Sequence[Path], progress: Progress) -> None:
+        self._numbers = {place: number for number, place in enumerate(places)}
+        self._progress, self._ended = progress, 0
+
+    def update(self, active: Sequence[Active]) -> None:
+        """Show nothing during the runs."""
+
+    def end(self, ended: Ended) -> None:
+        """Report the end of a run."""
+        self._ended += 1
+        self._progress(self._numbers[ended.job.directory], self._ended, len(self._numbers))

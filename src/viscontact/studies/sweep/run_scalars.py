@@ -1,0 +1,97 @@
+"""Scalars of finished runs with their errors, read from the progress log or from the result."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.results.variables import AXES, ERRORS, SCALARS
+from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
+from viscontact.runs.directory.netcdf_layout import described_fields, opened
+from viscontact.runs.directory.progress_log import reached_in
+from viscontact.state import Outcome
+from viscontact.studies.sweep.states import last_line
+
+#: Columns of a table of scalars.
+COLUMNS = (*AXES, *SCALARS, *ERRORS)
+_FIRST = {f'{{"{name}"'.encode() for name in AXES}
+_OUTCOMES = {outcome.name.lower(): outcome.value for outcome in Outcome}
+
+
+@dataclass(frozen=True)
+class RunOutline:
+    """Instants or speeds of a finished run, and what its result holds."""
+
+    over: str  # "time" or "speed"
+    rows: Floats  # instants [s] or speeds [m/s]
+    columns: frozenset[str]  # those of `COLUMNS` that the result states
+    fields: dict[str, Any] | None  # as `described_fields` returns it
+    verdict: str = ""  # the worst on the allowable values; empty without any
+    decided_by: str = ""  # quantities with that verdict; empty if all have passed
+
+
+def run_outline(directory: Path) -> RunOutline:
+    """Read the outline of a finished run; OSError or ValueError if it cannot be read."""
+    end = last_line(directory)
+    with suppress(OSError, ValueError, LookupError, TypeError):  # then the result is the source
+        if end.get("complete"):
+            with (directory / PROGRESS_NAME).open("rb") as lines:
+                rows = np.array([_row_value(line) for line in lines])
+            over = next(name for name in AXES if name in end)
+            columns = frozenset(set(COLUMNS) & set(end))
+            judged = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
+            return RunOutline(over, rows, columns, end.get("fields"), *judged)
+    with opened(directory / RESULT_NAME, "r") as file:
+        over = _axis_of(file)
+        rows = np.asarray(file.variables[over][:], dtype=np.float64)
+        return RunOutline(over, rows, frozenset(_stored(file)), described_fields(file))
+
+
+def run_scalars(directory: Path) -> Floats:
+    """Read the scalars of a finished run: a row an instant or speed, `COLUMNS` in SI units.
+
+    NaN where the result does not state a scalar. OSError or ValueError if it cannot be read.
+    """
+    with suppress(OSError, ValueError, LookupError, TypeError, AttributeError):
+        if last_line(directory).get("complete"):
+            with (directory / PROGRESS_NAME).open("rb") as lines:
+                return np.array([_row(json.loads(line)) for line in lines], dtype=np.float64)
+    return _of_result(directory / RESULT_NAME)
+
+
+def _row_value(line: bytes) -> float:
+    if not line.endswith(b"}\n"):
+        raise ValueError("the line is not complete")
+    # It comes first; to parse the whole line takes thirty times as long.
+    name, _, rest = line[:64].partition(b": ")
+    number = rest.partition(b",")[0]
+    return float(number) if name in _FIRST else reached_in(json.loads(line))
+
+
+def _axis_of(file: netCDF4.Dataset) -> str:
+    return next((name for name in AXES if name in file.dimensions), "time")
+
+
+def _row(entries: dict[str, Any]) -> list[Any]:
+    entries["outcome"] = _OUTCOMES.get(entries.get("outcome", ""), np.nan)
+    # NumPy reads None as NaN and "inf" as infinite.
+    return [entries.get(name) for name in COLUMNS]
+
+
+def _stored(file: netCDF4.Dataset) -> list[str]:
+    return [name for name in COLUMNS if name in file.variables]
+
+
+def _of_result(path: Path) -> Floats:
+    with opened(path, "r") as file:
+        table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
+        for name in _stored(file):
+            table[:, COLUMNS.index(name)] = file.variables[name][:]
+    return table

@@ -1,0 +1,150 @@
+"""Arguments of a design that are refused, with the reason."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import viscontact as vc
+from viscontact.studies.design.parameters import space_of
+from viscontact.studies.design.scenarios import scenarios_of
+
+BALL = """
+indenter: {shape: sphere, radius: 5 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, force: 0.1 N}
+time: {end: 1 s, steps: 1}
+grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}
+output: {errors: false}
+"""
+FORCE = {"load.force": ("0.01 N", "0.1 N")}
+
+
+@pytest.fixture
+def ball(tmp_path: Path) -> Path:
+    path = tmp_path / "ball.yaml"
+    path.write_text(BALL)
+    return path
+
+
+REFUSED: dict[str, tuple[dict[str, Any], str]] = {
+    "no parameter": ({"change": {}}, "change: name a key"),
+    "no tuple": ({"change": {"load.force": "1 N"}}, "change: load.force: must be a tuple"),
+    "reversed": ({"change": {"load.force": ("2 N", "1 N")}}, "the lower bound comes first"),
+    "log from zero": (
+        {"change": {"load.force": ("0 N", "1 N", "log")}},
+        "a logarithmic range needs bounds above zero",
+    ),
+    "one choice": ({"change": {"load.force": ["1 N"]}}, "must list two values or more"),
+    "cells": ({"change": {"grid.tolerance": ("1 %", "2 %")}}, "no parameters of a design"),
+    "unknown key": ({"change": {"load.farce": ("1 N", "2 N")}}, "farce"),
+    "wrong unit": ({"change": {"load.force": ("1 mm", "2 mm")}}, "cannot read"),
+    "body of no sense": (
+        {"change": {"material.poisson_ratio": ("0.3", "0.7")}},
+        "material.poisson_ratio",
+    ),
+    "no goal": ({"minimise": None}, "give minimise or maximise"),
+    "a goal twice": ({"maximise": "approach"}, "approach: is given twice, in minimise or maximise"),
+    "four goals": (
+        {"maximise": ["force", "work", "contact_area"]},
+        "minimise, maximise: 3 scalars at most, got 4",
+    ),
+    "unknown scalar": ({"minimise": "peak_presure"}, "did you mean peak_pressure?"),
+    "no constraint": ({"constraints": ["contact_width=1mm"]}, "write SCALAR<=VALUE"),
+    "text": ({"constraints": "contact_width<=1mm"}, "must be a list"),
+    "unit": ({"constraints": ["contact_width<=1kN"]}, "must have a unit of [m]"),
+    "contradiction": (
+        {"constraints": ["contact_width<=1mm", "contact_width>=2mm"]},
+        "contact_width <= 1 mm and contact_width >= 2 mm contradict each other",
+    ),
+    "instant": ({"at": 0.3}, "at: 300 ms is no instant of the case; the nearest one is 0 s"),
+    "word": ({"at": "begin"}, "at: must be 'worst', 'end' or a time"),
+    "scenarios": ({"over": {"load.force": ["1 N", "2 N"]}}, "load.force: is given twice"),
+    "equal scenarios": (
+        {"over": {"indenter.radius": ["5 mm", "0.5 cm"]}},
+        "are equal",
+    ),
+    "no list": ({"over": {"indenter.radius": "5 mm"}}, "must be a list of values"),
+    "scatter of no sense": (
+        {"scatter": {"load.force": "1 N"}},
+        "scatter: load.force: must be two bounds, or a number with its tolerance",
+    ),
+    "scatter of one bound": (
+        {"scatter": {"load.force": ("1 N",)}},
+        "scatter: load.force: must be a tuple of two bounds",
+    ),
+    "reversed scatter": (
+        {"scatter": {"material.poisson_ratio": ("0.4", "0.3")}},
+        "scatter: material.poisson_ratio: the lower bound comes first",
+    ),
+    "values in place of deviations": (
+        {"scatter": {"load.force": ("0.04 N", "0.06 N")}},
+        "scatter: load.force: is changed, so that its scatter is a deviation",
+    ),
+    "deviation beyond all sense": (
+        {"scatter": {"load.force": ("-0.05 N", "0.05 N")}},
+        "load.force: must be zero or more, got '-0.04 N'",
+    ),
+    "scattered choice": (
+        {
+            "change": {"indenter.radius": ["4 mm", "5 mm"]},
+            "scatter": {"indenter.radius": ("-1 mm", "1 mm")},
+        },
+        "scatter: indenter.radius: is a choice between values, which cannot deviate",
+    ),
+    "scattered scenario": (
+        {
+            "over": {"indenter.radius": ["5 mm", "6 mm"]},
+            "scatter": {"indenter.radius": ("4 mm", "7 mm")},
+        },
+        "indenter.radius: is given twice",
+    ),
+    "unknown scatter": ({"scatter": {"load.farce": ("1 N", "2 N")}}, "farce"),
+    "too few runs": (
+        {"over": {"indenter.radius": ["5 mm", "6 mm"]}, "runs": 1},
+        "runs: 1 are too few for 2 scenarios",
+    ),
+}
+
+
+@pytest.mark.parametrize(("given", "message"), REFUSED.values(), ids=REFUSED.keys())
+def test_an_argument_that_does_not_fit_is_refused(
+    ball: Path, given: dict[str, Any], message: str
+) -> None:
+    arguments = {"change": FORCE, "minimise": "approach", "workers": 1} | given
+    with pytest.raises(ValueError, match=r"\w") as refusal:
+        vc.design(ball, arguments.pop("change"), **arguments)
+    assert message in str(refusal.value)
+    assert "--set" not in str(refusal.value)
+
+
+def test_a_tolerance_is_scatter_and_of_a_parameter_a_deviation() -> None:
+    space = space_of(FORCE)
+    own = {"load.force": "0.05 N", "indenter.radius": "5 mm"}
+    for given, same in (
+        ({"load.force": "± 1 mN"}, {"load.force": ("-1 mN", "1 mN")}),
+        ({"load.force": "0.05 N ± 2 %"}, {"load.force": ("-0.001 N", "0.001 N")}),
+        ({"indenter.radius": "5 mm ± 0.02 mm"}, {"indenter.radius": ("4.98 mm", "5.02 mm")}),
+    ):
+        assert scenarios_of(None, given, space, own) == scenarios_of(None, same, space, own)
+
+
+def test_a_tolerance_of_the_case_that_does_not_scatter_is_noted(ball: Path) -> None:
+    ball.write_text(BALL.replace("radius: 5 mm", "radius: 5 mm ± 0.1 mm"), "utf-8")
+    known = {"minimise": "approach", "runs": 4}
+    (note,) = [n for n in vc.design(ball, FORCE, **known).notes if "tolerances" in n]
+    assert "as 'indenter.radius=5 mm ± 0.1 mm'" in note
+    scatter = {"indenter.radius": "5 mm ± 0.1 mm"}
+    found = vc.design(ball, FORCE, scatter=scatter, **known | {"runs": 12})
+    assert found.table.sizes["scenario"] == 3
+    assert not any("tolerances" in note for note in found.notes)
+
+
+def test_steady_motion_is_refused_by_name(tmp_path: Path) -> None:
+    path = tmp_path / "rolling.yaml"
+    moved = "motion: {kind: steady, speed: 0.5 m/s, along: y, rolling: true}"
+    path.write_text(BALL.replace("time: {end: 1 s, steps: 1}", moved))
+    with pytest.raises(ValueError, match="is in steady motion; a design takes a case over time"):
+        vc.design(path, {"indenter.radius": ("4 mm", "6 mm")}, minimise="approach", workers=1)
