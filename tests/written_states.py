@@ -35,6 +35,7 @@ def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> Co
     return ContactState(
         time=float(times[row]),
         **fields,
+        in_contact=fields["pressure"] > 0,
         grid=grid,
         **scalars,
         iterations=int(random.integers(99)),

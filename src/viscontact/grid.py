@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Field, Floats
 from viscontact.display import Displayable
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.numbers import as_real, finite, positive, whole
@@ -209,7 +209,7 @@ class Grid(Displayable):
         along, across = (s if old == new else s / old * new for s, old, new in pairs)
         return replace(self, shape=shape, size=(along, across))
 
-    def embed(self, field: Floats, wider: Grid, beyond: float = 0.0) -> Floats:
+    def embed(self, field: Field, wider: Grid, beyond: float = 0.0) -> Field:
         """Embed a field over this grid in a wider one.
 
         Parameters

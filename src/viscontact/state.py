@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.grid import Grid
 
 
@@ -28,6 +28,10 @@ class Outcome(IntEnum):
     NOT_CONVERGED = 2
 
 
+#: Fields of a state over the cells.
+FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
+
+
 @dataclass(frozen=True, eq=False)
 class ContactState:
     """Fields, resultants and rigid motion at one instant; names as in the result's dataset.
@@ -42,6 +46,8 @@ class ContactState:
         Gap, positive when open, +inf outside the indenter's outline [m].
     displacement : ndarray, shape (nx, ny)
         Surface displacement, positive into the half-space [m].
+    in_contact : ndarray of bool, shape (nx, ny)
+        True in cells where the bodies touch.
     line_load : ndarray, shape (nx,)
         Pressure integrated over y, along x [N/m].
     grid : Grid
@@ -117,6 +123,7 @@ class ContactState:
     pressure: Floats
     gap: Floats
     displacement: Floats
+    in_contact: Bools
     line_load: Floats
     grid: Grid
     force: float
@@ -165,13 +172,15 @@ class ContactState:
         To be kept: pressure and displacement of a state that a march has just yielded may lie
         beside other fields, which it would keep as well.
         """
-        pressure, gap, displacement = (
-            each if each.base is None else each.copy()
-            for each in (self.pressure, self.gap, self.displacement)
-        )
-        return replace(self, pressure=pressure, gap=gap, displacement=displacement)
+        own: dict[str, Any] = {}
+        for name in FIELD_NAMES:
+            field = getattr(self, name)
+            own[name] = field if field.base is None else field.copy()
+        return replace(self, **own)
 
     def without_fields(self) -> ContactState:
         """Return the same state with empty fields, to save memory in long runs."""
-        nothing, no_line = np.empty((0, 0)), np.empty(0)
-        return replace(self, pressure=nothing, gap=nothing, displacement=nothing, line_load=no_line)
+        nothing: dict[str, Any] = {
+            name: np.empty((0, 0), getattr(self, name).dtype) for name in FIELD_NAMES
+        }
+        return replace(self, **nothing, line_load=np.empty(0))

@@ -114,7 +114,9 @@ def test_bar_holds_an_error_of_second_order_in_the_cells(known: Solved, name: st
 def test_bar_at_the_end_of_a_body_holds_an_error_of_first_order(known: Solved, name: str) -> None:
     """v(h) = v0 (1 + c h): cells replace the end of the body by whole cells."""
     results = [
-        replace(each, end_pressures=np.ones_like(each.end_pressures))
+        replace(
+            each, at_end=np.ones_like(each.at_end), end_pressures=np.ones_like(each.end_pressures)
+        )
         for each in with_error(known, name, cells=ERROR, order=1.0)
     ]
     assert 0.99 < bar_over_error(known, name, results) < WIDEST
@@ -125,8 +127,9 @@ def test_bar_keeps_the_error_after_the_contact_has_left_the_end() -> None:
     known = solved(steps=12)
     results = []
     for each in with_error(known, "approach", cells=ERROR, order=1.0):
-        ends = np.where(each.scalars["time"] < 0.1, 1.0, 0.0)[:, None] * [1.0, 1.0]
-        results.append(replace(each, end_pressures=ends))
+        at_end = each.scalars["time"] < 0.1
+        ends = at_end[:, None] * [1.0, 1.0]
+        results.append(replace(each, end_pressures=ends, at_end=at_end))
     assert 0.99 < bar_over_error(known, "approach", results) < WIDEST
 
 

@@ -36,7 +36,8 @@ def at_end(ball, exponent, beside, inner):
         peaks = history["peak_pressure"] * each.spacing**-exponent
         ends = np.array([[beside, inner]]) * peaks[:, None]
         scalars = each.scalars | {"peak_pressure": peaks}
-        changed.append(replace(each, scalars=scalars, end_pressures=ends))
+        reached = np.ones_like(each.at_end)
+        changed.append(replace(each, scalars=scalars, end_pressures=ends, at_end=reached))
     return history, changed
 
 
@@ -86,6 +87,7 @@ def test_peak_has_no_limit_between_instants_that_coarser_runs_have_far_apart(bal
                 each,
                 scalars=scalars | {"time": np.array(instants, float), "peak_pressure": peaks},
                 end_pressures=np.stack([peaks, peaks / 2], axis=1),
+                at_end=np.ones(count, bool),
                 **{name: np.repeat(getattr(each, name), count, axis=0) for name in repeated},
             )
         )

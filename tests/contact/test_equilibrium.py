@@ -49,6 +49,28 @@ def test_the_certificate_is_that_of_the_returned_pressure(half_space):
         assert np.abs(found.gap - gap).max() < 1e-13 * displacement.max()
 
 
+def test_cells_in_contact_touch_within_the_radius_of_hertz():
+    grid, radius = vc.Grid((64, 64), (0.16, 0.16)), (0.75 * 1e3 * COMPLIANCE) ** (1 / 3)
+    gap = vc.Paraboloid(1.0, 1.0).gap(grid.x[:, None], grid.y[None, :])
+    centred = Constraints((1e3, 0.0, 0.0))
+    found = solve_contact(problem(centred, gap), ContactDomain(grid), tolerance=1e-10)
+    closed = 1e-10 * COMPLIANCE * found.found.unit_displacement.max()
+    assert (np.abs(found.gap[found.in_contact]) <= closed).all()
+    assert (found.gap[~found.in_contact] > closed).all()
+    # The rim runs through the cells at 22.9 cells from the centre.
+    distance, cell = np.hypot(grid.x[:, None], grid.y[None, :]), grid.cell_size[0]
+    assert found.in_contact[distance < radius - cell].all()
+    assert not found.in_contact[distance > radius + cell].any()
+
+
+def test_no_cell_is_in_contact_under_a_body_that_has_turned_away():
+    grid = vc.Grid((8, 8), (1.0, 1.0))
+    apart = ContactProblem(
+        np.ones(grid.shape), 1e-6, Constraints((None,) * 3, (0.5, 0.0, 0.0)), 1e-15
+    )
+    assert not solve_contact(apart, ContactDomain(grid)).in_contact.any()
+
+
 def test_the_answer_as_a_start_is_the_answer(half_space, solution):
     found = Guess(solution.values.copy(), solution.motion)
     again = solve_contact(problem(), half_space, found, tolerance=1e-9)

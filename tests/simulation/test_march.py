@@ -14,6 +14,7 @@ from viscontact.problem.problem import Problem
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.state import Outcome
 from viscontact.time_integration.restart_data import RestartData
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -167,3 +168,21 @@ def test_what_was_carried_is_what_is_carried_on(run: RunSetup) -> None:
     for _, _ in zip(march, range(8), strict=False):
         restart_data = through_a_file(march.restart_data())
         assert leaves(March(run, restart_data).restart_data()) == leaves(restart_data)
+
+
+@pytest.mark.parametrize("name", ["series law, up, jump, away and back", "rough, off both axes"])
+def test_states_mark_the_cells_that_touch(name: str) -> None:
+    run = RUNS[name]()
+    for state in March(run):
+        if state is None:
+            continue
+        # Within the tolerance of the solver, closed cells are those in contact.
+        closed = 2 * run.problem.tolerance * state.displacement.max()
+        assert state.in_contact.dtype == bool
+        assert (state.gap[state.in_contact] <= closed).all()
+        assert (state.pressure[~state.in_contact] == 0).all()
+        assert state.in_contact.any() == (state.outcome is Outcome.CONVERGED)
+        assert state.without_fields().in_contact.size == 0
+        own = state.with_own_fields().in_contact
+        assert own.base is None
+        assert (own == state.in_contact).all()

@@ -36,6 +36,7 @@ class CoarserResult:
     divides_steps: bool  # divides steps that the coarsest run takes as the original run does
     scalars: History
     end_pressures: Floats  # over the instants, see `singularities.EndCells` [Pa]
+    at_end: Bools  # instants at which the contact reaches the end of the body
     #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
     #: cause, over the mean pressure [-].
     bend_growth: Floats
@@ -47,11 +48,6 @@ class CoarserResult:
     #: run; none of other loads [s].
     segment_ends: Floats = field(default_factory=lambda: np.zeros(0))
 
-    @property
-    def at_end(self) -> Bools:
-        """Instants at which the contact reaches the end of the body."""
-        return np.asarray(self.end_pressures[:, 0] > 0)
-
     def at(self, instants: Floats, *, segment_ends: Floats) -> CoarserResult:
         """The result at instants of the original run, without those that are NaN [s]."""
         known = ~np.isnan(instants)
@@ -60,6 +56,7 @@ class CoarserResult:
             self,
             scalars=scalars | {"time": instants[known]},
             end_pressures=self.end_pressures[known],
+            at_end=self.at_end[known],
             bend_growth=self.bend_growth[known],
             spots=self.spots[known],
             peak_drops=self.peak_drops[known],
@@ -74,9 +71,10 @@ class ObservedStates:
     def __init__(self, run: RunSetup, spacing: float) -> None:
         """Begin with none; `spacing` is the cell size in cells of the original run."""
         self._run, self._spacing = run, spacing
-        self._at_end = cells_at_end(run.open_gap)
+        self._end_cells = cells_at_end(run.open_gap)
         self._states: list[ContactState] = []
         self._ends: list[tuple[float, float]] = []
+        self._at_end: list[bool] = []
         self._bends: list[float] = []
         self._spots: list[float] = []
         self._drops: list[float] = []
@@ -90,9 +88,10 @@ class ObservedStates:
         """Add the next state."""
         run, pressure = self._run, state.pressure
         self._states.append(state.without_fields())
-        self._ends.append(self._at_end.pressures(pressure))
+        self._ends.append(self._end_cells.pressures(pressure))
+        self._at_end.append(bool(state.in_contact[self._end_cells.beside].any()))
         self._bends.append(self._bend_growth(state))
-        self._spots.append(cells_across_spots(pressure > 0, periodic=run.grid.periodic))
+        self._spots.append(cells_across_spots(state.in_contact, periodic=run.grid.periodic))
         self._drops.append(_drop_beside_peak(pressure))
         self._rises.append((_rises_to_ends(pressure), _rises_to_ends(pressure.T)))
         if state.peak_pressure > PEAK_GROWTH * self._peak:
@@ -106,6 +105,7 @@ class ObservedStates:
             divides_steps,
             history_of(self._states),
             np.array(self._ends, dtype=float).reshape(-1, 2),
+            np.array(self._at_end, dtype=bool),
             np.array(self._bends, dtype=float),
             self._spacing * np.array(self._spots, dtype=float),
             np.array(self._drops, dtype=float),

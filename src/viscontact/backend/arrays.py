@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,5 +17,7 @@ Complexes = NDArray[np.complex128]
 Bools = NDArray[np.bool_]
 #: Indices and counts.
 Integers = NDArray[np.intp]
+#: Type of a field over the grid: numbers or a mask.
+Field = TypeVar("Field", Floats, Bools)
 #: Numbers of any kind: real or complex, in single or double precision.
 Numbers = NDArray[Any]

@@ -17,7 +17,7 @@ from viscontact.contact.rigid_balance import Moments, RigidPlane, added
 class ContactResidual:
     """Residual of the contact conditions for a given pressure."""
 
-    contact: Bools  # cells under pressure
+    in_contact: Bools  # cells under pressure
     inverse_gram: Floats  # inverse Gram matrix of the planes over these cells
     motion: Floats  # rigid motion that fits best: approach [m], tilts [rad]
     gap: Numbers  # gap with that motion, in the unit asked for

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Bools, Field, Floats
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.contact.cell_fields import is_even
@@ -146,7 +146,7 @@ class ContactDomain:
         """The independent part of a field on the grid."""
         return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
-    def expand_by_symmetry(self, field: Floats) -> Floats:
+    def expand_by_symmetry(self, field: Field) -> Field:
         """The field on the whole grid of its independent part, in the same memory if it is all."""
         for axis in (0, 1):
             if self.mirrored[axis]:

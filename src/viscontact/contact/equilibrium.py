@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.conjugate_gradients import BoundedCG
 from viscontact.contact.contact_residual import contact_residual
 from viscontact.contact.domain import ContactDomain
@@ -42,6 +42,7 @@ class ContactSolution:
     values: Floats
     motion: Floats  # approach [m] and tilts [rad]
     gap: Floats  # +inf outside the body [m]
+    in_contact: Bools  # cells that touch: the active set of the search
     residual: float  # largest gap in contact or penetration over the largest displacement [-]
     iterations: int  # search directions, without those on coarser grids
     convolutions: int  # on patches or on all cells, without those on coarser grids
@@ -128,12 +129,13 @@ def _solve_from(
         is_last = rounds == MAX_ROUNDS or iterations >= max_iterations
         if converged or stagnant or is_last:
             spent = iterations, convolutions
+            fields = checked.gap, checked.in_contact
             return ContactSolution(
-                start.values, start.motion, checked.gap, checked.error, *spent, converged
+                start.values, start.motion, *fields, checked.error, *spent, converged
             )
         # The next patch holds the contact and all cells that the body still overlaps.
         error = checked.error
-        cells = (pressure > 0) | (checked.gap < 0)
+        cells = checked.in_contact | (checked.gap < 0)
         del checked  # the search needs the memory
 
 
@@ -194,7 +196,7 @@ def _cold_start(problem: ContactProblem, domain: ContactDomain, memory: Floats) 
     for row, column in np.ndindex(2, 2):
         pressure[row::2, column::2] = coarse.found.pressure
     # The coarse cells may not touch at all, or not be able to carry the load.
-    if not (coarse.converged and pressure.any()):
+    if not (coarse.converged and coarse.in_contact.any()):
         return _winkler_guess(problem, domain, memory)
     domain.convolution.apply(pressure, into=memory[1])
     return Guess(memory, coarse.found.motion)

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats, Singles
+from viscontact.backend.arrays import Field, Singles
 from viscontact.contact.response_parts import Operator
 from viscontact.contact.rigid_balance import RigidPlane
 from viscontact.halfspace.preconditioner import Preconditioner
@@ -79,7 +79,7 @@ class Patch:
         """Approximate inverse of the convolution."""
         return self.operators.preconditioner
 
-    def cut(self, field: Floats) -> Floats:
+    def cut(self, field: Field) -> Field:
         """The patch's part of a field."""
         return field[self.rows, self.columns]
 

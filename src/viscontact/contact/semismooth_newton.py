@@ -62,21 +62,22 @@ def newton_search(
     """Search from a balanced pressure until the residual on the whole grid meets the tolerance."""
     iterate, checked = _measured(problem, domain, start.pressure, start)
     best, work = NewtonResult(iterate, checked, 0, 1.0), 1.0
-    active = checked.contact | (checked.gap < 0)
+    active = checked.in_contact | (checked.gap < 0)
     for step in range(1, max_steps + 1):
         if best.error <= tolerance:
             break
         # Steps 2 and 3: close the gap on the set, and find the next set.
         patch = domain.patch_around(active)
-        system = _LinearSystem(problem, patch, active[patch.rows, patch.columns])
+        system = _LinearSystem(problem, patch, patch.cut(active))
         accuracy = INNER_TOLERANCE * tolerance * _displacement(problem, iterate)
         change, gap = system.closed(patch.cut(checked.gap), accuracy)
         pressure = iterate.pressure.copy()
         patch.cut(pressure)[...] += change
-        active = np.where(active, pressure > 0, checked.gap < 0)
-        active[patch.rows, patch.columns] = np.where(system.cells, patch.cut(pressure) > 0, gap < 0)
+        pressed = pressure > 0
+        active = np.where(active, pressed, checked.gap < 0)
+        patch.cut(active)[...] = np.where(system.cells, patch.cut(pressed), gap < 0)
         # Step 4: cut off tension, balance, and convolve.
-        balanced = _feasible(pressure, problem, domain, active)
+        balanced = _feasible(pressure, problem, domain, active | pressed)
         if balanced is None:
             break
         # Step 1: measure.
@@ -180,14 +181,14 @@ def _feasible(
     pressure: Floats,
     problem: ContactProblem,
     domain: MovingDomain,
-    active: Bools,
+    cells: Bools,
 ) -> Floats | None:
-    """Pressure without tension, balanced by a plane factor, else by adding a plane."""
+    """Pressure without tension, balanced by a plane factor, else by adding a plane on cells."""
     whole, constraints = domain.whole, problem.constraints
     others = constraints, whole.plane, whole.cell_area
     balanced = restore_balance(np.maximum(pressure, 0.0), *others, whole.arm)
     if balanced is None:
-        nearest = project_onto_balance(pressure, active | (pressure > 0), *others)
+        nearest = project_onto_balance(pressure, cells, *others)
         balanced = restore_balance(nearest, *others, whole.arm)
     return balanced
 

@@ -144,6 +144,7 @@ def _solution(
         values=np.stack([iterate.pressure, iterate.unit_displacement]),
         motion=iterate.motion,
         gap=found.checked.gap,
+        in_contact=found.checked.in_contact,
         residual=found.error,
         iterations=found.steps,
         convolutions=round(found.convolutions),

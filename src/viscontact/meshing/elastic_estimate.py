@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
@@ -47,6 +47,7 @@ class ContactEstimate:
     open_gap: Floats  # initial gap, +inf outside the body [m]
     pressure: Floats  # [Pa]
     gap: Floats  # gap under load [m]
+    in_contact: Bools
     largest_displacement: float  # of the surface [m]
     motion: Floats  # approach [m] and tilts along x and y [rad]
     converged: bool
@@ -54,7 +55,7 @@ class ContactEstimate:
     @cached_property
     def rim(self) -> Rim:
         """Rim of the contact between the cell centres."""
-        return trace_rim(self.grid, self.pressure > 0, self.gap)
+        return trace_rim(self.grid, self.in_contact, self.gap)
 
     @property
     def length(self) -> float:
@@ -103,7 +104,7 @@ class ContactEstimate:
             inside = (self.rim.rows, self.rim.columns)[axis]
             filled = extents[axis] >= self.grid.size[axis]
             return self.grid.centre[axis] if filled else float(np.median(lines[inside]))
-        touched = np.flatnonzero((self.pressure > 0).any(axis=1 - axis))
+        touched = np.flatnonzero(self.in_contact.any(axis=1 - axis))
         return float(lines[touched[[0, -1]]].mean())
 
     @property
@@ -156,6 +157,7 @@ def elastic_contact(  # noqa: PLR0913
         open_gap,
         domain.expand_by_symmetry(solution.found.pressure),
         domain.expand_by_symmetry(solution.gap),
+        domain.expand_by_symmetry(solution.in_contact),
         compliance * float(solution.found.unit_displacement.max()),
         solution.motion,
         solution.converged,
@@ -200,7 +202,7 @@ def estimate_contact(
         if factors is None:
             return found
         size = size * factors
-        if around is not None and (found.pressure > 0).any():
+        if around is not None and found.in_contact.any():
             centre = found.centre
     raise ValueError(f"grid: no fitting grid was found: {_misfit(indenter, point, scale)}")
 
@@ -278,10 +280,10 @@ def _size_factors(found: ContactEstimate, *, follows: bool) -> Floats | None:
 
     The grid lies around the origin, or `follows` the contact.
     """
-    contact = found.pressure > 0
-    if not contact.any():
+    touched = found.in_contact
+    if not touched.any():
         return _refining_factors(found.open_gap)
-    at_edge = bool(contact[[0, -1]].any()), bool(contact[:, [0, -1]].any())
+    at_edge = bool(touched[[0, -1]].any()), bool(touched[:, [0, -1]].any())
     if any(at_edge) or not found.converged:
         return np.where(at_edge if any(at_edge) else (True, True), 2.0, 1.0)
     reach = np.array(found.extents) / 2 if follows else np.array(found.reach)

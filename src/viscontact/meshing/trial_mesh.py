@@ -131,7 +131,7 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
     fine = _found(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
-    at_end: Bools = np.any(end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2))
+    at_end: Bools = np.any(end_cells(fine.open_gap, 1) & fine.in_contact, axis=(1, 2))
     excess = _end_excess(fine)
     straight = at_end & np.isfinite(pressing.ends)
     changes = np.maximum(changes, _least_changes(fine, straight, excess))
@@ -154,6 +154,7 @@ class _Found:
 
     open_gap: Floats
     pressure: Floats
+    in_contact: Bools
     values: Floats
     scales: Floats
     least_scales: Floats
@@ -211,8 +212,7 @@ def _found(
         mirrored=mirrored_axes(grid, open_gap, even),
         start=start,
     )
-    contact = found.pressure > 0
-    rim = trace_rim(grid, contact, found.gap, trace_outline(indenter, grid))
+    rim = trace_rim(grid, found.in_contact, found.gap, trace_outline(indenter, grid))
     extents, tiny = np.array([rim.length, rim.width]), np.full(len(MESH_QUANTITIES), TINY)
     values = _values(found, rim)
     # A body that mostly tilts has a small approach: its error is relative to the displacement.
@@ -226,11 +226,12 @@ def _found(
     return _Found(
         open_gap,
         found.pressure,
+        found.in_contact,
         values,
         np.maximum(np.abs(values), np.maximum(least, tiny)),
         least,
         np.maximum(extents / grid.cell_size, 1.0),
-        mean_chords(contact),
+        mean_chords(found.in_contact),
         rim.cells_across,
     )
 

@@ -39,7 +39,7 @@ def whole_map_warning(indenter: Indenter, found: PointContact, grid: Grid) -> di
     whole = _pressed(found, indenter.gap(grid.x[:, None], grid.y[None, :]), grid, found.point)
     if not _is_whole(whole):
         return {}
-    rim = trace_rim(grid, whole.pressure > 0, whole.gap, trace_outline(indenter, grid))
+    rim = trace_rim(grid, whole.in_contact, whole.gap, trace_outline(indenter, grid))
     size = " x ".join(format_quantity(each, "m", 2) for each in (rim.length, rim.width))
     less = "less"
     if found.point.force is not None:
@@ -70,7 +70,7 @@ def opening_force(found: PointContact) -> float:
 
 def _is_whole(estimate: ContactEstimate) -> bool:
     """True if all cells of the body are in contact."""
-    return bool((estimate.pressure > 0)[np.isfinite(estimate.open_gap)].all())
+    return bool(estimate.in_contact[np.isfinite(estimate.open_gap)].all())
 
 
 def _pressed(

@@ -118,5 +118,6 @@ class GridEnlargement:
             pressure=small.grid.embed(before.pressure, large.grid),
             gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
             displacement=np.where(np.isnan(known), beyond, known),
+            in_contact=small.grid.embed(before.in_contact, large.grid, beyond=False),
             reference=reference,
         )

@@ -205,8 +205,8 @@ class EventSearch:
 
 def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:
     """Largest distances of the contact from the middle of the grid along x and y [m]."""
-    contact = state.pressure > 0
-    places = ((run.grid.x, contact.any(axis=1)), (run.grid.y, contact.any(axis=0)))
+    touched = state.in_contact
+    places = ((run.grid.x, touched.any(axis=1)), (run.grid.y, touched.any(axis=0)))
     x, y = (float(np.abs(each[where]).max(initial=0.0)) for each, where in places)
     return x, y
 

@@ -76,8 +76,7 @@ class Observer:
         if self._run.position_at(step.time) != self._position:
             self._set_geometry(self._run, step.time)
         # Cells in contact, and the rim within cells, from the gap beside them.
-        contact = solution.pressure > 0
-        rim = trace_rim(self._run.grid, contact, solution.gap, self._outline)
+        rim = trace_rim(self._run.grid, solution.in_contact, solution.gap, self._outline)
         # Work since the step before, and the loss of a cycle that ends here.
         has_datum = self._run.problem.has_datum(rim.grid)
         self._work += self._work_of(point, solution) if has_datum else math.nan
@@ -95,7 +94,7 @@ class Observer:
         # requested times is reported.
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
-            self._largest = contact
+            self._largest = solution.in_contact
         if state.peak_pressure > self._peak and step.time >= self._run.problem.instants[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before = solution
@@ -244,6 +243,7 @@ def _state(
         pressure=solution.pressure,
         gap=solution.gap,
         displacement=solution.displacement,
+        in_contact=solution.in_contact,
         line_load=load,
         grid=rim.grid,
         force=force,

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from viscontact.loads import Condition, LoadProgram, MixedHistory, Segment
 from viscontact.loads.history import Control
 from viscontact.loads.mixed import STOP
-from viscontact.state import ContactState
+from viscontact.state import ContactState, Outcome
 from viscontact.units.formatting import format_quantity
 
 #: Part of a force, or of a duration, that is rounding.
@@ -150,7 +150,7 @@ def _nearest(condition: Condition, states: Sequence[ContactState]) -> str:
     if condition.scalar == "contact":
         nearest = min(states, key=lambda state: state.force)
         now, name, unit = nearest.force, "force", "N"
-        if not any(state.peak_pressure > 0 for state in states):
+        if all(state.outcome is Outcome.NO_CONTACT for state in states):
             return "as the segment begins without contact"
     else:
         name, unit = condition.scalar, condition.unit

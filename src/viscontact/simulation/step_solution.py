@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.state import Outcome
 
 
@@ -13,7 +13,8 @@ from viscontact.state import Outcome
 class StepSolution:
     """Equilibrium at the end of a step.
 
-    Fields over the whole grid, shape (nx, ny): pressure [Pa], gap and displacement [m].
+    Fields over the whole grid, shape (nx, ny): pressure [Pa], gap and displacement [m], and the
+    cells in contact.
     `reference` holds ∫ J dp [-] and its displacement [m] on the computed cells, shape (2, mx, my);
     `motion` approach [m] and tilts [rad]; `resultants` force [N] and moments about the origin
     [N m]; `energy` the elastic energy of the pressure on a half-space of unit compliance [J Pa];
@@ -26,6 +27,7 @@ class StepSolution:
     pressure: Floats
     gap: Floats
     displacement: Floats
+    in_contact: Bools
     reference: Floats
     motion: Floats
     resultants: Floats

@@ -281,7 +281,7 @@ class Stepper:
         solution = solve_contact(problem, self._domain, posed.guess, tolerance=tolerance)
         if not solution.converged:
             return solution, Outcome.NOT_CONVERGED
-        if solution.values[0].any():
+        if solution.in_contact.any():
             return solution, Outcome.CONVERGED
         # A body that can tilt has turned away: from its last tilts no farther than it must.
         plane = self._domain.whole.plane
@@ -313,7 +313,8 @@ def _without_pressure(
 ) -> ContactSolution:
     nothing = np.zeros((2, *domain.shape))
     gap = problem.open_gap - domain.whole.plane.field(motion)
-    return ContactSolution(nothing, motion, gap, 0.0, 0, 0, converged=True)
+    nowhere = np.zeros(domain.shape, bool)
+    return ContactSolution(nothing, motion, gap, nowhere, 0.0, 0, 0, converged=True)
 
 
 def _at_lowest_point(run: RunSetup, time: float, apart: ContactSolution) -> ContactSolution:
@@ -346,17 +347,16 @@ def _on_full_grid(
         "pressure": domain.expand_by_symmetry(found.pressure),
         "gap": domain.expand_by_symmetry(solution.gap),
         "displacement": domain.expand_by_symmetry(trial.reference.fields[1]),
-        "reference": trial.reference.fields,
     }
-    for field in fields.values():
+    reference, in_contact = trial.reference.fields, domain.expand_by_symmetry(solution.in_contact)
+    for field in (*fields.values(), reference, in_contact):
         field.flags.writeable = False  # later steps start from them
     cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images
     energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
     return StepSolution(
-        pressure=fields["pressure"],
-        gap=fields["gap"],
-        displacement=fields["displacement"],
-        reference=fields["reference"],
+        **fields,
+        in_contact=in_contact,
+        reference=reference,
         motion=found.motion,
         resultants=domain.whole.plane.sums(found.pressure) * cell_area,
         energy=energy * cell_area,

@@ -15,7 +15,6 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.contact.domain import ContactDomain
-from viscontact.halfspace.surface_response import SurfaceResponse
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.fixed_steps import Step
@@ -112,13 +111,13 @@ class SurfaceHistory:
 
         `values` are the pressure [Pa] and its unit displacement over `step.compliance` [Pa m].
         """
-        if len(self._responses) == 1:
-            values.flags.writeable = False  # the hereditary integral keeps it without a copy
-            return (values,)
-        pressure = values[0]
-        others = [self._unit_displacement(pressure, each) for each in self._responses[1:]]
+        values.flags.writeable = False  # the hereditary integrals keep it without a copy
+        if len(self._responses) == 1 or not values.any():  # without pressure all are zero
+            return (values,) * len(self._responses)
+        pressure, unit_displacement = values[0], self._domain.unit_displacement
+        others = [unit_displacement(pressure, each) for each in self._responses[1:]]
         if step.weights[0] == 0:  # a law that does not yield instantly
-            first = self._unit_displacement(pressure, self._responses[0])
+            first = unit_displacement(pressure, self._responses[0])
         else:  # what the others leave of the whole
             weighted = zip(step.weights[1:], others, strict=True)
             rest = step.compliance * values[1] - sum(weight * unit for weight, unit in weighted)
@@ -127,11 +126,6 @@ class SurfaceHistory:
         for pair in found:
             pair.flags.writeable = False
         return found
-
-    def _unit_displacement(self, pressure: Floats, response: SurfaceResponse) -> Floats:
-        if not pressure.any():
-            return np.zeros_like(pressure)
-        return self._domain.unit_displacement(pressure, response)
 
     def accept(self, pairs: tuple[Floats, ...]) -> None:
         """Close the step with its new pairs."""

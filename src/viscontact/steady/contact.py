@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.transforms import Transforms
 from viscontact.contact.domain import mirrored_axes
 from viscontact.contact.moving_domain import MovingDomain
@@ -55,7 +55,12 @@ class SteadyContact:
     @property
     def pressure(self) -> Floats:
         """Pressure on the whole grid [Pa]."""
-        return self.domain.expand_by_symmetry(self.solution.values[0])
+        return self.domain.expand_by_symmetry(self.solution.found.pressure)
+
+    @property
+    def in_contact(self) -> Bools:
+        """Cells in contact on the whole grid."""
+        return self.domain.expand_by_symmetry(self.solution.in_contact)
 
     @property
     def gap(self) -> Floats:
@@ -65,7 +70,7 @@ class SteadyContact:
     @property
     def displacement(self) -> Floats:
         """Displacement on the whole grid [m]."""
-        unit = self.domain.expand_by_symmetry(self.solution.values[1])
+        unit = self.domain.expand_by_symmetry(self.solution.found.unit_displacement)
         return self.domain.compliance * unit
 
 

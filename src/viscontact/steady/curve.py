@@ -154,7 +154,7 @@ class SteadyCurve:
     ) -> Mapping[str, float]:
         """Error bars, from a contact on a coarser grid if there is one."""
         problem = self._run.problem
-        if coarse is None or not (coarse.solution.converged and coarse.pressure.any()):
+        if coarse is None or not (coarse.solution.converged and coarse.in_contact.any()):
             return unknown_bars(problem)
         return error_bars(problem, fine, self._measured(coarse), singular=singular)
 
@@ -198,7 +198,7 @@ def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
             f"of the tolerance {tolerance:g}; likely causes: a resultant that hardly fits under "
             "the body, a grid too coarse for the contact, or a tolerance near rounding"
         )
-    if not contact.pressure.any():
+    if not contact.in_contact.any():
         raise ValueError(
             f"load: at {speed} the body does not touch the surface, so there is no contact in "
             "steady motion; press it on"
@@ -275,10 +275,11 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
         )
     passed = (rim.length, rim.width)[problem.axis] / contact.speed
     geometry = geometry_of(problem, gap_on(problem, grid), grid, passed)
+    spots = cells_across_spots(contact.in_contact, periodic=grid.periodic)
     pressure, motion = contact.pressure, contact.solution.motion
     strain = strain_of(float(pressure.max()), contact.domain.local_compliance)
     return (
-        mesh_warnings(rim.cells_across, cells_across_spots(pressure > 0, periodic=grid.periodic))
+        mesh_warnings(rim.cells_across, spots)
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
         | data_warnings(passed, body.measured_until)

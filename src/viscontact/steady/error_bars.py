@@ -159,8 +159,9 @@ def _fills_period(rim: Rim, axis: int) -> bool:
 
 def _entry_excess(problem: SteadyProblem, fine: Measured) -> float:
     """Error of a peak in the first cells at the leading edge, by that behind them [Pa]."""
-    pressure = np.moveaxis(fine.state.pressure, problem.axis, 0)
-    inside = pressure[:-ENTRY_CELLS] * (pressure[ENTRY_CELLS:] > 0)
+    fields = fine.state.pressure, fine.state.in_contact
+    pressure, in_contact = (np.moveaxis(each, problem.axis, 0) for each in fields)
+    inside = pressure[:-ENTRY_CELLS] * in_contact[ENTRY_CELLS:]
     return ENTRY_EXCESS * float(pressure.max() - inside.max(initial=0.0))
 
 

@@ -139,10 +139,10 @@ def _measured(
 
     Sides are (low, high) of both axes, shape (2, 2).
     """
-    grid, pressed = contact.grid, contact.pressure > 0
+    grid, in_contact = contact.grid, contact.in_contact
     low, high, across, touched = [], [], [], []
     for axis in (0, 1):
-        lines = np.flatnonzero(pressed.any(axis=1 - axis))
+        lines = np.flatnonzero(in_contact.any(axis=1 - axis))
         cells, half = (grid.x, grid.y)[axis], grid.cell_size[axis] / 2
         low.append(cells[lines[0]] - half)
         high.append(cells[lines[-1]] + half)

@@ -17,13 +17,13 @@ from viscontact.steady.resistance import Resistance, resistance
 def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
     """Rim of a contact between the cell centres."""
     outline = trace_outline(problem.contact.indenter, contact.grid)
-    return trace_rim(contact.grid, contact.pressure > 0, contact.gap, outline)
+    return trace_rim(contact.grid, contact.in_contact, contact.gap, outline)
 
 
 def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
     """Resistance along the motion."""
     axis, grid = problem.axis, contact.grid
-    chord = mean_chords(contact.pressure > 0, periodic=grid.periodic)[axis] * grid.cell_size[axis]
+    chord = mean_chords(contact.in_contact, periodic=grid.periodic)[axis] * grid.cell_size[axis]
     return resistance(
         problem.contact.indenter,
         contact.domain,
@@ -68,6 +68,7 @@ def state_of(
         pressure=pressure,
         gap=contact.gap,
         displacement=contact.displacement,
+        in_contact=contact.in_contact,
         line_load=load,
         grid=grid,
         force=force,

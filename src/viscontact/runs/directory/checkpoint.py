@@ -13,7 +13,7 @@ from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_
 from viscontact.time_integration.restart_data import RestartData
 
 #: Layout of the restart data; raise it with every change of a name or a meaning in them.
-LAYOUT = 2
+LAYOUT = 3
 
 #: Remedy for files from which a run cannot be resumed.
 REMEDY = "start the run again with --overwrite"
