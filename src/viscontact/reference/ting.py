@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.arguments import require_positive
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
 from viscontact.reference.profiles import ConeProfile, SphereProfile
+from viscontact.reference.ting_contact import SinglePress
 
 GrowingProfile: TypeAlias = SphereProfile | ConeProfile
 """Indenter whose contact grows with the approach."""
@@ -22,7 +22,7 @@ _HALVINGS = 50
 
 
 @dataclass(frozen=True)
-class TingHump:
+class TingHump(SinglePress):
     """Axisymmetric indenter pressed into a viscoelastic half-space and withdrawn.
 
     Made by `ting_hump`.
@@ -37,14 +37,6 @@ class TingHump:
         Instants of the largest approach, and of the last one known [s].
     relaxation_modulus : callable
         M(t) [Pa].
-
-    Examples
-    --------
-    >>> from viscontact.reference.profiles import ConeProfile
-    >>> hump = ting_hump(ConeProfile(1.2), lambda t: 1e-5 * np.sin(math.pi * t / 2) ** 2,
-    ...     peak_time=1.0, end=2.0, relaxation_modulus=lambda t: 2e9 * np.exp(-t))
-    >>> hump.lost < 2.0
-    True
     """
 
     profile: GrowingProfile
@@ -53,72 +45,32 @@ class TingHump:
     end: float
     relaxation_modulus: TimeFunction
 
-    def earlier(self, t: ArrayLike) -> Values:
-        """Instant during loading with the same contact radius, Ting's t_1 [s].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to the end [s].
-
-        Returns
-        -------
-        float or ndarray
-            t_1, t itself during loading, 0 after contact is lost [s].
-
-        Notes
-        -----
-        Integral of M(t - t') dw(t') from t_1 to t = 0 (Ting 1966).
-        """
-        times = np.asarray(t, dtype=np.float64).ravel()
-        low, high = np.zeros_like(times), np.minimum(times, self.peak_time)
-        out = times > self.peak_time
-        now, a, b = times[out], low[out], high[out]
+    def _earlier(self, t: Floats) -> Floats:
+        # Integral of M(t - t') dw(t') from t_1 to t = 0 (Ting 1966).
+        low, high = np.zeros_like(t), np.minimum(t, self.peak_time)
+        out = t > self.peak_time
+        now, a, b = t[out], low[out], high[out]
         for _ in range(_HALVINGS):
             middle = (a + b) / 2
             pressed = self._path_load(middle, now) > 0  # in contact since then
             a, b = np.where(pressed, middle, a), np.where(pressed, b, middle)
         high[out] = np.where(a > 0, (a + b) / 2, 0.0)
-        return high.reshape(np.shape(t))[()]
+        return high
 
-    def contact_radius(self, t: ArrayLike) -> Values:
-        """Radius of the contact circle, 0 after contact is lost [m].
+    def _contact_radius(self, t: Floats) -> Floats:
+        earlier = self._earlier(t)
+        radius = self.profile.reach(np.maximum(self._at(earlier), 0.0))
+        return np.where(earlier > 0, radius, 0.0)
 
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to the end [s].
-
-        Returns
-        -------
-        float or ndarray
-            That at t_1, where g(a) = w(t_1) [m].
-        """
-        radius = self.profile.reach(np.maximum(self._at(np.asarray(self.earlier(t))), 0.0))
-        return np.where(np.asarray(self.earlier(t)) > 0, radius, 0.0)[()]
-
-    def force(self, t: ArrayLike) -> Values:
-        """Force on the half-space [N].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to the end [s].
-
-        Returns
-        -------
-        float or ndarray
-            2 integral of M(t - t') a(t') dw(t') from 0 to t_1 (Ting 1966) [N].
-        """
-        times = np.asarray(t, dtype=np.float64).ravel()
-        earlier = np.asarray(self.earlier(times))
-        force = np.zeros_like(times)
+    def _force(self, t: Floats) -> Floats:
+        # 2 integral of M(t - t') a(t') dw(t') from 0 to t_1 (Ting 1966)
+        earlier, force = self._earlier(t), np.zeros_like(t)
         pressed = earlier > 0
         start = np.zeros(int(pressed.sum()))
         force[pressed] = 2 * superposed(
-            self.relaxation_modulus, self._swept, start, earlier[pressed], times[pressed]
+            self.relaxation_modulus, self._swept, start, earlier[pressed], t[pressed]
         )
-        return force.reshape(np.shape(t))[()]
+        return force
 
     @property
     def lost(self) -> float:

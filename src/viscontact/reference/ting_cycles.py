@@ -12,12 +12,13 @@ from scipy.optimize import brentq
 from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.ting import GrowingProfile
+from viscontact.reference.ting_contact import TingContact
 
 _GAUSS, _WEIGHTS = legendre.leggauss(60)
 
 
 @dataclass(frozen=True)
-class TingCycles:
+class TingCycles(TingContact):
     """Sphere or cone moved cyclically into a Maxwell body at constant speed.
 
     Made by `ting_cycles`.
@@ -98,41 +99,14 @@ class TingCycles:
         """
         return float(self._span(np.zeros(1), cycle)[1][0])
 
-    def contact_radius(self, t: ArrayLike) -> Values:
-        """Radius of the contact circle, 0 without contact [m].
+    def _contact_radius(self, t: Floats) -> Floats:
+        return np.array([self._edge(float(now)) for now in t])
 
-        Parameters
-        ----------
-        t : array_like
-            Time, 0 or later [s].
+    def _force(self, t: Floats) -> Floats:
+        # 2 integral of χ(s) over 0 < s < a
+        return np.array([self._force_at(float(now)) for now in t])
 
-        Returns
-        -------
-        float or ndarray
-            The radius [m].
-        """
-        times = np.asarray(t, dtype=np.float64)
-        found = [self._edge(float(now)) for now in times.ravel()]
-        return np.array(found).reshape(times.shape)[()]
-
-    def force(self, t: ArrayLike) -> Values:
-        """Force on the half-space, 0 without contact [N].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, 0 or later [s].
-
-        Returns
-        -------
-        float or ndarray
-            2 integral of χ(s) over 0 < s < a [N].
-        """
-        times = np.asarray(t, dtype=np.float64)
-        found = [self._force(float(now)) for now in times.ravel()]
-        return np.array(found).reshape(times.shape)[()]
-
-    def _force(self, now: float) -> float:
+    def _force_at(self, now: float) -> float:
         half = self._edge(now) / 2
         return float(2 * half * (self._chi(half * (1 + _GAUSS), now) @ _WEIGHTS))
 

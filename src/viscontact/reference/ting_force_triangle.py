@@ -11,11 +11,13 @@ from numpy.typing import ArrayLike
 from scipy.integrate import quad
 from scipy.special import lambertw
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.ting_contact import SinglePress, over_times
 
 
 @dataclass(frozen=True)
-class TingForceTriangle:
+class TingForceTriangle(SinglePress):
     """Sphere on a Maxwell body under a force that rises and falls at one rate.
 
     Made by `ting_force_triangle`.
@@ -32,14 +34,6 @@ class TingForceTriangle:
         M(0) [Pa].
     relaxation_time : float
         That of M(t) [s].
-
-    Examples
-    --------
-    The approach when the force turns, and when it is gone:
-
-    >>> contact = ting_force_triangle(10.0, 1.0, 0.01, 2e9, 1.0)
-    >>> [round(float(contact.approach(t)) * 1e6, 2) for t in (1.0, 2.0)]
-    [14.68, 10.46]
     """
 
     peak: float
@@ -53,58 +47,21 @@ class TingForceTriangle:
         """Instant of the largest contact: at the peak of the force, or later [s]."""
         return max(self.rise, 2 * self.rise - self.relaxation_time)
 
-    def force(self, t: ArrayLike) -> Values:
-        """Force on the half-space [N].
+    def _force(self, t: Floats) -> Floats:
+        return self.peak / self.rise * np.minimum(t, 2 * self.rise - t)
 
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to twice the rise [s].
-
-        Returns
-        -------
-        float or ndarray
-            The force [N].
-        """
-        times = np.asarray(t, dtype=np.float64)
-        return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
-
-    def earlier(self, t: ArrayLike) -> Values:
-        """Instant of growing contact with the same contact radius, Ting's t_1 [s].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to twice the rise [s].
-
-        Returns
-        -------
-        float or ndarray
-            t_1, t itself while the contact grows [s].
-        """
+    def _earlier(self, t: Floats) -> Floats:
         b, tau = self.rise, self.relaxation_time
-        times = np.asarray(t, dtype=np.float64)
-        left = (2 * b - times) / tau
-        on_rise = tau * lambertw(left * np.exp(times / tau)).real
+        left = (2 * b - t) / tau
+        on_rise = tau * lambertw(left * np.exp(t / tau)).real
         with np.errstate(divide="ignore", invalid="ignore"):
             after_peak = 2 * b + tau * lambertw(-left * np.exp(-left), -1).real
         shrinking = np.where(on_rise <= b, on_rise, after_peak)
-        return np.where(times <= self.widest, times, shrinking)[()]
+        return np.where(t <= self.widest, t, shrinking)
 
-    def contact_radius(self, t: ArrayLike) -> Values:
-        """Radius of the contact circle [m].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to twice the rise [s].
-
-        Returns
-        -------
-        float or ndarray
-            a, a³ = (3 R/4) J * dF at t_1 [m].
-        """
-        return np.cbrt(self._cube(np.asarray(self.earlier(t))))[()]
+    def _contact_radius(self, t: Floats) -> Floats:
+        # a³ = (3 R/4) J * dF at t_1
+        return np.cbrt(self._cube(self._earlier(t)))
 
     def approach(self, t: ArrayLike) -> Values:
         """Approach of the bodies [m].
@@ -121,13 +78,13 @@ class TingForceTriangle:
             of exp((t' - t(t'))/τ) dw(t') from t_1 on, t(t') the later instant of equal contact
             [m].
         """
-        times = np.asarray(t, dtype=np.float64)
-        earlier = np.asarray(self.earlier(times))
-        found = [
-            self._grown(now) if now <= self.widest else self._shrunk(then)
-            for now, then in zip(times.ravel(), earlier.ravel(), strict=True)
-        ]
-        return np.array(found).reshape(times.shape)[()]
+        return over_times(self._approach, t)
+
+    def _approach(self, t: Floats) -> Floats:
+        pairs = zip(t, self._earlier(t), strict=True)
+        return np.array(
+            [self._grown(now) if now <= self.widest else self._shrunk(then) for now, then in pairs]
+        )
 
     def _cube(self, times: Values) -> Values:
         """Cube of the radius of the growing contact [m³]."""

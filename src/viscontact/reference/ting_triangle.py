@@ -9,13 +9,15 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import hyp1f1
 
+from viscontact.backend.arrays import Floats
 from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.profiles import SphereProfile
 from viscontact.reference.ting import GrowingProfile
+from viscontact.reference.ting_contact import SinglePress
 
 
 @dataclass(frozen=True)
-class TingTriangle:
+class TingTriangle(SinglePress):
     """Sphere or cone moved into a viscoelastic solid and withdrawn at constant speed.
 
     Made by `ting_triangle`.
@@ -32,15 +34,6 @@ class TingTriangle:
         Equilibrium modulus of M(t) [Pa].
     moduli, times : tuple of float
         Terms of M(t) [Pa], [s].
-
-    Examples
-    --------
-    Force at the largest approach, and after contact is lost:
-
-    >>> from viscontact.reference.profiles import SphereProfile
-    >>> contact = ting_triangle(SphereProfile(0.01), 1e-5, 1.0, 0.0, [2e9], [1.0])
-    >>> round(float(contact.force(1.0)), 3), float(contact.force(1.6))
-    (5.843, 0.0)
     """
 
     profile: GrowingProfile
@@ -66,69 +59,23 @@ class TingTriangle:
         times = np.asarray(t, dtype=np.float64)
         return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
 
-    def earlier(self, t: ArrayLike) -> Values:
-        """Instant during loading with the same contact radius, Ting's t_1 [s].
+    def _earlier(self, t: Floats) -> Floats:
+        return np.array([self._earlier_than(float(now)) for now in t])
 
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to twice the rise [s].
+    def _contact_radius(self, t: Floats) -> Floats:
+        return self.profile.reach(self.peak / self.rise * self._earlier(t))
 
-        Returns
-        -------
-        float or ndarray
-            t_1, t itself during loading, 0 after contact is lost [s].
-
-        Notes
-        -----
-        With M the integral of M and b the rise, M(t - t_1) - 2 M(t - b) = 0: for a Maxwell body
-        t_1 = τ ln(2 exp(b/τ) - exp(t/τ)).
-        """
-        times = np.asarray(t, dtype=np.float64)
-        found = [self._earlier(float(now)) for now in times.ravel()]
-        return np.array(found).reshape(times.shape)[()]
-
-    def contact_radius(self, t: ArrayLike) -> Values:
-        """Radius of the contact circle, 0 after contact is lost [m].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to twice the rise [s].
-
-        Returns
-        -------
-        float or ndarray
-            That at t_1 [m].
-        """
-        depth = self.peak / self.rise * np.asarray(self.earlier(t))
-        return self.profile.reach(depth)[()]
-
-    def force(self, t: ArrayLike) -> Values:
-        """Force on the half-space [N].
-
-        Parameters
-        ----------
-        t : array_like
-            Time, from 0 to twice the rise [s].
-
-        Returns
-        -------
-        float or ndarray
-            2 integral of M(t - t') a(t') dw(t') from 0 to t_1, a(t') = a(1) t'^p [N].
-
-        Notes
-        -----
-        Integral of exp(-(t - t')/τ) t'^p from 0 to x = exp(-(t - x)/τ) x^(1+p)/(1+p)
-        1F1(1; 2+p; -x/τ) (DLMF 13.4.1 and 13.2.39), p = 1/2 for a sphere and 1 for a cone.
-        """
-        now, x = np.asarray(t, dtype=np.float64), np.asarray(self.earlier(t))
+    def _force(self, t: Floats) -> Floats:
+        # 2 integral of M(t - t') a(t') dw(t') from 0 to t_1, a(t') = a(1) t'^p, p = 1/2 for a
+        # sphere and 1 for a cone. Integral of exp(-(t - t')/τ) t'^p from 0 to x =
+        # exp(-(t - x)/τ) x^(1+p)/(1+p) 1F1(1; 2+p; -x/τ) (DLMF 13.4.1 and 13.2.39).
+        x = self._earlier(t)
         p = 0.5 if isinstance(self.profile, SphereProfile) else 1.0
-        weighted = np.full(np.shape(x), self.equilibrium)
+        weighted = np.full(x.shape, self.equilibrium)
         for modulus, tau in zip(self.moduli, self.times, strict=True):
-            weighted += modulus * np.exp((x - now) / tau) * hyp1f1(1.0, 2 + p, -x / tau)
+            weighted += modulus * np.exp((x - t) / tau) * hyp1f1(1.0, 2 + p, -x / tau)
         radius = self.profile.reach(self.peak / self.rise * x)
-        force: Values = 2 * self.peak / self.rise * radius * x / (1 + p) * weighted
+        force: Floats = 2 * self.peak / self.rise * radius * x / (1 + p) * weighted
         return force
 
     @property
@@ -138,7 +85,7 @@ class TingTriangle:
             return 2 * self.rise
         return float(brentq(self._load, self.rise, 2 * self.rise, args=(0.0,), xtol=1e-300))
 
-    def _earlier(self, now: float) -> float:
+    def _earlier_than(self, now: float) -> float:
         if now <= self.rise:
             return now
         if self._load(now, 0.0) <= 0:
@@ -188,6 +135,11 @@ def ting_triangle(
     ------
     ValueError
         If peak or rise is not positive, a modulus negative, a time not positive, or all moduli 0.
+
+    Notes
+    -----
+    With M the integral of M and b the rise, M(t - t_1) - 2 M(t - b) = 0: for a Maxwell body
+    t_1 = τ ln(2 exp(b/τ) - exp(t/τ)).
 
     References
     ----------
