@@ -12,6 +12,7 @@ from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.steady_equilibrium import solve_steady_contact
 from viscontact.halfspace.moving_load import MovingCompliance
 from viscontact.halfspace.moving_surface import MovingSurface
+from viscontact.halfspace.surface_response import HALF_SPACE
 from viscontact.reference import (
     fast_sphere_friction_coefficient,
     hertz_sphere,
@@ -29,7 +30,7 @@ def zener(length, ratio=10.0):
 
 def pressed(compliance, grid, *, axis=0, mirrored=False, constraints=LEVEL, **options):
     """Solution, pressure on the whole grid and friction coefficient by the slope of a sphere."""
-    domain = MovingDomain(grid, MovingSurface.half_space(compliance), axis, mirrored=mirrored)
+    domain = MovingDomain(grid, MovingSurface(((HALF_SPACE, compliance),)), axis, mirrored=mirrored)
     gap = vc.Paraboloid(RADIUS, RADIUS).gap(grid.x[:, None], grid.y[None, :])
     open_gap = domain.reduce_by_symmetry(gap)
     held = domain.reduced_constraints(constraints)
@@ -50,7 +51,7 @@ def square(cells, side, offset=0.0):
 def dissipation(solution, grid, compliance):
     """Friction coefficient by the loss in the modes."""
     pressure = solution.values[0]
-    lost = MovingDomain(grid, MovingSurface.half_space(compliance), 0).loss.apply(pressure)
+    lost = MovingDomain(grid, MovingSurface(((HALF_SPACE, compliance),)), 0).loss.apply(pressure)
     return float((pressure * lost).sum() / pressure.sum())
 
 

@@ -5,7 +5,8 @@ import pytest
 
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_coefficient
-from viscontact.halfspace.periodic_influence import periodic_influence_table
+from viscontact.halfspace.layered_influence import periodic_layered_table
+from viscontact.halfspace.surface_response import HALF_SPACE
 
 DATUM = 40.0
 
@@ -23,7 +24,7 @@ def strip(y, width, datum=DATUM):
 @pytest.mark.parametrize("cells", [1, 2, 6, 7])
 def test_cells_along_a_period_make_the_strip_of_a_half_plane(cells, edge):
     """Johnson 1985, section 2.3, whatever the shape of the cells and their number."""
-    table = periodic_influence_table((cells, 8), (0.25, edge), DATUM)
+    table = periodic_layered_table((cells, 8), (0.25, edge), HALF_SPACE, DATUM)
     exact = strip(edge * np.arange(8), edge)
     assert np.abs(table.sum(axis=0) - exact).max() < 1e-10 * exact[0]
 
@@ -32,7 +33,7 @@ def test_cells_along_a_period_make_the_strip_of_a_half_plane(cells, edge):
 def test_direct_sum_of_many_images(place):
     """The difference of two places has a limit; the images left out fall as 1/count²."""
     cell, period = (0.25, 0.3), 1.5
-    table = periodic_influence_table((6, 8), cell, DATUM)
+    table = periodic_layered_table((6, 8), cell, HALF_SPACE, DATUM)
 
     def direct(count):
         x = np.arange(-count, count + 1) * period
@@ -45,7 +46,7 @@ def test_direct_sum_of_many_images(place):
 
 def test_far_images_of_a_long_period_are_far():
     """In a period much longer than the distance, differences are those of a single rectangle."""
-    table = periodic_influence_table((4000, 4), (1.0, 1.0), DATUM)[:4]
+    table = periodic_layered_table((4000, 4), (1.0, 1.0), HALF_SPACE, DATUM)[:4]
     single = influence_coefficient(np.arange(4.0)[:, None], np.arange(4.0), (1.0, 1.0))
     assert np.abs((table - table[0, 0]) - (single - single[0, 0])).max() < 1e-5
 
@@ -53,7 +54,8 @@ def test_far_images_of_a_long_period_are_far():
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_convolution_is_the_sum_over_all_pairs(mirrored):
     """Circular along the period, linear across."""
-    table, random = periodic_influence_table((5, 6), (0.3, 0.2), DATUM), np.random.default_rng(1)
+    table = periodic_layered_table((5, 6), (0.3, 0.2), HALF_SPACE, DATUM)
+    random = np.random.default_rng(1)
     pressure = random.random((5, 6))
     if mirrored:
         pressure += pressure[:, ::-1]
@@ -67,7 +69,8 @@ def test_convolution_is_the_sum_over_all_pairs(mirrored):
 
 def test_reciprocity_and_positive_energy():
     """Pressure without resultant displaces against itself: the operator is positive there."""
-    table, random = periodic_influence_table((4, 6), (0.3, 0.2), DATUM), np.random.default_rng(2)
+    table = periodic_layered_table((4, 6), (0.3, 0.2), HALF_SPACE, DATUM)
+    random = np.random.default_rng(2)
     operator = Convolution(table, periodic=(True, False))
     one, two = (each - each.mean() for each in random.normal(size=(2, 4, 6)))
     assert np.vdot(one, operator.apply(two)) == pytest.approx(np.vdot(two, operator.apply(one)))

@@ -36,7 +36,7 @@ class Convolution:
     even sequence convolved with an even kernel is its DCT-II times the kernel's discrete Fourier
     transform [2]_. Along a `periodic` axis, which is not mirrored, the convolution is circular.
     `coefficients` are those of the whole block, from `influence_table` or
-    `periodic_influence_table` [m], even along both axes but for a `signed` one, with the 2 n - 1
+    `periodic_layered_table` [m], even along both axes but for a `signed` one, with the 2 n - 1
     offsets of `moving_influence_table`; `single` precision takes half the time.
 
     Only the cells with data are kept between the transforms along the two axes. Lines are padded,

@@ -97,7 +97,7 @@ def periodic_layered_table(
     """Influence coefficients [m] of a period along x at offsets of i and j cells, shape (nx, ny).
 
     On a rigid base they need no datum; on a half-space displacement is zero at the distance `datum`
-    [m] of a line load, as in `periodic_influence_table`. One cell along x is a strip without end.
+    [m] of a line load. One cell along x is a strip without end.
 
     A wide strip on a thin layer is displaced by the uniaxial compression h (1 - 2ν)/(1 - ν)²:
 

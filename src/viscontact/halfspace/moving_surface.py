@@ -21,11 +21,6 @@ class MovingSurface:
 
     terms: tuple[tuple[SurfaceResponse, MovingCompliance], ...]
 
-    @classmethod
-    def half_space(cls, compliance: MovingCompliance) -> MovingSurface:
-        """Half-spaces of this compliance."""
-        return cls(((HALF_SPACE, compliance),))
-
     def scaled(self, factor: float) -> MovingSurface:
         """Surface whose compliances are multiplied by a factor."""
         return self._with(lambda compliance: compliance.scaled(factor))

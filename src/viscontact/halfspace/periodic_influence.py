@@ -38,29 +38,6 @@ IMAGES = 6
 MIDDLE_FACTORS = ((1, 1 / 24), (3, -7 / 5760), (5, 31 / 967680), (7, -127 / 154828800))
 
 
-def periodic_influence_table(
-    shape: tuple[int, int], cell_size: tuple[float, float], datum: float
-) -> Floats:
-    """Influence coefficients [m] of a period along x at offsets of i and j cells, shape (nx, ny).
-
-    Displacement is zero at the distance `datum` [m] of a line load. One cell along x is a strip
-    without end.
-
-    In the middle of a strip of half width a, -(2/π) ∫ ln(|y|/a) dy = 4 a/π:
-
-    >>> round(float(periodic_influence_table((1, 2), (1.0, 1.0), datum=0.5)[0, 0]), 9)
-    0.636619772
-    """
-    (nx, ny), (dx, dy) = shape, cell_size
-    if nx == 1:
-        dx = dy  # pieces of any length make the strip
-    x = np.arange(nx // 2 + 1, dtype=np.float64)[:, None] * dx
-    y = np.arange(ny, dtype=np.float64)[None, :] * dy
-    table = periodic_influence_coefficient(x, y, (dx, dy), nx * dx, datum)
-    offsets = np.arange(nx)
-    return np.asarray(table[np.minimum(offsets, nx - offsets)])
-
-
 def periodic_influence_coefficient(
     x: Floats,
     y: Floats,

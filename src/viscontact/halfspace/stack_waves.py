@@ -86,12 +86,6 @@ class StackWaves:
         stretch = (2 * along + nu * normal) / (1 - nu)
         return WaveStresses(stretch, nu * (stretch + normal), normal, shear)
 
-    def displacements(self, depth: float) -> tuple[Numbers, Numbers]:
-        """Displacements along the wave and into the body, times shear modulus and wave number."""
-        part = self.parts[_place([each.top for each in self.parts], depth)]
-        along, into, _, _ = part.amplitudes(self.q, depth)
-        return along, into
-
 
 def layer_at(stack: ElasticStack, depth: float) -> int:
     """Index of the layer at a depth [m], the number of layers for the base.

@@ -116,11 +116,7 @@ def fit_creep(  # noqa: PLR0913
     (1, 5.0)
     """
     owner = "fit_creep"
-    instants = positive_column(owner, "times", times, "s", zero=True)
-    values = positive_column(owner, "compliance", compliance, "1/Pa")
-    require_rows(owner, _LEAST_ROWS, times=instants, compliance=values)
-    require_trend(owner, "compliance", instants, values, rises=True)
-    _require_span(owner, "times", instants)
+    instants, values = _over_time(owner, times, ("compliance", compliance, "1/Pa"), rises=True)
     make = shear_law(owner, CREEP, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(CreepResponse(instants, fluid), values)
@@ -192,11 +188,7 @@ def fit_relaxation(  # noqa: PLR0913
     1e+09 Pa, 2e+09 Pa
     """
     owner = "fit_relaxation"
-    instants = positive_column(owner, "times", times, "s", zero=True)
-    values = positive_column(owner, "modulus", modulus, "Pa")
-    require_rows(owner, _LEAST_ROWS, times=instants, modulus=values)
-    require_trend(owner, "modulus", instants, values, rises=False)
-    _require_span(owner, "times", instants)
+    instants, values = _over_time(owner, times, ("modulus", modulus, "Pa"), rises=False)
     make = shear_law(owner, MODULI, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(RelaxationResponse(instants, fluid), values)
@@ -295,6 +287,19 @@ def fit_dynamic(  # noqa: PLR0913
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     columns = {"storage": in_phase, "loss": out_of_phase}
     return Fit(law, series, data, frequencies, columns, used, misfit, **volume)
+
+
+def _over_time(
+    owner: str, times: ArrayLike, column: tuple[str, ArrayLike, str], *, rises: bool
+) -> tuple[Floats, Floats]:
+    """Times [s] and a column of name, values and unit, checked."""
+    name, given, unit = column
+    instants = positive_column(owner, "times", times, "s", zero=True)
+    values = positive_column(owner, name, given, unit)
+    require_rows(owner, _LEAST_ROWS, times=instants, **{name: values})
+    require_trend(owner, name, instants, values, rises=rises)
+    _require_span(owner, "times", instants)
+    return instants, values
 
 
 def _found(

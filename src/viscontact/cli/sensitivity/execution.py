@@ -60,10 +60,6 @@ class SensitivityRequest:
         }
 
 
-def _bounds(text: str) -> tuple[str, ...]:
-    return tuple(part.strip() for part in text.split(":"))
-
-
 def _by_key(option: str, texts: Sequence[str], example: str) -> dict[str, str]:
     found: dict[str, str] = {}
     for text in texts:
