@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.notebook.html import element
-from viscontact.report.blocks import text_table
+from viscontact.report.blocks import remark, text_table
 from viscontact.results.formatting import format_percent, format_with_error
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS
@@ -24,26 +24,31 @@ INSTANTS = {
 
 
 def gains_over_a_year(
-    years: Mapping[str, xr.Dataset | str], goals: Sequence[str], end: float, known: str = ""
-) -> Iterator[Element]:
-    """Yield a table of the goals over time, and what is to be known of the runs.
+    table: xr.Dataset,
+    runs: Mapping[str, xr.Dataset],
+    years: Mapping[str, xr.Dataset | str] | None,
+    goals: Sequence[str],
+) -> list[Element]:
+    """Table of the goals of a design over a year, and remarks on its runs; empty without years.
 
     `years` are the results of two designs up to a year, the first one before, or why there is none,
-    `end` is the end of the case [s]; `known` are warnings that the page has already.
+    `runs` those up to the end of the case; notes of the table are not repeated.
     """
-    runs = {name: run for name, run in years.items() if isinstance(run, xr.Dataset)}
-    for name, why in years.items():
-        if isinstance(why, str):
-            yield element("p", f"The run of the {name} stopped: {why}", class_="faint")
-    if not runs:
-        return
-    rows = [row for goal in goals for row in _rows(runs, tuple(years), goal, end)]
-    yield text_table(("", "time", *years, "change"), rows)
-    yield element("p", "The load is held up to a year, in the scenario that decides.")
-    after = tuple(runs.values())[-1]
-    for line in str(after.attrs.get("warnings", "")).splitlines():
-        if line not in known:
-            yield element("p", line, class_="faint")
+    found = {name: run for name, run in (years or {}).items() if isinstance(run, xr.Dataset)}
+    parts = [
+        remark(f"The run of the {name} stopped: {why}")
+        for name, why in (years or {}).items()
+        if isinstance(why, str)
+    ]
+    if not years or not found:
+        return parts
+    end = float(tuple(runs.values())[-1]["time"][-1])
+    rows = [row for goal in goals for row in _rows(found, tuple(years), goal, end)]
+    parts.append(text_table(("", "time", *years, "change"), rows))
+    parts.append(element("p", "The load is held up to a year, in the scenario that decides."))
+    after, known = tuple(found.values())[-1], str(table.attrs.get("notes", ""))
+    lines = str(after.attrs.get("warnings", "")).splitlines()
+    return parts + [remark(line) for line in lines if line not in known]
 
 
 def _rows(

@@ -1,27 +1,24 @@
-"""Design of a case as one page of HTML: before and after, and the trials."""
+"""Design of a case as a page: before and after, and the trials."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from importlib.resources import files
 from pathlib import Path
-from string import Template
 from typing import Any
 from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
 
-from viscontact import __version__
-from viscontact.notebook.html import element, written
+from viscontact.notebook.html import element
 from viscontact.plot.histories.history import compare_histories
 from viscontact.plot.pressure.line_load import compare_line_loads
 from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
 from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import parameters_of, trials
-from viscontact.report.blocks import drawn_figure, listed_notes, text_table
+from viscontact.report.blocks import drawn_figure, listed_notes, remark, text_table, value_cell
 from viscontact.report.creep_gains import gains_over_a_year, relative_change
-from viscontact.results.formatting import format_with_error
+from viscontact.report.study_page import StudyPage
 from viscontact.results.largest_values import key_label
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity
@@ -42,42 +39,16 @@ def write_design_report(
     results up to a year, or why there is none; `headline` is the sentence of the result. OSError if
     the file cannot be written.
     """
-    folder = files("viscontact.report")
-    template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
-    page = template.substitute(
-        generator=f"viscontact {__version__}",
-        title=written(element("title", title)),
-        style=(folder / "page.css").read_text(encoding="utf-8"),
-        scripts="",
-        body="\n".join(map(written, _chapters(table, runs, years or {}, title, headline))),
-    )
-    Path(path).write_text(page, encoding="utf-8")
-
-
-def _chapters(
-    table: xr.Dataset,
-    runs: Mapping[str, xr.Dataset],
-    years: Mapping[str, xr.Dataset | str],
-    title: str,
-    headline: str,
-) -> Iterator[Element]:
-    yield element(
-        "header",
-        element("h1", title),
-        element("p", headline, class_="headline"),
-        listed_notes(table),
-    )
-    compared = (*_values(table), *before_and_after(runs))
-    yield element("section", element("h2", "Before and after"), *compared)
-    if years:
-        end, known = float(runs["best"]["time"][-1]), str(table.attrs.get("notes", ""))
-        gains = gains_over_a_year(years, _goals(table), end, known)
-        yield element("section", element("h2", "Gain over a year of creep"), *gains)
-    if len(_goals(table)) > 1:
-        yield element("section", element("h2", "Trade-off"), *_trade_off(table))
-    figures = (_trials_figure(table, goal) for goal in _goals(table))
-    yield element("section", element("h2", "Trials"), *figures, *_trials(table))
-    yield element("p", f"Made by viscontact {__version__}.", class_="faint")
+    goals = _goals(table)
+    drawn = (_trials_figure(table, goal) for goal in goals)
+    chapters = {
+        "Before and after": [*_values(table), *before_and_after(runs)],
+        "Gain over a year of creep": gains_over_a_year(table, runs, years, goals),
+        "Trade-off": list(_trade_off(table)) if len(goals) > 1 else [],
+        "Trials": [*drawn, *_trials(table)],
+    }
+    head = element("p", headline, class_="headline"), listed_notes(table)
+    StudyPage(title, head, chapters).write(path)
 
 
 def _values(table: xr.Dataset) -> Iterator[Element]:
@@ -102,29 +73,25 @@ def _goals(table: xr.Dataset) -> list[str]:
 
 def _values_of(table: xr.Dataset, goal: str, best: int) -> Iterator[tuple[str, ...]]:
     """Rows of a goal, in the worst scenario and in each one."""
-    worst = f"{SCALARS[goal].label}, worst scenario"
-    columns = [_goal(table, goal, trial) for trial in (0, best)]
-    yield (worst, *columns, _gain(table, goal, best))
+    label, of_scenarios = SCALARS[goal].label, f"{goal}_of_scenarios"
+    yield (f"{label}, worst scenario", *_change(table, goal, goal, best))
     if table.sizes["scenario"] > 1:
         for number, name in enumerate(table["scenario"].values.tolist()):
             one = table.isel(scenario=number)
-            columns = [_goal(one, goal, trial, "_of_scenarios") for trial in (0, best)]
-            gain = _gain(one, goal, best, "_of_scenarios")
-            yield (f"{SCALARS[goal].label}, {name}", *columns, gain)
+            yield (f"{label}, {name}", *_change(one, goal, of_scenarios, best))
 
 
-def _goal(table: xr.Dataset, name: str, trial: int, suffix: str = "") -> str:
-    column = f"{name}{suffix}"
-    value, error = (float(table[each].values[trial]) for each in (column, error_name(column)))
-    return "" if np.isnan(value) else format_with_error(value, error, SCALARS[name].units)
+def _change(table: xr.Dataset, goal: str, column: str, best: int) -> tuple[str, str, str]:
+    """Values of a column before and after, and the change unless one of them has no limit."""
+    units, ends = SCALARS[goal].units, table.isel(trial=[0, best])
+    before, after = (value_cell(ends.isel(trial=end), column, units) for end in (0, 1))
+    has_limit = not np.isposinf(ends[error_name(column)].values).any()
+    change = relative_change(*ends[column].values.tolist()) if has_limit else ""
+    return before, after, change
 
 
-def _gain(table: xr.Dataset, name: str, best: int, suffix: str = "") -> str:
-    """Relative change; empty where a value is not known or has no limit."""
-    column = f"{name}{suffix}"
-    before, after = (float(table[column].values[trial]) for trial in (0, best))
-    has_limit = not np.isposinf(table[error_name(column)].values[[0, best]]).any()
-    return relative_change(before, after) if has_limit else ""
+def _goal(table: xr.Dataset, name: str, trial: int) -> str:
+    return value_cell(table.isel(trial=trial), name, SCALARS[name].units)
 
 
 def _parameter(column: xr.DataArray, trial: int) -> str:
@@ -152,7 +119,7 @@ def before_and_after(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
         try:
             yield drawn_figure(draw(runs), caption)
         except ValueError as error:  # no contact at these instants
-            yield element("p", f"{caption} Not drawn: {error}", class_="faint")
+            yield remark(f"{caption} Not drawn: {error}")
 
 
 def _trials_figure(table: xr.Dataset, goal: str) -> Element:
@@ -165,32 +132,30 @@ def _trade_off(table: xr.Dataset) -> Iterator[Element]:
     yield drawn_figure(
         trade_off(table), "Trials of which no other one is better in one and as good in the others."
     )
-    goals, keys = _goals(table), parameters_of(table)
-    front = table.isel(trial=table["on_front"].values).sortby(goals[0])
-    rows = [
-        (
-            str(front["trial"].values[row]),
-            *(_parameter(front[key], row) for key in keys),
-            *(_goal(front, goal, row) for goal in goals),
-        )
-        for row in range(front.sizes["trial"])
-    ]
-    labels = [SCALARS[goal].label for goal in goals]
-    yield text_table(("trial", *map(key_label, keys), *labels), rows)
+    front = table.isel(trial=table["on_front"].values).sortby(_goals(table)[0])
+    rows = ((str(front["trial"].values[n]), *_trial(front, n)) for n in range(front.sizes["trial"]))
+    yield text_table(("trial", *_labels(table)), rows)
 
 
 def _trials(table: xr.Dataset) -> Iterator[Element]:
     """Table of all trials."""
-    goals, keys = _goals(table), parameters_of(table)
     rows = []
-    for trial in range(table.sizes["trial"]):
-        values = [_parameter(table[key], trial) for key in keys]
-        level, message = (str(table[name].values[trial]) for name in ("level", "message"))
-        has_limit = not any(np.isposinf(table[error_name(goal)].values[trial]) for goal in goals)
-        why = "not feasible" if has_limit else "no limit"
-        state = "feasible" if table["feasible"].values[trial] else message or why
-        sizes = [_goal(table, goal, trial) for goal in goals]
-        rows.append((str(trial), level, *values, *sizes, state))
-    labels = [SCALARS[goal].label for goal in goals]
-    head = ("trial", "cells", *map(key_label, keys), *labels, "")
-    yield text_table(head, rows)
+    for number in range(table.sizes["trial"]):
+        trial = table.isel(trial=number)
+        has_limit = not any(np.isposinf(trial[error_name(goal)]) for goal in _goals(table))
+        why = str(trial["message"].values) or ("not feasible" if has_limit else "no limit")
+        state = "feasible" if trial["feasible"] else why
+        rows.append((str(number), str(trial["level"].values), *_trial(table, number), state))
+    yield text_table(("trial", "cells", *_labels(table), ""), rows)
+
+
+def _labels(table: xr.Dataset) -> list[str]:
+    """Headings of the parameters and of the goals."""
+    goals = (SCALARS[goal].label for goal in _goals(table))
+    return [*map(key_label, parameters_of(table)), *goals]
+
+
+def _trial(table: xr.Dataset, number: int) -> list[str]:
+    """Parameters and goals of a trial."""
+    values = (_parameter(table[key], number) for key in parameters_of(table))
+    return [*values, *(_goal(table, goal, number) for goal in _goals(table))]

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from importlib.resources import files
 from itertools import chain
 from pathlib import Path
-from string import Template
 from xml.etree.ElementTree import Element
 
 import xarray as xr
 from plotly.graph_objects import Figure
 
-from viscontact import __version__
 from viscontact.figures.histories import histories
 from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import outlines, pressure_map
 from viscontact.figures.sections import sections
 from viscontact.figures.shown_fields import ShownFields, shown_fields
-from viscontact.notebook.html import element, written
+from viscontact.notebook.html import element
 from viscontact.report import input_chapters, result_chapters
-from viscontact.report.scripts import scripts_of
+from viscontact.report.html_page import html_page
 from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
@@ -109,15 +106,8 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
     fields = _fields(ds)
     over_run = *histories(ds), loops(ds)
     drawn = [*_over_surface(ds, fields), *chain(*over_run)]
-    folder, name = files("viscontact.report"), result_chapters.heading_of(ds, label)
-    template = Template((folder / "page.html").read_text(encoding="utf-8"))
-    return template.substitute(
-        generator=f"viscontact {__version__}",
-        title=written(element("title", name)),
-        style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, _body(name, ds, fields, over_run))),
-        scripts=scripts_of(drawn),
-    )
+    name = result_chapters.heading_of(ds, label)
+    return html_page(name, _body(name, ds, fields, over_run), drawn)
 
 
 def _fields(ds: xr.Dataset) -> ShownFields | None:

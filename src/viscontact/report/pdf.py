@@ -33,7 +33,7 @@ from viscontact.report.page import CHAPTERS
 from viscontact.report.pdf_blocks import blocks
 from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
-from viscontact.report.sweep_page import sweep_chapters, sweep_heading
+from viscontact.report.sweep_page import sweep_content
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
 from viscontact.results.filed_case import started_at, title_block
@@ -73,8 +73,8 @@ def write_pdf(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
 
 def write_sweep_pdf(ds: xr.Dataset, path: str | Path, *, title: str) -> None:
     """Write the runs of a sweep, from `open_many`, as a PDF; OSError if it cannot be written."""
-    heading, author = sweep_heading(ds, title), title_block(ds).get("operator", "")
-    _write(path, heading, sweep_chapters(ds, title), author=author, made=started_at(ds))
+    page, author = sweep_content(ds, title, interactive=False), title_block(ds).get("operator", "")
+    _write(path, page.title, page.elements(), author=author, made=started_at(ds))
 
 
 def _write(

@@ -1,22 +1,26 @@
-"""Sensitivity of a case as one page of HTML: tornado figure and table."""
+"""Sensitivity of a case as a page: tornado figure, scatter and derivatives."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.resources import files
 from pathlib import Path
-from string import Template
 from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
 
-from viscontact import __version__
-from viscontact.notebook.html import element, written
+from viscontact.notebook.html import element
 from viscontact.plot.sweeps.scatter_bands import scatter_bands
 from viscontact.plot.sweeps.tornado import tornado
-from viscontact.report.blocks import drawn_figure, listed_notes, text_table
-from viscontact.results.formatting import format_with_error
+from viscontact.report.blocks import (
+    drawn_figure,
+    facts,
+    listed_notes,
+    remark,
+    text_table,
+    value_cell,
+)
+from viscontact.report.study_page import StudyPage
 from viscontact.results.largest_values import key_label
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import format_quantity
@@ -24,89 +28,55 @@ from viscontact.units.formatting import format_quantity
 
 def write_sensitivity_report(table: xr.Dataset, path: str | Path, *, title: str) -> None:
     """Write the table of a sensitivity as one page of HTML; OSError if it cannot be written."""
-    folder = files("viscontact.report")
-    template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
-    page = template.substitute(
-        generator=f"viscontact {__version__}",
-        title=written(element("title", title)),
-        style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, _chapters(table, title))),
-        scripts="",
-    )
-    Path(path).write_text(page, encoding="utf-8")
-
-
-def _chapters(table: xr.Dataset, title: str) -> Iterator[Element]:
-    yield element(
-        "header",
-        element("h1", title),
-        _values(table),
-        listed_notes(table),
-    )
-    if table.sizes["input"]:
-        yield element("section", element("h2", "What matters"), *_elasticities(table))
-    if "percentile" in table:
-        yield element("section", element("h2", "Scatter"), *_scatter(table))
-    if table.sizes["input"]:
-        yield element("section", element("h2", "Derivatives"), *_derivatives(table))
-    yield element("p", f"Made by viscontact {__version__}.", class_="faint")
-
-
-def _values(table: xr.Dataset) -> Element:
-    """Outputs of the case itself."""
-    tiles = (
-        element("div", element("dt", SCALARS[name].label), element("dd", _value(table, name)))
-        for name in map(str, table["output"].values)
-    )
-    return element("dl", *tiles, class_="facts")
+    has_inputs = table.sizes["input"] > 0
+    chapters = {
+        "What matters": list(_elasticities(table)) if has_inputs else [],
+        "Scatter": list(_scatter(table)) if "percentile" in table else [],
+        "Derivatives": list(_derivatives(table)) if has_inputs else [],
+    }
+    values = facts((SCALARS[name].label, _value(table, name)) for name in _names(table))
+    StudyPage(title, (values, listed_notes(table)), chapters).write(path)
 
 
 def _value(table: xr.Dataset, name: str) -> str:
-    one = table.sel(output=name)
-    return format_with_error(float(one["value"]), float(one["value_error"]), SCALARS[name].units)
+    """Output of the case itself."""
+    return value_cell(table.sel(output=name), "value", SCALARS[name].units)
 
 
 def _elasticities(table: xr.Dataset) -> Iterator[Element]:
     yield drawn_figure(tornado(table), "Elasticities with their errors, the largest first.")
-    rows = [
-        (key_label(key), text, *(_pair(table, name, key, "elasticity") for name in _names(table)))
-        for key, text in _inputs(table)
-    ]
+    keys, texts = (table[name].values.tolist() for name in ("input", "input_text"))
+    rows = (
+        (key_label(key), str(text), *_by_input(table, key, "elasticity"))
+        for key, text in zip(keys, texts, strict=True)
+    )
     yield text_table(("Input", "in the case", *_labels(table)), rows)
-    said = "Relative change of the output per relative change of the input."
-    yield element("p", said, class_="faint")
+    yield remark("Relative change of the output per relative change of the input.")
 
 
 def _scatter(table: xr.Dataset) -> Iterator[Element]:
     """Percentiles of the outputs, their bands over time, and the parts of the variance."""
     percents = [f"{each:g} %" for each in table["percent"].values]
-    rows = [
-        (
-            SCALARS[name].label,
-            *(
-                format_quantity(float(each), SCALARS[name].units)
-                for each in table["percentile"].sel(output=name).values
-            ),
-        )
-        for name in _names(table)
-    ]
+    rows = []
+    for name in _names(table):
+        values = table["percentile"].sel(output=name).values.tolist()
+        texts = (format_quantity(each, SCALARS[name].units) for each in values)
+        rows.append((SCALARS[name].label, *texts))
     yield text_table(("Output", *percents), rows)
     if "band" in table and table.sizes[str(table["band"].dims[-1])] > 1:
         caption = "Band from 5 to 95 % of the samples, their median, and the values of the case."
         yield drawn_figure(scatter_bands(table), caption)
+    keys, about = (table[name].values.tolist() for name in ("scattered", "distribution"))
     for name in _names(table):
         one = table.sel(output=name)
-        parts = [
-            (key_label(key), about, *(_index(one.sel(scattered=key), each) for each in _ORDERS))
-            for key, about in zip(
-                table["scattered"].values.tolist(), table["distribution"].values, strict=True
-            )
-        ]
+        parts = (
+            (key_label(key), text, *(_index(one.sel(scattered=key), each) for each in _ORDERS))
+            for key, text in zip(keys, about, strict=True)
+        )
         yield element("h3", f"Variance of: {SCALARS[name].label}")
         yield text_table(("Input", "scatter", "alone", "in total"), parts)
     count = table.sizes["point"]
-    said = f"Sobol' indices with 95 % intervals; percentiles of {count} samples."
-    yield element("p", said, class_="faint")
+    yield remark(f"Sobol' indices with 95 % intervals; percentiles of {count} samples.")
 
 
 _ORDERS = ("first_order", "total_order")
@@ -118,12 +88,12 @@ def _index(of: xr.Dataset, name: str) -> str:
 
 
 def _derivatives(table: xr.Dataset) -> Iterator[Element]:
-    rows = [
-        (key_label(key), *(_pair(table, name, key, "derivative") for name in _names(table)))
-        for key, _ in _inputs(table)
-    ]
+    rows = (
+        (key_label(key), *_by_input(table, key, "derivative"))
+        for key in table["input"].values.tolist()
+    )
     yield text_table(("Input", *_labels(table)), rows)
-    yield element("p", "In SI units: unit of the output per unit of the input.", class_="faint")
+    yield remark("In SI units: unit of the output per unit of the input.")
 
 
 def _names(table: xr.Dataset) -> list[str]:
@@ -134,13 +104,7 @@ def _labels(table: xr.Dataset) -> list[str]:
     return [SCALARS[name].label for name in _names(table)]
 
 
-def _inputs(table: xr.Dataset) -> list[tuple[str, str]]:
-    keys, texts = (table[name].values.tolist() for name in ("input", "input_text"))
-    return list(zip(map(str, keys), map(str, texts), strict=True))
-
-
-def _pair(table: xr.Dataset, output: str, key: str, quantity: str) -> str:
-    """Elasticity or derivative with its error."""
-    one = table.sel(output=output, input=key)
-    value, error = (float(one[name]) for name in (quantity, f"{quantity}_error"))
-    return "not known" if np.isnan(value) else format_with_error(value, error, "1")
+def _by_input(table: xr.Dataset, key: str, quantity: str) -> Iterator[str]:
+    """Elasticity or derivative of each output by an input, with its error."""
+    for name in _names(table):
+        yield value_cell(table.sel(output=name, input=key), quantity, "1", unknown="not known")

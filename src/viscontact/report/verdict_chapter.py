@@ -7,9 +7,8 @@ from xml.etree.ElementTree import Element
 
 import xarray as xr
 
-from viscontact.notebook.html import element
 from viscontact.plot.histories.margins import margin_history
-from viscontact.report.blocks import drawn_figure
+from viscontact.report.blocks import drawn_figure, remark, stacked_table
 from viscontact.results.run_axis import run_axis
 from viscontact.results.verdicts import Verdict, verdicts
 
@@ -27,22 +26,8 @@ def verdict_chapter(ds: xr.Dataset) -> Iterator[Element]:
     rows = verdict_rows(ds)
     if not rows:
         return
-    head = element("tr", *(element("th", text) for text in HEADINGS))
-    body = (
-        element(
-            "tr",
-            element("th", row[0], scope="row"),
-            *(
-                element("td", text, data_head=head)
-                for head, text in zip(HEADINGS[1:-1], row[1:-1], strict=True)
-            ),
-            element("td", row[-1], class_=row[-1].split(":")[0], data_head=HEADINGS[-1]),
-        )
-        for row in rows
-    )
-    table = element("table", element("thead", head), element("tbody", *body), class_="stacked")
-    yield element("div", table, class_="scroll verdicts")
-    yield element("p", LEGEND, class_="faint")
+    yield stacked_table(HEADINGS, rows, judged=True)
+    yield remark(LEGEND)
     try:
         drawn = margin_history(ds)
     except ValueError:  # over speed, or without a margin of a scalar
