@@ -42,19 +42,9 @@ def result_explorer(result: object, **how: Any) -> Any:
     return viscontact.figures.explore(result, **how)
 
 
-def write_design_report(*arguments: object, **options: object) -> None:
-    """Write the report of a design, by `viscontact.report`, imported when first used."""
-    viscontact.report.write_design_report(*arguments, **options)
-
-
-def write_sensitivity_report(*arguments: object, **options: object) -> None:
-    """Write the report of a sensitivity, by `viscontact.report`, imported when first used."""
-    viscontact.report.write_sensitivity_report(*arguments, **options)
-
-
-def write_profile_report(*arguments: object, **options: object) -> None:
-    """Write the report of a profile design, by `viscontact.report`, imported when first used."""
-    viscontact.report.write_profile_report(*arguments, **options)
+def write_study_report(kind: str, *arguments: object, **options: object) -> None:
+    """Write the report of a kind of study, by `viscontact.report`, imported when first used."""
+    getattr(viscontact.report, f"write_{kind}_report")(*arguments, **options)
 
 
 class DisplayableGroup(Displayable, ABC):

@@ -1,6 +1,7 @@
-"""A run as one self-contained page of HTML, to look at and to send."""
+"""Runs and studies as self-contained pages of HTML, to look at and to send."""
 
 from viscontact.report.design_page import write_design_report
+from viscontact.report.fit_page import write_fit_report
 from viscontact.report.page import report_page, write_report
 from viscontact.report.profile_page import write_profile_report
 from viscontact.report.sensitivity_page import write_sensitivity_report
@@ -10,6 +11,7 @@ __all__ = [
     "report_page",
     "sweep_page",
     "write_design_report",
+    "write_fit_report",
     "write_profile_report",
     "write_report",
     "write_sensitivity_report",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.case import yaml_source
+from viscontact.display import write_study_report
 from viscontact.studies.calibration.evaluation import Evaluation
 from viscontact.studies.calibration.response import Experiment, case_with
 from viscontact.studies.calibration.search import Optimum
@@ -110,29 +112,70 @@ class CaseFit:
         comments = "".join(f"# {line}\n" for line in self._lines)
         return comments + yaml_source.write({name: data[name] for name in names})
 
+    def report(self, path: str | PathLike[str]) -> None:
+        """Write a page of HTML: fitted values, records with their residuals, and the sections.
+
+        Parameters
+        ----------
+        path : path-like
+            The page, by custom ending in ``.html``.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If the packages of figures are not installed.
+        OSError
+            If the file cannot be written.
+        """
+        about = {"notes": "\n".join(self.notes), "confidence": self.confidence}
+        write_study_report(
+            *("fit", self.curves.assign_attrs(about), self._rows, self._correlated, path),
+            title=f"Fit of {self.case.stem}",
+            headline=self._headline,
+            section=self.section_text,
+        )
+
     @property
-    def _lines(self) -> list[str]:
-        """A line for each parameter, in the units of the ranges."""
+    def _headline(self) -> str:
+        rows, records = self.curves.sizes["row"], len(np.unique(self.curves["record"]))
+        return (
+            f"{rows} rows of {records} record{'s' * (records > 1)}, residual "
+            f"{self.residual:.2e} of the largest value, {self.runs} runs"
+        )
+
+    @property
+    def _rows(self) -> list[tuple[str, ...]]:
+        """Name, value, interval and discretisation error of each parameter, in units of ranges."""
+        parts = zip(self.unknowns, self.point, self.reach, self.shift, strict=True)
         return [
-            f"{u.name} = {_short(u.text(part))} ({self.confidence:.0%}: {_bound(u, part - reach)} "
-            f"to {_bound(u, part + reach)}; discretisation {_difference(u, part, shift)})"
-            for u, part, reach, shift in zip(
-                self.unknowns, self.point, self.reach, self.shift, strict=True
+            (
+                *(u.name, _short(u.text(part))),
+                f"{_bound(u, part - reach)} to {_bound(u, part + reach)}",
+                _difference(u, part, shift),
             )
+            for u, part, reach, shift in parts
         ]
 
-    def __repr__(self) -> str:
-        rows, records = self.curves.sizes["row"], len(np.unique(self.curves["record"]))
-        lines = [
-            f"CaseFit: {rows} rows of {records} record{'s' * (records > 1)}, residual "
-            f"{self.residual:.2e} of the largest value, {self.runs} runs",
-            *(f"     {line}" for line in self._lines),
+    @property
+    def _lines(self) -> list[str]:
+        """A line for each parameter."""
+        return [
+            f"{name} = {value} ({self.confidence:.0%}: {interval}; discretisation {error})"
+            for name, value, interval, error in self._rows
         ]
+
+    @property
+    def _correlated(self) -> list[tuple[str, str, str]]:
+        """Names and correlation of each pair of parameters."""
         names = [unknown.name for unknown in self.unknowns]
         pairs = [(n, m) for n in range(len(names)) for m in range(n)]
-        if pairs:
+        return [(names[m], names[n], f"{self.correlation[n, m]:+.3f}") for n, m in pairs]
+
+    def __repr__(self) -> str:
+        lines = [f"CaseFit: {self._headline}", *(f"     {line}" for line in self._lines)]
+        if pairs := self._correlated:
             lines.append("     correlation:")
-        lines += [f"       {names[m]}, {names[n]}: {self.correlation[n, m]:+.3f}" for n, m in pairs]
+        lines += [f"       {one}, {other}: {value}" for one, other, value in pairs]
         return "\n".join(lines)
 
 

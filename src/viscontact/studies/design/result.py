@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.case import Case, read_case
-from viscontact.display import write_design_report
+from viscontact.display import write_study_report
 from viscontact.errors import AccuracyWarning
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS, error_name
@@ -128,7 +128,7 @@ class DesignResult:
         title = f"Design of {self.case.stem}: {_listed(map(str, self.goals))}"
         words = {"title": title, "headline": str(self)}
         runs, years = self.before_and_after(), self.over_a_year()
-        write_design_report(self.table, runs, path, years=years, **words)
+        write_study_report("design", self.table, runs, path, years=years, **words)
 
     def before_and_after(self) -> dict[str, xr.Dataset]:
         """Results of the case and of the best one, in the scenario that decides.

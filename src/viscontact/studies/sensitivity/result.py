@@ -9,7 +9,7 @@ from os import PathLike
 import numpy as np
 import xarray as xr
 
-from viscontact.display import write_sensitivity_report
+from viscontact.display import write_study_report
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import format_quantity
@@ -85,7 +85,7 @@ class SensitivityResult:
             If the file cannot be written.
         """
         title = self.table.attrs.get("title") or "Case"
-        write_sensitivity_report(self.table, path, title=f"{title}: sensitivity")
+        write_study_report("sensitivity", self.table, path, title=f"{title}: sensitivity")
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

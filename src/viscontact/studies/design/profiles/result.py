@@ -13,7 +13,7 @@ import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.case import Case
-from viscontact.display import write_profile_report
+from viscontact.display import write_study_report
 from viscontact.errors import AccuracyWarning
 from viscontact.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
@@ -109,7 +109,7 @@ class ProfileDesign:
         title = f"Free profile of {self.case.stem}"
         words = {"title": title, "headline": str(self)}
         runs, years = self.before_and_after(), self.over_a_year()
-        write_profile_report(self.table, runs, path, years=years, **words)
+        write_study_report("profile", self.table, runs, path, years=years, **words)
 
     def before_and_after(self) -> dict[str, xr.Dataset]:
         """Results of the best named profile and of the free one, in the scenario that decides.
