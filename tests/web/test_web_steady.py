@@ -18,7 +18,7 @@ from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.run_files import RESULT_NAME
 from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.folder import Folder
-from viscontact.web.workspace.pictures import FigureChoice, comparison_of, figure_of
+from viscontact.web.workspace.pictures import PictureChoice, comparison_of, figure_of
 from viscontact.web.workspace.problems import RequestError
 from web.calculator_page import asking, begun, followed, status, until
 
@@ -158,7 +158,11 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
         ("friction", {}, ""),
         ("motion-profile", {"speeds": ("1 m/s",)}, ""),
         ("friction", {"speeds": ("1 m/s",)}, "speed: does not apply to the figure friction"),
-        ("pressure-map", {"times": ("1 s",)}, "time: the run is over speed; give speed"),
+        (
+            "pressure-map",
+            {"times": ("1 s",)},
+            "time: the run is over speed; give speed in its place",
+        ),
         (
             "pressure-map",
             {"speeds": ("2 m/s",)},
@@ -174,7 +178,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 def test_figures_over_speed_are_drawn_or_refused_by_name(
     stored: dict[str, Path], figure: str, places: dict[str, tuple[str, ...]], said: str
 ) -> None:
-    choice = FigureChoice(figure, **places)
+    choice = PictureChoice(figure, **places)
     if not said:
         assert figure_of(stored["moved"], FIGURES | STEADY_FIGURES, choice).startswith(b"<?xml")
         return
@@ -183,7 +187,7 @@ def test_figures_over_speed_are_drawn_or_refused_by_name(
 
 
 def test_runs_over_time_and_over_speed_are_not_compared(stored: dict[str, Path]) -> None:
-    choice = FigureChoice("pressure-profile")
+    choice = PictureChoice("pressure-profile")
     with pytest.raises(RequestError, match=r"^runs over time and runs over speed cannot be"):
         comparison_of(stored, COMPARISONS, choice)
     both = {"one": stored["moved"], "two": stored["moved"]}

@@ -6,6 +6,7 @@ line. Nothing here uses or changes matplotlib's global state.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 try:
     from matplotlib.figure import Figure
@@ -15,6 +16,7 @@ except ModuleNotFoundError as error:
         name="matplotlib",
     ) from error
 
+from viscontact.drawing.figures import TABLE, names_of
 from viscontact.plot.animations.animation import Animation, animation
 from viscontact.plot.animations.saving import ANIMATION_SUFFIXES, save_animation
 from viscontact.plot.geometry.indenter_drawing import draw_indenter
@@ -44,52 +46,13 @@ from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles,
 from viscontact.plot.pressure.pressure_radial import pressure_radial
 from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces, pressure_surface
 from viscontact.plot.pressure.stress_section import stress_section
-from viscontact.plot.result_plots import ResultPlots
+from viscontact.plot.result_plots import ResultPlots, add_methods
 from viscontact.plot.sweeps.profiles import profiles
 from viscontact.plot.sweeps.response import response
 from viscontact.plot.sweeps.scatter_bands import scatter_bands
 from viscontact.plot.sweeps.tornado import tornado
 from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import trials
-
-FIGURES: dict[str, Callable[..., Figure]] = {
-    "pressure-map": pressure_map,
-    "pressure-profile": pressure_profile,
-    "pressure-radial": pressure_radial,
-    "line-load": line_load,
-    "pressure-3d": pressure_surface,
-    "surface-3d": deformed_surface,
-    "contact-outline": contact_outline,
-    "contact-area": contact_area,
-    "contact-spots": contact_spots,
-    "history": history,
-    "hysteresis": hysteresis,
-    "creep": creep,
-    "exact": exact,
-    "stress-section": stress_section,
-    "von-mises": von_mises_history,
-    "indenter": indenter,
-}
-"""Figures of one run by name: ``FIGURES[name](results, times=None)``."""
-
-STEADY_FIGURES: dict[str, Callable[..., Figure]] = {
-    "friction": friction,
-    "motion-profile": motion_profile,
-}
-"""Figures of a steady motion by name: ``STEADY_FIGURES[name](results)``."""
-
-COMPARISONS: dict[str, Callable[..., Figure]] = {
-    "history": compare_histories,
-    "hysteresis": compare_hysteresis,
-    "pressure-profile": compare_pressure_profiles,
-    "line-load": compare_line_loads,
-    "pressure-map": compare_pressure_maps,
-    "pressure-3d": compare_pressure_surfaces,
-    "contact-outline": compare_contact_outlines,
-    "creep": compare_creep,
-    "von-mises": compare_von_mises,
-}
-"""Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
 
 __all__ = [
     "ANIMATION_SUFFIXES",
@@ -147,3 +110,22 @@ __all__ = [
     "trials",
     "von_mises_history",
 ]
+
+_DRAWN: dict[str, Callable[..., Any]] = {each.name: globals()[each.drawn_by] for each in TABLE}
+
+FIGURES: dict[str, Callable[..., Figure]] = {
+    name: _DRAWN[name] for name in names_of("time", "both")
+}
+"""Figures of one run by name: ``FIGURES[name](results, times=None)``."""
+
+STEADY_FIGURES: dict[str, Callable[..., Figure]] = {
+    name: _DRAWN[name] for name in names_of("speed")
+}
+"""Figures of a steady motion by name: ``STEADY_FIGURES[name](results)``."""
+
+COMPARISONS: dict[str, Callable[..., Figure]] = {
+    each.name: globals()[each.compare] for each in TABLE if each.compare
+}
+"""Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
+
+add_methods(TABLE, globals())

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import xarray as xr
@@ -12,25 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from viscontact.plot.animations.animation import Animation, animation
-from viscontact.plot.geometry.indenter_figure import indenter
-from viscontact.plot.histories.contact_area import contact_area
-from viscontact.plot.histories.exact import exact
-from viscontact.plot.histories.history import history
-from viscontact.plot.histories.hysteresis import hysteresis
-from viscontact.plot.histories.von_mises import von_mises_history
-from viscontact.plot.materials.creep import creep
-from viscontact.plot.motion.friction import friction
-from viscontact.plot.motion.motion_profile import motion_profile
-from viscontact.plot.pressure.contact_outline import contact_outline
-from viscontact.plot.pressure.contact_spots import contact_spots
-from viscontact.plot.pressure.deformed_surface import deformed_surface
-from viscontact.plot.pressure.line_load import line_load
-from viscontact.plot.pressure.pressure_map import pressure_map
-from viscontact.plot.pressure.pressure_profile import pressure_profile
-from viscontact.plot.pressure.pressure_radial import pressure_radial
-from viscontact.plot.pressure.pressure_surface import pressure_surface
-from viscontact.plot.pressure.stress_section import stress_section
+from viscontact.drawing.figures import FigureEntry
+from viscontact.plot.animations.animation import Animation
 
 #: One panel, or those of a figure in reading order.
 Panels = Axes | NDArray[np.object_]
@@ -71,89 +54,38 @@ class ResultPlots:
         drawn: Panels | Animation = method(**how)
         return drawn
 
-    def pressure_map(self, **how: Any) -> Panels:
-        """Draw contours of pressure: `viscontact.plot.pressure_map`."""
-        return self._panels(pressure_map, how)
+    if TYPE_CHECKING:  # the methods are those of the table of figures
 
-    def pressure_3d(self, **how: Any) -> Panels:
-        """Draw the pressure as a surface: `viscontact.plot.pressure_surface`."""
-        return self._panels(pressure_surface, how)
+        def __getattr__(self, figure: str) -> Callable[..., Any]: ...
 
-    def surface_3d(self, **how: Any) -> Panels:
-        """Draw the deformed surface under the indenter: `viscontact.plot.deformed_surface`."""
-        return self._panels(deformed_surface, how)
-
-    def pressure_profile(self, **how: Any) -> Panels:
-        """Draw sections through the pressure: `viscontact.plot.pressure_profile`."""
-        return self._panels(pressure_profile, how)
-
-    def pressure_radial(self, **how: Any) -> Panels:
-        """Draw pressure against distance from the axis: `viscontact.plot.pressure_radial`."""
-        return self._panels(pressure_radial, how)
-
-    def line_load(self, **how: Any) -> Panels:
-        """Draw the line load along x: `viscontact.plot.line_load`."""
-        return self._panels(line_load, how)
-
-    def contact_outline(self, **how: Any) -> Panels:
-        """Draw outlines of the contact at several instants: `viscontact.plot.contact_outline`."""
-        return self._panels(contact_outline, how)
-
-    def contact_area(self, **how: Any) -> Panels:
-        """Draw the contact area over time: `viscontact.plot.contact_area`."""
-        return self._panels(contact_area, how)
-
-    def contact_spots(self, **how: Any) -> Panels:
-        """Draw the sizes of the contact spots: `viscontact.plot.contact_spots`."""
-        return self._panels(contact_spots, how)
-
-    def history(self, **how: Any) -> Panels:
-        """Draw area, approach, tilts and peak pressure over time: `viscontact.plot.history`."""
-        return self._panels(history, how)
-
-    def hysteresis(self, **how: Any) -> Panels:
-        """Draw force over approach: `viscontact.plot.hysteresis`."""
-        return self._panels(hysteresis, how)
-
-    def creep(self, **how: Any) -> Panels:
-        """Draw creep and relaxation of the half-space: `viscontact.plot.creep`."""
-        return self._panels(creep, how)
-
-    def exact(self, **how: Any) -> Panels:
-        """Draw the history of a sphere with the exact solution: `viscontact.plot.exact`."""
-        return self._panels(exact, how)
-
-    def stress_section(self, **how: Any) -> Panels:
-        """Draw von Mises stress below the contact: `viscontact.plot.stress_section`."""
-        return self._panels(stress_section, how)
-
-    def von_mises(self, **how: Any) -> Panels:
-        """Draw the largest von Mises stress over time: `viscontact.plot.von_mises_history`."""
-        return self._panels(von_mises_history, how)
-
-    def friction(self, **how: Any) -> Panels:
-        """Draw the friction coefficient over the speed: `viscontact.plot.friction`."""
-        return self._panels(friction, how)
-
-    def motion_profile(self, **how: Any) -> Panels:
-        """Draw the pressure along a steady motion: `viscontact.plot.motion_profile`."""
-        return self._panels(motion_profile, how)
-
-    def indenter(self, **how: Any) -> Panels:
-        """Draw sections and plan of the indenter: `viscontact.plot.indenter`."""
-        return self._panels(indenter, how)
-
-    def animation(self, **how: Any) -> Animation:
-        """Make an animation, for `viscontact.plot.save_animation`: `viscontact.plot.animation`."""
-        return animation(self.result, **how)
-
-    def _panels(self, draw: Callable[..., Figure], how: dict[str, Any]) -> Panels:
+    def _drawn(self, draw: Callable[..., Any], how: dict[str, Any]) -> Panels | Animation:
         figure = draw(self.result, **how)
+        if isinstance(figure, Animation):
+            return figure
         if how.get("axes") is not None:  # a figure of the user's
             return cast(Axes, how["axes"])
         _show_to_pyplot(figure)
         panels = [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
         return panels[0] if len(panels) == 1 else np.array(panels, dtype=np.object_)
+
+
+def add_methods(
+    entries: Iterable[FigureEntry], functions: Mapping[str, Callable[..., Any]]
+) -> None:
+    """Add a method to `ResultPlots` for each figure of a run."""
+    for entry in entries:
+        if entry.of != "sweep":
+            setattr(ResultPlots, entry.method, _method(entry, functions[entry.drawn_by]))
+
+
+def _method(entry: FigureEntry, draw: Callable[..., Any]) -> Callable[..., Panels | Animation]:
+    def method(self: ResultPlots, **how: Any) -> Panels | Animation:
+        return self._drawn(draw, how)
+
+    method.__name__, method.__qualname__ = entry.method, f"ResultPlots.{entry.method}"
+    first = str(draw.__doc__).partition("\n")[0].rstrip(".")
+    method.__doc__ = f"{first}: `viscontact.plot.{entry.drawn_by}`."
+    return method
 
 
 def _show_to_pyplot(figure: Figure) -> None:

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from viscontact.drawing.figures import compared_names, names_of
+
 Picture = Annotated[
     Path | None,
     typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
@@ -68,10 +70,8 @@ def plot(
         str,
         typer.Argument(
             metavar="FIGURE",
-            help="pressure-map, pressure-3d, pressure-profile, pressure-radial, line-load, "
-            "surface-3d, contact-outline, contact-area, contact-spots, history, hysteresis, exact, "
-            "creep, stress-section, von-mises, indenter, or animation; of a sweep: response; of "
-            "steady motion: friction, motion-profile.",
+            help=f"{', '.join(names_of('time', 'both'))}, or animation; of steady motion: "
+            f"{', '.join(names_of('speed'))}; of a sweep: {', '.join(names_of('sweep'))}.",
         ),
     ],
     times: Instants = None,
@@ -110,8 +110,7 @@ def compare(
         str,
         typer.Option(
             "--figure",
-            help="history, hysteresis, contact-outline, pressure-profile, line-load, "
-            "pressure-map, pressure-3d, creep, or von-mises.",
+            help=f"{', '.join(compared_names())}.",
         ),
     ] = "history",
     times: Instants = None,

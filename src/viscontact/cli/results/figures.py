@@ -2,36 +2,25 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
-from inspect import signature
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from viscontact.cli.results.compared_runs import compared_runs, note_changed, note_missing
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
-from viscontact.results.run_axis import SPEED, TIME, RunAxis, run_axis
+from viscontact.drawing.choice import FigureChoice, require_one_axis
+from viscontact.drawing.figures import TABLE, FigureEntry, compared_names
 from viscontact.studies.sweep.open_many import open_many
 from viscontact.studies.sweep.states import State
 from viscontact.units.parsing import parse_quantity
 
-#: Name of the animation, which is written differently.
-ANIMATION = "animation"
-#: Name of the figure of a sweep.
-RESPONSE = "response"
-#: Figures of the fields at single instants; the others take times as a span.
-_OF_INSTANTS = (
-    *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline", "contact-spots"),
-    *("line-load", "pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
-    "motion-profile",
-)
+#: Options of a figure by their names, None where not given.
+Options = Mapping[str, str | float | None]
 
 
 def draw(
@@ -39,45 +28,37 @@ def draw(
     figure: str,
     times: Sequence[str],
     output: Path | None,
-    options: Mapping[str, str | float | None] | None = None,
+    options: Options | None = None,
     speeds: Sequence[str] = (),
 ) -> Path:
     """Draw a figure of one run."""
     plot = plot_package()
-    others = {ANIMATION: plot.animation, RESPONSE: plot.response}
-    draw_it = _named(figure, {**plot.FIGURES, **plot.STEADY_FIGURES, **others})
-    wanted, chosen = _wanted(times, speeds), _chosen(options or {}, figure, draw_it)
+    choice = FigureChoice(figure, tuple(times), tuple(speeds), "--")
+    entry, given = _chosen(choice, [each.name for each in TABLE], options or {})
     folder = directory if directory.is_dir() else directory.parent
-    moves = figure == ANIMATION
-    file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
-    _require_suffix(plot, file, plot.ANIMATION_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
-    place = next(
-        (name for name in ("times", "speeds") if name in signature(draw_it).parameters), ""
-    )
-    if wanted is not None and not place:
-        refuse(f"{wanted.option}: does not apply to the figure {figure}")
-    if figure == RESPONSE:
-        save(plot, file, draw_it, _sweep(directory), **chosen)
+    file = output or folder / f"{figure}{'.gif' if entry.is_animation else '.png'}"
+    suffixes = plot.ANIMATION_SUFFIXES if entry.is_animation else plot.FIGURE_SUFFIXES
+    _require_suffix(plot, file, suffixes)
+    draw_it, counts = getattr(plot, entry.drawn_by), "progress" in entry.takes
+    if entry.of == "sweep":
+        save(plot, file, draw_it, _sweep(figure, directory), **given)
         return file
     with opened(directory) as ds:
-        if figure != "creep":  # the law is known beyond the run
-            _refuse_outside(wanted, ds, directory)
-        _note(early_end(ds), _snapped(wanted, ds, figure))
-        if place:
-            chosen[place] = None if wanted is None else wanted.values
-        if moves:
-            save_animation(plot, file, ds, **chosen)
+        _require_within(choice, ds, directory)
+        _note(early_end(ds), choice.drawn_instead(ds))
+        if entry.is_animation:
+            save_animation(plot, file, ds, **given)
         else:
-            save(plot, file, draw_it, ds, **chosen)
+            save(plot, file, draw_it, ds, counts=counts, **given)
     return file
 
 
-def _sweep(directory: Path) -> xr.Dataset:
+def _sweep(figure: str, directory: Path) -> xr.Dataset:
     """Joint result of a sweep for its figure."""
     try:
         ds = open_many(directory)
     except (OSError, ValueError) as error:
-        refuse(f"{directory}: {RESPONSE} is a figure of a sweep: {error}")
+        refuse(f"{directory}: {figure} is a figure of a sweep: {error}")
     if "changed" in ds:
         note_changed(directory, int((ds["changed"] != "").sum()))
     note_missing(directory, int((ds["state"] != State.DONE.value).sum()), ds["state"].size)
@@ -89,14 +70,14 @@ def draw_comparison(
     figure: str,
     times: Sequence[str],
     output: Path | None,
-    options: Mapping[str, str | float | None] | None = None,
+    options: Options | None = None,
     speeds: Sequence[str] = (),
 ) -> Path:
     """Draw a figure of several runs."""
     plot = plot_package()
     directories = compared_runs(directories)
-    draw_it = _named(figure, plot.COMPARISONS)
-    wanted, chosen = _wanted(times, speeds), _chosen(options or {}, figure, draw_it)
+    choice = FigureChoice(figure, tuple(times), tuple(speeds), "--")
+    entry, given = _chosen(choice, compared_names(), options or {})
     if len(directories) < 2:
         one = f"got {directories[0]} alone" if directories else "got none with a result"
         refuse(f"compare needs two runs or more, {one}; `viscontact plot DIR` draws a single run")
@@ -108,19 +89,20 @@ def draw_comparison(
         if len(labelled) < len(runs):
             refuse("compare needs different runs, got one of them twice")
         for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
-            if figure != "creep":  # the law is known beyond the run
-                _refuse_outside(wanted, ds, directory)
-            notes = (early_end(ds), _snapped(wanted, ds, figure))
+            _require_within(choice, ds, directory)
+            notes = (early_end(ds), choice.drawn_instead(ds))
             _note(*(f"{label}: {note}" for note in notes if note))
-        _refuse_mixed(labelled)
-        times_of = None if wanted is None else wanted.values
+        try:
+            require_one_axis(labelled)
+        except ValueError as error:
+            refuse(str(error))
         save(
             plot,
             file,
-            draw_it,
+            plot.COMPARISONS[figure],
             plot.layout.ordered_names.in_order(labelled),
-            times=times_of,
-            **chosen,
+            counts="progress" in entry.takes,
+            **given,
         )
     return file
 
@@ -136,52 +118,27 @@ def plot_package() -> Any:
     return plot
 
 
-def _named(figure: str, figures: dict[str, Any]) -> Any:
-    if figure not in figures:
-        near = difflib.get_close_matches(figure, figures, n=1)
-        hint = f"; did you mean {near[0]}?" if near else "."
-        refuse(f"no figure is called {figure!r}{hint} There are {', '.join(figures)}")
-    return figures[figure]
-
-
-@dataclass(frozen=True)
-class _Wanted:
-    """Instants [s] or speeds [m/s] to draw."""
-
-    axis: RunAxis
-    values: list[float]
-
-    @property
-    def option(self) -> str:
-        """Option that they were given with."""
-        return f"--{self.axis.name}"
-
-
-def _wanted(times: Sequence[str], speeds: Sequence[str]) -> _Wanted | None:
-    if times and speeds:
-        refuse("--time and --speed: a run is over time or over speed; give one of them")
-    axis, texts = (SPEED, speeds) if speeds else (TIME, times)
+def _chosen(
+    choice: FigureChoice, names: Sequence[str], options: Options
+) -> tuple[FigureEntry, dict[str, Any]]:
+    """Entry of a figure, and the keywords to draw it with; refused where they do not apply."""
     try:
-        values = [parse_quantity(text, axis.name) for text in texts]
+        entry = choice.entry_in(names)
+        given: dict[str, Any] = dict(choice.keywords(entry))
+        wanted = {name: value for name, value in options.items() if value is not None}
+        for name in wanted:
+            if name not in (*entry.takes, "width"):
+                choice.refuse(name)
     except ValueError as error:
-        refuse(f"--{axis.name}: {error}")
-    return _Wanted(axis, values) if values else None
+        refuse(str(error))
+    return entry, given | {name: _read(name, value) for name, value in wanted.items()}
 
 
-def _refuse_mixed(runs: Mapping[str, xr.Dataset]) -> None:
-    """Refuse to compare runs over time with runs over speed."""
-    if len({run_axis(ds).name for ds in runs.values()}) > 1:
-        steady = ", ".join(label for label, ds in runs.items() if not run_axis(ds).is_history)
-        refuse(f"compare needs runs over time only, or of steady motion only; over speed: {steady}")
-
-
-def _chosen(options: Mapping[str, str | float | None], figure: str, draw_it: Any) -> dict[str, Any]:
-    """Options that were given, refused where they do not apply to the figure."""
-    given = {name: value for name, value in options.items() if value is not None}
-    for name in given:
-        if name not in signature(draw_it).parameters:
-            refuse(f"--{name}: does not apply to the figure {figure}")
-    return {name: _read(name, value) for name, value in given.items()}
+def _require_within(choice: FigureChoice, ds: xr.Dataset, directory: Path) -> None:
+    try:
+        choice.require_within(ds, str(directory))
+    except ValueError as error:
+        refuse(str(error))
 
 
 def _read(name: str, value: str | float) -> str | float:
@@ -217,39 +174,6 @@ def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
         refuse(f"{file}: {error}")
 
 
-def _refuse_outside(wanted: _Wanted | None, ds: xr.Dataset, directory: Path) -> None:
-    if wanted is None:
-        return
-    axis = run_axis(ds)
-    if wanted.axis is not axis:
-        refuse(
-            f"{wanted.option}: the run {directory} is {axis.kind_of_run}; give --{axis.name} in "
-            "its place"
-        )
-    start, end = float(axis.values(ds).min()), float(axis.values(ds).max())
-    # Tolerance for rounding: "0.1 min" may differ from 6 s in the last digit.
-    slack = 1e-9 * end
-    for value in wanted.values:
-        if not start - slack <= value <= end + slack:
-            refuse(
-                f"{wanted.option}: {axis.quantity(value)} lies outside the run {directory}, "
-                f"which goes from {axis.quantity(start)} to {axis.quantity(end)}"
-            )
-
-
-def _snapped(wanted: _Wanted | None, ds: xr.Dataset, figure: str) -> str:
-    """Message about stored fields drawn in place of requested ones; empty without any."""
-    if wanted is None or figure not in _OF_INSTANTS or "pressure" not in ds:
-        return ""
-    stored, axis = ds[ds["pressure"].dims[0]].values, wanted.axis
-    nearest = {each: float(stored[np.abs(stored - each).argmin()]) for each in wanted.values}
-    return "; ".join(
-        f"{axis.quantity(each)} is not stored; drew {axis.quantity(drawn)}"
-        for each, drawn in nearest.items()
-        if not np.isclose(each, drawn, rtol=1e-9, atol=0.0)
-    )
-
-
 def _note(*lines: str) -> None:
     for line in filter(None, lines):
         say(line)
@@ -278,11 +202,13 @@ def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> Non
     print(file)
 
 
-def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
+def save(
+    plot: Any, file: Path, draw_it: Any, results: Any, *, counts: bool = False, **options: Any
+) -> None:
     """Draw and write a figure, and print the name of its file."""
     try:
         with ExitStack() as stack:
-            if "progress" in signature(draw_it).parameters:  # stresses of many cells take long
+            if counts:  # stresses of many cells take long
                 options["progress"] = stack.enter_context(counted("depth"))
             figure = draw_it(results, **options)
         plot.save_figure(figure, file)

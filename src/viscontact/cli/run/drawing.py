@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from viscontact.cli.results.figures import plot_package, save
 from viscontact.cli.terminal.messages import say
@@ -26,7 +27,7 @@ def draw_body(
     path = prepared.case.document.path
     file = picture or path.with_name(f"{path.stem}-indenter.png")
     size = drawn_size(prepared.run)
-    options = {"size": size, "contact": contact, "width": width}
+    options: dict[str, Any] = {"size": size, "contact": contact, "width": width}
     save(plot, file, plot.draw_indenter, prepared.case.indenter, **options)
     for number, surface in enumerate(prepared.case.surfaces, start=1):
         if surface.missing.any():

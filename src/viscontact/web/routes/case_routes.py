@@ -16,8 +16,8 @@ from pydantic import BaseModel
 from viscontact import __version__
 from viscontact.case import case_schema
 from viscontact.case.yaml_source import rewritten
+from viscontact.drawing.figures import compared_names, names_of
 from viscontact.materials import library
-from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.plot.layout.page import Width
 from viscontact.results.run_axis import SPEED, TIME
 from viscontact.results.variables import SCALARS
@@ -29,7 +29,7 @@ from viscontact.web.cases.curve_fits import CurveFitRequest, fitted_curve
 from viscontact.web.cases.drawings import Drawing, drawings
 from viscontact.web.runs.run_figures import look_of
 from viscontact.web.workspace.naming import suggested_title
-from viscontact.web.workspace.pictures import FigureChoice, picture
+from viscontact.web.workspace.pictures import PictureChoice, picture
 from viscontact.web.workspace.problems import RequestError
 
 router = APIRouter(prefix="/api")
@@ -81,8 +81,8 @@ async def version(calculator: AppCalculator) -> dict[str, Any]:
         "version": __version__,
         "data": str(calculator.folder.path),
         "at_once": calculator.queue.at_once,
-        "figures": [*FIGURES, *STEADY_FIGURES],
-        "comparisons": list(COMPARISONS),
+        "figures": names_of("time", "both", "speed"),
+        "comparisons": compared_names(),
     }
 
 
@@ -176,7 +176,7 @@ async def draw(
     body: DrawingRequest, calculator: AppCalculator, request: Request
 ) -> list[dict[str, str]]:
     """Draw a part of a case: figures as SVG, empty where there is a caption only."""
-    choice = FigureChoice(body.what, is_dark=body.dark)
+    choice = PictureChoice(body.what, is_dark=body.dark)
     width: Width | None = "single" if body.narrow else None
 
     def made() -> list[dict[str, str]]:
@@ -186,7 +186,7 @@ async def draw(
     return await calculator.do(made, request)
 
 
-def _svg(drawn: Drawing, choice: FigureChoice) -> str:
+def _svg(drawn: Drawing, choice: PictureChoice) -> str:
     return "" if drawn.figure is None else picture(drawn.figure, choice).decode()
 
 

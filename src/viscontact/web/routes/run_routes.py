@@ -27,8 +27,8 @@ from viscontact.web.runs.run_figures import look_of, run_figures
 from viscontact.web.workspace.naming import file_stem
 from viscontact.web.workspace.pictures import (
     MEDIA_TYPES,
-    FigureChoice,
     Kind,
+    PictureChoice,
     comparison_of,
     figure_of,
     opened,
@@ -164,7 +164,7 @@ async def draw(  # noqa: PLR0913
 ) -> Response:  # fmt: skip
     """Draw a figure of a run."""
     run = calculator.queue.run(name)
-    choice = FigureChoice(figure, kind, tuple(time or ()), dark, tuple(speed or ()))
+    choice = PictureChoice(figure, tuple(time or ()), tuple(speed or ()), kind=kind, is_dark=dark)
     figures = FIGURES | STEADY_FIGURES
     drawn = await calculator.do(lambda: figure_of(run.directory, figures, choice), request)
     return Response(drawn, media_type=MEDIA_TYPES[kind])
@@ -182,7 +182,7 @@ async def compare(  # noqa: PLR0913
             422, f"two to {_MOST_COMPARED} runs can be compared, got {len(compared)}"
         )
     places = dict(zip(_labels(compared), (run.directory for run in compared), strict=True))
-    choice = FigureChoice(figure, kind, tuple(time or ()), dark, tuple(speed or ()))
+    choice = PictureChoice(figure, tuple(time or ()), tuple(speed or ()), kind=kind, is_dark=dark)
     drawn = await calculator.do(lambda: comparison_of(places, COMPARISONS, choice), request)
     return Response(drawn, media_type=MEDIA_TYPES[kind])
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from viscontact.plot import FIGURES, STEADY_FIGURES
+from viscontact.drawing.figures import names_of
 from viscontact.results.netcdf import open_results
 from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 from viscontact.results.summary import summary_rows
@@ -143,7 +143,7 @@ def _kept(run: ManagedRun) -> str:
 
 
 def _figures(run: ManagedRun) -> list[str]:
-    return list(FIGURES if run.axis.is_history else FIGURES | STEADY_FIGURES)
+    return names_of("both", run.axis.name)
 
 
 def _steps_of(run: ManagedRun, states: int) -> int:

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from colorsys import hls_to_rgb, rgb_to_hls
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from inspect import signature
 from pathlib import Path
 from typing import Any, Literal
 
 import xarray as xr
 from matplotlib.figure import Figure
 
+from viscontact.drawing.choice import FigureChoice, UnknownFigureError, require_one_axis
 from viscontact.plot.layout.saving import written
 from viscontact.results.netcdf import open_results
-from viscontact.results.run_axis import SPEED, TIME, RunAxis, run_axis
+from viscontact.results.run_axis import run_axis
 from viscontact.run_files import RESULT_NAME
-from viscontact.units.parsing import parse_quantity
 from viscontact.web.workspace.problems import RequestError
 
 Kind = Literal["svg", "png", "pdf"]
@@ -37,58 +36,33 @@ _WHITE = 0.12
 
 
 @dataclass(frozen=True)
-class FigureChoice:
-    """Choice of a figure: name, format, instants or speeds, and colours."""
+class PictureChoice(FigureChoice):
+    """Choice of a figure, its format and colours."""
 
-    name: str
     kind: Kind = "svg"
-    times: tuple[str, ...] = ()
     is_dark: bool = False
-    speeds: tuple[str, ...] = ()
-
-    @property
-    def axis(self) -> RunAxis:
-        """Quantity of the places."""
-        return SPEED if self.speeds else TIME
-
-    def places(self) -> list[float] | None:
-        """Return the instants [s] or speeds [m/s]; None for the default of the figure."""
-        name = self.axis.name
-        if self.times and self.speeds:
-            raise RequestError(
-                422, "time and speed: a run is over one of them; leave out the other"
-            )
-        try:
-            return [parse_quantity(text, name) for text in self.speeds or self.times] or None
-        except ValueError as error:
-            raise RequestError(422, f"{name}: {error}") from error
 
 
 def figure_of(
-    directory: Path, figures: Mapping[str, Callable[..., Figure]], choice: FigureChoice
+    directory: Path, figures: Mapping[str, Callable[..., Figure]], choice: PictureChoice
 ) -> bytes:
     """Draw a figure of a run."""
-    draw, places = _named(figures, choice.name), choice.places()
     with opened(directory) as ds:
-        _refuse_outside(choice.axis, places, ds)
-        return _drawn(draw, ds, places, choice)
+        return _drawn(figures, ds, [ds], choice)
 
 
 def comparison_of(
-    runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], choice: FigureChoice
+    runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], choice: PictureChoice
 ) -> bytes:
     """Draw a figure of several runs."""
-    draw, places = _named(figures, choice.name), choice.places()
     with ExitStack() as stack:
         results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
-        if len({run_axis(ds).name for ds in results.values()}) > 1:
-            raise RequestError(422, "runs over time and runs over speed cannot be compared")
-        for ds in results.values():
-            _refuse_outside(choice.axis, places, ds)
-        return _drawn(draw, results, places, choice)
+        with _refused():
+            require_one_axis(results)
+        return _drawn(figures, results, list(results.values()), choice)
 
 
-def picture(figure: Figure, choice: FigureChoice) -> bytes:
+def picture(figure: Figure, choice: PictureChoice) -> bytes:
     """Return a figure as an image file."""
     if choice.kind != "svg":
         return written(figure, choice.kind)
@@ -140,41 +114,25 @@ def _why_none(directory: Path) -> str:
     return _NO_RESULT
 
 
-def _named(figures: Mapping[str, Callable[..., Figure]], name: str) -> Callable[..., Figure]:
-    if name not in figures:
-        raise RequestError(
-            404, f"no figure is called {name[:40]!r}. There are {', '.join(figures)}"
-        )
-    return figures[name]
-
-
 def _drawn(
-    draw: Callable[..., Figure],
+    figures: Mapping[str, Callable[..., Figure]],
     results: Any,
-    places: Sequence[float] | None,
-    choice: FigureChoice,
+    runs: Sequence[xr.Dataset],
+    choice: PictureChoice,
 ) -> bytes:
-    taken = [name for name in ("times", "speeds") if name in signature(draw).parameters]
-    if places is not None and not taken:
-        raise RequestError(422, f"{choice.axis.name}: does not apply to the figure {choice.name}")
+    """Draw results, which are those of some runs."""
+    with _refused():
+        places = choice.keywords(choice.entry_in(figures))
+        for run in runs:
+            choice.require_within(run)
+        return picture(figures[choice.name](results, **places), choice)
+
+
+@contextmanager
+def _refused() -> Iterator[None]:
+    """Turn a refused choice into the answer to a request."""
     try:
-        return picture(draw(results, **dict.fromkeys(taken, places)), choice)
+        yield
     except ValueError as error:
-        raise RequestError(422, str(error)) from error
-
-
-def _refuse_outside(given: RunAxis, places: Sequence[float] | None, ds: xr.Dataset) -> None:
-    if places is None:
-        return
-    axis = run_axis(ds)
-    if given is not axis:
-        raise RequestError(422, f"{given.name}: the run is over {axis.name}; give {axis.name}")
-    start, end = float(axis.values(ds).min()), float(axis.values(ds).max())
-    slack = 1e-9 * end
-    for place in places:
-        if not start - slack <= place <= end + slack:
-            raise RequestError(
-                422,
-                f"{axis.name}: {axis.quantity(place, 6)} lies outside the run, which goes from "
-                f"{axis.quantity(start, 6)} to {axis.quantity(end, 6)}",
-            )
+        status = 404 if isinstance(error, UnknownFigureError) else 422
+        raise RequestError(status, str(error)) from error
