@@ -47,13 +47,7 @@ def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
 
 
 def parse_value(text: str) -> Any:
-    """Read one value, as behind a key.
-
-    Examples
-    --------
-    >>> parse_value("[64, 1e3]")
-    [64, 1000.0]
-    """
+    """Read one value, as behind a key."""
     plain = text.strip()
     # A parser for each of thousands of quantities takes longer than all other checks of a case.
     return plain if _QUANTITY.fullmatch(plain) else parse(text)[0]

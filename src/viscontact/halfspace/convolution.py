@@ -47,19 +47,6 @@ class Convolution:
     ----------
     .. [1] S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101.
     .. [2] S. A. Martucci, IEEE Trans. Signal Process. 42 (1994) 1038.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from viscontact.halfspace.influence import influence_table
-    >>> table = influence_table((4, 4), (1.0, 1.0))
-    >>> pressure = np.zeros((4, 4))
-    >>> pressure[1, 1] = pressure[1, 2] = 1.0
-    >>> round(float(Convolution(table).apply(pressure)[1, 2]), 6)  # 1.122200 + 0.330421
-    1.452621
-    >>> half = Convolution(table, mirrored=(False, True)).apply(pressure[:, 2:])
-    >>> round(float(half[1, 0]), 6)
-    1.452621
     """
 
     def __init__(  # noqa: PLR0913

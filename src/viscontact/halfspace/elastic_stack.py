@@ -64,15 +64,6 @@ class ElasticStack(SurfaceResponse):
     """Response of elastic layers, from the surface down, on a half-space or on a rigid base (None).
 
     Relative to a half-space of the uppermost layer's material, so that L = 1 for short waves.
-
-    A bonded layer of 1 m on a rigid base, and the same as three layers:
-
-    >>> one = ElasticStack((ElasticLayer(1.0, 1.0, 0.5),), None)
-    >>> part = ElasticLayer(1 / 3, 1.0, 0.5)
-    >>> three = ElasticStack((part, part, part), None)
-    >>> q = np.array([0.1, 1.0, 100.0])
-    >>> one.ratio(q).round(6).tolist(), three.ratio(q).round(6).tolist()
-    ([0.000655, 0.240582, 1.0], [0.000655, 0.240582, 1.0])
     """
 
     layers: tuple[ElasticLayer, ...]

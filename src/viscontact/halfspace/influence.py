@@ -53,11 +53,6 @@ def influence_coefficient(x: ArrayLike, y: ArrayLike, cell_size: tuple[float, fl
 
     Positive into the half-space; the shape is that of ``x + y``. Closed form near the cell,
     Taylor's series of the same integral far from it.
-
-    The centre of a loaded unit square is displaced by 4 asinh(1)/π:
-
-    >>> round(float(influence_coefficient(0.0, 0.0, (1.0, 1.0))), 6)
-    1.1222
     """
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     squared = np.square(x) + np.square(y)
@@ -77,9 +72,6 @@ def influence_table(
 
     All other offsets follow by symmetry; the table of a smaller block is its leading part. The
     rows are shared out among the threads of a team.
-
-    >>> influence_table((2, 2), (1.0, 1.0)).round(3).tolist()
-    [[1.122, 0.33], [0.33, 0.231]]
     """
     x, y = (np.arange(cells) * cell for cells, cell in zip(shape, cell_size, strict=True))
     table = np.empty(shape)

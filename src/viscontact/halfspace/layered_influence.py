@@ -62,13 +62,6 @@ def layered_influence_table(
     """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
 
     Per unit contact compliance of the half-space that the response is relative to.
-
-    A cell far smaller than the layer is thick lies on a half-space, less the layer's support:
-
-    >>> from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
-    >>> thick = ElasticStack((ElasticLayer(1000.0, 1.0, 0.3),), None)
-    >>> layered_influence_table((1, 2), (1.0, 1.0), thick).round(3).tolist()
-    [[1.122, 0.33]]
     """
     x = np.arange(shape[0], dtype=np.float64) * cell_size[0]
     return layered_influence_coefficient(x, shape[1], cell_size, response)
@@ -98,13 +91,6 @@ def periodic_layered_table(
 
     On a rigid base they need no datum; on a half-space displacement is zero at the distance `datum`
     [m] of a line load. One cell along x is a strip without end.
-
-    A wide strip on a thin layer is displaced by the uniaxial compression h (1 - 2ν)/(1 - ν)²:
-
-    >>> from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
-    >>> thin = ElasticStack((ElasticLayer(0.01, 1.0, 0.25),), None)
-    >>> round(float(periodic_layered_table((1, 2), (1.0, 1.0), thin, 1.0)[0, 0]), 9)
-    0.008888889
     """
     y = np.arange(shape[1], dtype=np.float64) * cell_size[1]
     half = periodic_layered_coefficient(shape[0], y, cell_size, response, datum)

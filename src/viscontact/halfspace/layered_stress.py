@@ -59,16 +59,7 @@ ALONG, ACROSS, NORMAL, SHEAR = range(4)
 
 @dataclass(frozen=True)
 class LayeredStress(StressResponse):
-    """Stresses in an elastic stack.
-
-    Under a small cell the surface of a thick layer is stressed as that of a half-space:
-
-    >>> from viscontact.halfspace.elastic_stack import ElasticLayer
-    >>> thick = LayeredStress(ElasticStack((ElasticLayer(1e3, 1.0, 0.5),), None))
-    >>> edges = np.array([1.0, -1.0])
-    >>> thick.coefficients(edges, edges, 0.0)[:3].ravel().round(5).tolist()
-    [-1.0, -1.0, -1.0]
-    """
+    """Stresses in an elastic stack."""
 
     stack: ElasticStack
 

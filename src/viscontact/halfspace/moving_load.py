@@ -61,14 +61,7 @@ PANEL_GROWTH, DECAY_LENGTHS = 1.5, 45.0
 
 @dataclass(frozen=True, eq=False)
 class MovingCompliance:
-    """Contact compliance under a load in steady motion, as a series of retardation lengths.
-
-    Examples
-    --------
-    >>> rubber = MovingCompliance(1.0, np.array([9.0]), np.array([0.5]))
-    >>> rubber.relaxed, complex(rubber.at_wave_number(np.array(2.0)))
-    (10.0, (5.5+4.5j))
-    """
+    """Contact compliance under a load in steady motion, as a series of retardation lengths."""
 
     instant: float  # J0 [1/Pa]
     amplitudes: Floats  # Ji [1/Pa]
@@ -129,13 +122,6 @@ def moving_influence_table(
     the loaded one, positive ahead of it; across the motion are the offsets 0, 1, 2, ... cells.
     `coefficient` gives the coefficients of an elastic surface at offsets along and across the
     motion, for cells of such edges.
-
-    In slow motion the compliance is that of rest, here ten times the instant one:
-
-    >>> zener = MovingCompliance(1.0, np.array([9.0]), np.array([1e-9]))
-    >>> table = moving_influence_table((2, 2), (1.0, 1.0), zener, axis=0)
-    >>> table.round(3).tolist()
-    [[3.304, 2.307], [11.222, 3.304], [3.304, 2.307]]
     """
     cell = (cell_size[axis], cell_size[1 - axis])
     count = shape[axis]

@@ -50,14 +50,7 @@ class MovingSurface:
         return self.short_waves.instant
 
     def at_length(self, wave_number: float) -> MovingCompliance:
-        """Compliance of waves of one wave number [1/m], times L: that of a half-space like it.
-
-        >>> from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
-        >>> layer = ElasticStack((ElasticLayer(1.0, 1.0, 0.3),), None)
-        >>> rubber = MovingCompliance(1.0, np.array([9.0]), np.array([0.5]))
-        >>> round(MovingSurface(((layer, rubber),)).at_length(0.5).relaxed, 3)
-        2.066
-        """
+        """Compliance of waves of one wave number [1/m], times L: that of a half-space like it."""
         waves = np.array(wave_number)
         return self._weighted([float(response.ratio(waves)) for response, _ in self.terms])
 

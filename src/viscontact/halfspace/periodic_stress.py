@@ -51,15 +51,6 @@ def periodic_stress_coefficients(
     as many as `places`, a period if it is None. Components xx, yy, zz, yz, xz, xy, shape
     (6, places, ny); the other arguments are those of `stress_coefficients`, and the body. The edges
     along y are equally spaced.
-
-    Under the middle of a strip of half width a, at the depth a, σyy is the stress across,
-    -(1/π) (π/2 - 1) p (Johnson 1985, eqs. 2.32):
-
-    >>> from viscontact.halfspace.stress_response import HalfSpaceStress
-    >>> body = HalfSpaceStress(0.3)
-    >>> stress = periodic_stress_coefficients(0.0, 1, 5.0, np.array([1.0, -1.0]), 1.0, body)
-    >>> round(float(stress[1, 0, 0] * np.pi), 6)
-    -0.570796
     """
     count = cells if places is None else places
 

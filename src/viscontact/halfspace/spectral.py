@@ -41,14 +41,6 @@ class PeriodicConvolution:
     the mean plane of the surface: its mean is zero, and so is the symbol at q = 0. Layers on a
     rigid base are compressed by a mean pressure, and displacement is measured from their free
     surface.
-
-    A pressure of cos(2π x/λ) over λ = 1 m displaces the surface by 2 cos/q = cos/π:
-
-    >>> import numpy as np
-    >>> operator = PeriodicConvolution((4, 4), (0.25, 0.25))
-    >>> wave = np.tile([[1.0], [0.0], [-1.0], [0.0]], 4)
-    >>> (np.pi * operator.apply(wave)[:, 0]).round(12).tolist()
-    [1.0, 0.0, -1.0, 0.0]
     """
 
     def __init__(

@@ -107,17 +107,7 @@ def interface_depths(stack: ElasticStack) -> list[float]:
 
 
 def stack_waves(stack: ElasticStack, q: Numbers) -> StackWaves:
-    """Waves of wave numbers q [1/m], shape (n,), not zero, real or complex.
-
-    If all parts are of one material, the stresses are those of a half-space, e^(-q z) times
-    -(1 - q z) along the wave and -(1 + q z) normal to the surface:
-
-    >>> from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer
-    >>> stack = ElasticStack((ElasticLayer(1.0, 2.0, 0.25),), ElasticBase(2.0, 0.25))
-    >>> found = stack_waves(stack, np.array([1.0])).stresses(2.0)
-    >>> [round(float(each[0] * np.exp(2.0)), 9) for each in (found.along, found.normal)]
-    [1.0, -3.0]
-    """
+    """Waves of wave numbers q [1/m], shape (n,), not zero, real or complex."""
     planes = _planes(stack, q)
     # Down, from the vector of the surface whose tractions are given.
     tops, found = [0.0, *interface_depths(stack)], []

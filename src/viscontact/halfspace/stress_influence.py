@@ -42,15 +42,6 @@ def stress_coefficients(
     References
     ----------
     A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377.
-
-    Examples
-    --------
-    In the middle of a loaded square, at the surface, all normal stresses are -p for ν = 0.5:
-
-    >>> import numpy as np
-    >>> edges = np.array([1.0, -1.0])
-    >>> stress_coefficients(edges, edges, 0.0, 0.5)[:3].ravel().round(9).tolist()
-    [-1.0, -1.0, -1.0]
     """
     found = np.empty((6, len(x_edges) - 1, len(y_edges) - 1))
     terms = _corner_terms(x_edges[:, None], y_edges[None, :], depth, poisson_ratio)

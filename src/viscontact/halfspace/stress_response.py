@@ -31,12 +31,7 @@ class StressResponse(ABC):
 
 @dataclass(frozen=True)
 class HalfSpaceStress(StressResponse):
-    """Stresses in a half-space: they depend on its Poisson's ratio only.
-
-    >>> found = HalfSpaceStress(0.3).waves(np.array([1.0]))(0.0)
-    >>> found.along.tolist(), found.normal.tolist()
-    ([-1.0], [-1.0])
-    """
+    """Stresses in a half-space: they depend on its Poisson's ratio only."""
 
     poisson_ratio: float
 

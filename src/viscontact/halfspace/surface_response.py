@@ -76,11 +76,7 @@ HALF_SPACE = HalfSpaceResponse()
 
 @dataclass(frozen=True)
 class SummedResponse(SurfaceResponse):
-    """Weighted sum of surface responses, as of two bodies pressed on each other.
-
-    >>> SummedResponse((HALF_SPACE, HALF_SPACE), (0.75, 0.25)).ratio(np.array([1.0])).tolist()
-    [1.0]
-    """
+    """Weighted sum of surface responses, as of two bodies pressed on each other."""
 
     parts: tuple[SurfaceResponse, ...]
     weights: tuple[float, ...]

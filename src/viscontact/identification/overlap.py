@@ -37,11 +37,6 @@ def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
     regression of the scatter. It needs no starting value and cannot diverge. From there the mean
     squared difference over the overlap in time is minimised; with several columns it is that of the
     vector of the columns relative to its length, so that the losses of an oscillation count too.
-
-    >>> t = np.linspace(0.0, 5.0, 30)
-    >>> slow, fast = Curve(t, -0.1 * t[None] ** 2), Curve(t, -0.1 * (t[None] + 1.5) ** 2)
-    >>> print(f"{log_shift(slow, fast)[0]:.3f}")
-    1.500
     """
     start = _closed_form_shift(slow, fast)
     places = start + _NEIGHBOURHOOD * np.linspace(-1.0, 1.0, _SCANNED)

@@ -51,13 +51,7 @@ _OF_PROFILES: dict[type[Profile], str] = {
 
 
 def rounding_remedy(indenter: Indenter) -> str:
-    """Sentence on how to round a body, so that its largest pressure has a limit.
-
-    Examples
-    --------
-    >>> rounding_remedy(Cone(1.4))
-    "round the tip: 'shape: revolved' with 'points' of the tip under indenter"
-    """
+    """Sentence on how to round a body, so that its largest pressure has a limit."""
     if isinstance(indenter, PlacedIndenter):
         return rounding_remedy(indenter.body)
     if isinstance(indenter, CombinedIndenter):

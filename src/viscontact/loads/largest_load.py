@@ -17,10 +17,6 @@ def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
 
     The time is a kink, the end, or a multiple of the longest step of a curved load, in the first
     cycle of a cyclic one; at a jump it is the side with the larger load.
-
-    >>> from viscontact.loads import harmonic
-    >>> largest_load(harmonic(mean=2.0, amplitude=1.0, period=4.0, cycles=4), end=16.0)[0]
-    1.0
     """
     instants: list[float] = [*load.kinks[load.kinks <= end].tolist(), end]
     if math.isfinite(load.longest_step):

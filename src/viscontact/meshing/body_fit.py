@@ -30,13 +30,6 @@ def straight_ends(
     """Distances of a body's straight ends from a centre along x and y, inf without any [m].
 
     They lie on a grid of this size; lines farther from its centre than `reach` [m] do not count.
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Roller
-    >>> ends = straight_ends(Roller(5e-3, 4e-3), (12e-3, 1e-3), (4e-3, 0.4e-3))
-    >>> round(ends[0], 9), ends[1]
-    (0.004, inf)
     """
     grid = Grid((LINES, LINES), size, centre=centre)
     x, y = grid.x - centre[0], grid.y - centre[1]
@@ -72,11 +65,6 @@ def fitted_extents(
     -----
     Cells take a body that ends within one of them as longer or shorter by up to half a cell. At a
     logarithmic end, whose drop grows fast there, that moves the peak pressure by up to 20 %.
-
-    Examples
-    --------
-    >>> fitted_extents((10.4, 1.0), (40, 20), (4.0, math.inf))  # 16 of 20 cells on either half
-    (10.0, 1.0)
     """
     x, y = (_fitted(*each) for each in zip(size, shape, ends, strict=True))
     return x, y

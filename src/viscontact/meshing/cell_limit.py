@@ -22,12 +22,6 @@ def with_small_cells(
 
     Along an axis with smaller cells the grid remains. Cells end where the body ends, whose
     distances are `ends` (`straight_ends`) [m]. ValueError if there would be too many cells.
-
-    Examples
-    --------
-    >>> grid = with_small_cells(Grid((40, 40), (20e-3, 1e-3)), (0.3e-3, 0.1e-3), (8e-3, math.inf))
-    >>> grid.shape, round(8e-3 / grid.cell_size[0], 6), grid.size[1]
-    ((72, 40), 28.0, 0.001)
     """
     cells = [
         _cell(*each) for each in zip(grid.cell_size, largest_cell, grid.size, ends, strict=True)

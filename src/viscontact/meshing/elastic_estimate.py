@@ -176,14 +176,6 @@ def estimate_contact(
 
     The grid is centred on the origin, or follows a contact whose probable place is `around` [m].
     Raises ValueError if no grid fits, for example because the force acts outside the body.
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Sphere
-    >>> from viscontact.loads import step
-    >>> found = estimate_contact(Sphere(0.01), 1e-9, step(100.0).at(0.0))
-    >>> round(found.length / 2 * 1e3, 1)  # Hertz: (3 * 100 * 0.01 * 1e-9 / 4)**(1/3) = 0.909 mm
-    0.9
     """
     scale, centre = _first_scale(indenter, contact_compliance, point), around or (0.0, 0.0)
     lever = max(abs(point.eccentricity_x), abs(point.eccentricity_y)) if around is None else 0.0
@@ -215,18 +207,7 @@ def estimate_period(
     *,
     response: SurfaceResponse = HALF_SPACE,
 ) -> ContactEstimate:
-    """Solve an elastic contact to a few per cent on a periodic grid, coarsened where it is fine.
-
-    Examples
-    --------
-    Under half of its pressure of full contact a wave's strip is half as wide as the wave is long:
-
-    >>> import viscontact as vc
-    >>> period = Grid((64, 4), (1e-3, 1e-3), periodic=True)
-    >>> waves, load = vc.Waviness(1e-6, wavelength_x=1e-3), vc.step(0.5 * 3.1416e6 * period.area)
-    >>> round(estimate_period(waves, 1e-9, load.at(0.0), period).length * 1e3, 2)
-    0.5
-    """
+    """Solve an elastic contact to a few per cent on a periodic grid, coarsened where it is fine."""
     nx, ny = (min(count, MAX_PERIOD_CELLS) for count in grid.shape)
     coarse = replace(grid, shape=(nx, ny))
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])

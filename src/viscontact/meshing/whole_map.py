@@ -22,17 +22,6 @@ def whole_map_warning(indenter: Indenter, found: PointContact, grid: Grid) -> di
     """Warn if all of a height map is in contact under a load on a grid; empty otherwise.
 
     The coarse estimate leaves out short waves, which open first: it only excludes the warning.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> from viscontact.meshing.elastic_estimate import estimate_contact
-    >>> x = np.linspace(-1e-3, 1e-3, 41)
-    >>> ball = vc.HeightMap(x, x, -vc.Sphere(0.1).gap(x[:, None], x[None, :]))
-    >>> load = vc.step(1e3).at(0.0)
-    >>> pressed = PointContact(load, 1e-9, estimate_contact(ball, 1e-9, load))
-    >>> list(whole_map_warning(ball, pressed, Grid((40, 40), (2e-3, 2e-3))))
-    ['whole map']
     """
     if min(indenter.sample_spacing) <= 0 or not _is_whole(found.estimate):
         return {}

@@ -30,13 +30,7 @@ class LoadSteps:
 
 
 def load_steps(times: Floats, load: Floats, *, by_approach: bool, substeps: int) -> LoadSteps:
-    """Divide the intervals of a history into equal steps; a jump is one step.
-
-    >>> history = np.array([0.0, 2.0, 2.0]), np.array([1.0, 3.0, 4.0])
-    >>> steps = load_steps(*history, by_approach=False, substeps=2)
-    >>> steps.times.tolist(), steps.load.tolist(), steps.given.tolist()
-    ([0.0, 1.0, 2.0, 2.0], [1.0, 2.0, 3.0, 4.0], [0, 2, 3])
-    """
+    """Divide the intervals of a history into equal steps; a jump is one step."""
     cuts = np.where(np.diff(times) > 0, substeps, 1)
     given = np.append(0, np.cumsum(cuts))
     place = np.arange(given[-1] + 1)
@@ -71,12 +65,6 @@ def deepest_approach(profile: Profile, steps: LoadSteps, law: LagCompliance) -> 
 
     Under force control it is the approach of a contact that never shrinks, under a force that never
     falls: 2 (s g(s) - integral of g) = J * dF.
-
-    >>> from viscontact.reference.profiles import SphereProfile
-    >>> steps = load_steps(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
-    >>> elastic = LagCompliance(lambda start, end: np.full_like(end, 0.75), 0.75)
-    >>> print(f"{deepest_approach(SphereProfile(1.0), steps, elastic):.3f}")  # (9/16 / E*²)^(1/3)
-    0.682
     """
     if steps.by_approach or np.isfinite(profile.edge):
         return max(float(steps.load.max()), 0.0) or 1.0

@@ -20,12 +20,7 @@ LagMean: TypeAlias = Callable[[Floats, Floats], Floats]
 
 
 def lag_mean(creep_compliance: TimeFunction) -> LagMean:
-    """Mean of J(t) over lags [1/Pa]: its method ``mean(start, end)``, else quadrature in log t.
-
-    >>> mean = lag_mean(lambda t: t**2)
-    >>> print(mean(np.array([0.0, 3.0, 1.0]), np.array([3.0, 3.0, 2.0])).round(12))
-    [3.         9.         2.33333333]
-    """
+    """Mean of J(t) over lags [1/Pa]: its method ``mean(start, end)``, else quadrature in log t."""
     own = getattr(creep_compliance, "mean", None)
     if own is not None:
         return lambda start, end: np.asarray(own(start, end), dtype=np.float64)

@@ -64,10 +64,6 @@ def placed_rods(profile: Profile, deepest: float, elements: int) -> Rods:
     There is one rod more than elements, and a single one for a flat punch. Where the approach turns
     smoothly the contact radius is nearly constant and the loads end like a root of the distance
     from the largest radius, which even elements would follow with a lower order.
-
-    >>> from viscontact.reference.profiles import SphereProfile
-    >>> placed_rods(SphereProfile(1.0), 0.04, 2).places.round(12).tolist()
-    [0.0, 0.15, 0.2]
     """
     if np.isfinite(profile.edge):
         none = np.zeros(0)

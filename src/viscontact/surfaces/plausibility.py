@@ -54,11 +54,7 @@ def surface_doubts(surface: Surface) -> tuple[str, ...]:
 
 
 def described(surface: Surface) -> str:
-    """Describe a surface in a line: points, missing ones, and its roughness.
-
-    >>> described(Surface([[0.0, 1e-6], [1e-6, 0.0]], 1e-5))
-    'surface: 2 x 2 points, 10 µm apart; Sa 500 nm, Sq 500 nm, rms slope 0.14, Sdr 0.995 %'
-    """
+    """Describe a surface in a line: points, missing ones, and its roughness."""
     nx, ny = surface.shape
     dx, dy = (format_quantity(step, "m", 3) for step in surface.spacing)
     apart = dx if dx == dy else f"{dx} and {dy}"
@@ -79,12 +75,7 @@ def _developed(surface: Surface) -> str:
 
 
 def levelling_note(surface: Surface, level: Level) -> str | None:
-    """Sentence on the tilt and form that levelling removes; None where it removes a mean only.
-
-    >>> ramp = Surface([[0.0, 0.0], [1e-7, 1e-7], [2e-7, 2e-7]], 1e-5)
-    >>> levelling_note(ramp, "plane")
-    'surface: a tilt of 10 mrad was taken off (level: plane)'
-    """
+    """Sentence on the tilt and form that levelling removes; None where it removes a mean only."""
     if level not in ("plane", "quadratic") or surface.periodic:
         return None
     form = " and the paraboloid that fits best were" if level == "quadratic" else " was"

@@ -52,13 +52,6 @@ def write_workbook(file: BinaryIO, rows: Iterable[Sequence[str]]) -> None:
     Cells are texts, as of a CSV file. Those that are finite numbers are written as numbers, so that
     a decimal separator is chosen by the program that shows them; empty cells are left out.
     ValueError if there are more rows or columns than a sheet has.
-
-    >>> import io
-    >>> file = io.BytesIO()
-    >>> write_workbook(file, [["time [s]", "outcome"], ["0.5", "contact"]])
-    >>> sheet = zipfile.ZipFile(file).read("xl/worksheets/sheet1.xml").decode()
-    >>> "<v>0.5</v>" in sheet, "<t>contact</t>" in sheet
-    (True, True)
     """
     table = [list(row) for row in rows]
     columns = max(map(len, table), default=0)

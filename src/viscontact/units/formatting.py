@@ -57,15 +57,6 @@ def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
     -------
     ReadableUnit
         The SI unit itself when all values are zero.
-
-    Examples
-    --------
-    >>> readable_unit("m2", 1.05e-4)
-    ReadableUnit(symbol='mm²', factor=1e-06)
-    >>> readable_unit("Pa", [0.0, 152.2e6]).symbol, readable_unit("J", 2.6e-17).symbol
-    ('MPa', 'aJ')
-    >>> readable_unit("1/Pa", [5.5e-10, 7e-10]).symbol
-    '1/GPa'
     """
     finite = [np.abs(array[np.isfinite(array)]) for array in map(np.asarray, values)]
     return _unit_of(max((float(array.max(initial=0.0)) for array in finite), default=0.0), unit)
@@ -100,13 +91,6 @@ def unit_ladder(unit: str) -> list[tuple[ReadableUnit, float]]:
     -------
     list of (ReadableUnit, float)
         Each unit with the least size [SI] from which on `readable_unit` chooses it.
-
-    Examples
-    --------
-    >>> [(unit.symbol, float(f"{least:.3g}")) for unit, least in unit_ladder("rad")]
-    [('nrad', 9.99e-10), ('µrad', 9.99e-07), ('mrad', 0.000999), ('rad', 0.999)]
-    >>> [unit.symbol for unit, _ in unit_ladder("s")]
-    ['ns', 'µs', 'ms', 's', 'h', 'd']
     """
     symbol = _SYMBOLS.get(unit, unit)
     if not symbol or symbol in _WITHOUT_PREFIX:
@@ -143,13 +127,6 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     -------
     str
         The value with its unit; times from an hour on are in the unit that needs fewest digits.
-
-    Examples
-    --------
-    >>> format_quantity(0.009565, "m"), format_quantity(152.23e6, "Pa")
-    ('9.565 mm', '152.2 MPa')
-    >>> [format_quantity(time, "s", 6) for time in (1000.0, 3600.0, 5000.0, 360000.0, 604800.0)]
-    ['1000 s', '1 h', '5000 s', '100 h', '7 d']
     """
     readable = _unit_of(abs(value), unit)
     if unit == "s" and _HOUR <= abs(value) < math.inf:
@@ -193,11 +170,6 @@ def format_number(value: float, digits: int = 4) -> str:
     -------
     str
         The number; a dash for NaN, which means "does not apply".
-
-    Examples
-    --------
-    >>> format_number(152.2349), format_number(9.99999), format_number(float("nan"))
-    ('152.2', '10.00', '-')
     """
     if math.isnan(value):
         return "-"
@@ -239,13 +211,6 @@ def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
 
     All are in one unit; instants of runs over hours or days each in s, min, h or d. Speeds as well,
     with ``"m/s"`` as their SI unit.
-
-    Examples
-    --------
-    >>> time_labels([0.0, 30.0, 1000.0])
-    ('0 s', '30 s', '1000 s')
-    >>> time_labels([0.0, 30.0, 2495.0, 12240.0, 604800.0])
-    ('0 s', '30 s', '41.6 min', '3.4 h', '7 d')
     """
     instants = [float(instant) for instant in times]
     unit = readable_unit(si, instants)

@@ -75,9 +75,5 @@ SYSTEMS: dict[str, dict[str, ReadableUnit]] = {
 
 
 def unit_in(system: str, si: str, *values: ArrayLike) -> ReadableUnit:
-    """Return the unit of a system for values in SI.
-
-    >>> unit_in("us", "m", 0.01).symbol, unit_in("auto", "m", 0.01).symbol
-    ('in', 'mm')
-    """
+    """Return the unit of a system for values in SI."""
     return SYSTEMS[system].get(si) or readable_unit(si, *values)

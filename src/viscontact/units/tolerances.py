@@ -33,9 +33,6 @@ def read_toleranced(text: str) -> Toleranced | None:
 
     The tolerance may be in another unit, without one, or in percent. ValueError names the fault.
     Without a nominal value it is zero.
-
-    >>> read_toleranced("0.38 +- 5 %").low, read_toleranced("± 20 um").low, read_toleranced("12 mm")
-    ('0.361', '-20 um', None)
     """
     match = _TOLERANCED.fullmatch(text)
     if match is None:

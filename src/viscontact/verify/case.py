@@ -217,13 +217,7 @@ def _order(quantity: Quantity, levels: tuple[int, ...], at_levels: tuple[Compari
 
 
 def observed_order(levels: tuple[int, ...], errors: list[float]) -> float:
-    """Observed order: slope of log(error) over log(level); NaN at the solver's tolerance.
-
-    >>> round(observed_order((8, 16, 32), [4e-3, 1e-3, 2.5e-4]), 9)
-    2.0
-    >>> observed_order((8, 16), [1e-9, 2e-9])
-    nan
-    """
+    """Observed order: slope of log(error) over log(level); NaN at the solver's tolerance."""
     if len(levels) < 2 or not min(errors) > SOLVED:
         return math.nan
     return float(-np.polyfit(np.log(levels), np.log(errors), 1)[0])

@@ -35,15 +35,7 @@ class Course(NamedTuple):
 
 
 def course_of(sentences: Sequence[Sentence]) -> Course:
-    """Return the history that sentences describe, from time 0 and level 0.
-
-    Examples
-    --------
-    >>> from viscontact.case.loads.sentences import read_sentences
-    >>> sentences = read_sentences(["ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"])
-    >>> course_of(sentences)
-    Course(control='force', times=[0.0, 1.0, 241.0, 241.1], levels=[0.0, 10000.0, 10000.0, 0.0])
-    """
+    """Return the history that sentences describe, from time 0 and level 0."""
     way = _Way(_control(sentences))
     for sentence, move in _moves(sentences):
         way.follow(sentence, move)

@@ -43,26 +43,14 @@ class Sentence:
 
 
 def split_sentences(text: str) -> list[str]:
-    """Split a text into its sentences.
-
-    Examples
-    --------
-    >>> split_sentences("Ramp to 1.5 N in 1 s, then hold for 2 s.")
-    ['Ramp to 1.5 N in 1 s', 'hold for 2 s']
-    """
+    """Split a text into its sentences."""
     # Single blanks: a pattern for "and" after blanks would try every sequence of them.
     text = re.sub(r"\s+", lambda run: "\n" if "\n" in run[0] else " ", text)
     return [part.strip(" \t\r,") for part in _ENDS.split(text) if part.strip(" \t\r,")]
 
 
 def read_sentences(texts: Sequence[str]) -> list[Sentence]:
-    """Parse sentences, each on its own.
-
-    Examples
-    --------
-    >>> [sentence.reading.form.kind for sentence in read_sentences(["step to 1 N; wait 2 s"])]
-    ['to', 'hold for']
-    """
+    """Parse sentences, each on its own."""
     return [sentence for entry in _numbered(texts) for sentence in _understood(entry)]
 
 

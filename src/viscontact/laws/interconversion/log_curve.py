@@ -37,10 +37,6 @@ class LogCurve:
     value, and up to the first positive time the curve is then straight in t. `values` are monotone.
     The rules `before` the first point (if not at 0) and `beyond` the last are named in `Before` and
     `Beyond`; `steepest` bounds the exponent of a power before the first point.
-
-    >>> curve = LogCurve([1.0, 10.0, 100.0], [1.0, 2.0, 3.0], beyond="line")
-    >>> [round(float(value), 9) for value in curve([0.1, 1.0, 10**1.5, 1000.0])]
-    [1.0, 1.0, 2.5, 4.0]
     """
 
     def __init__(

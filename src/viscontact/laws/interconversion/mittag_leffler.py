@@ -38,13 +38,6 @@ def mittag_leffler(x: ArrayLike, alpha: float, beta: float = 1.0) -> float | Flo
 
     Relative errors are near 1e-14; as α approaches 1 with β = 1, where the function becomes an
     exponential, they grow as 1/(1 - α). α = β = 1 is that exponential.
-
-    Examples
-    --------
-    E_1/2(-x) = exp(x²) erfc(x):
-
-    >>> round(mittag_leffler(1.0, 0.5), 12)
-    0.427583576156
     """
     argument = np.asarray(x, np.float64)
     if not (0 < alpha <= 1 and alpha <= beta <= 4):

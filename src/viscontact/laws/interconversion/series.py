@@ -69,14 +69,6 @@ def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLik
     -----
     J_0 = 1/M(0); the residues are J_i = 1 / (τ_i sum_j M_j ρ_j / (τ_i - ρ_j)²), and for a
     fluid φ = 1 / sum_j M_j ρ_j.
-
-    Examples
-    --------
-    The inverse of 1 + 2 exp(-t) is 1/3 + 2/3 (1 - exp(-t/3)):
-
-    >>> terms = creep_from_relaxation(1.0, [2.0], [1.0])
-    >>> round(terms.instant, 6), terms.amplitudes.round(6), terms.times.round(6)
-    (0.333333, array([0.666667]), array([3.]))
     """
     moduli, times = merged(moduli, times)
     total = float(equilibrium + moduli.sum())
@@ -102,12 +94,6 @@ def relaxation_from_creep(
     -----
     M_inf = 1/J(inf); the residues are M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², where the
     sum includes J_0 as a term of time 0.
-
-    Examples
-    --------
-    >>> terms = relaxation_from_creep(1 / 3, [2 / 3], [3.0], 0.0)
-    >>> round(terms.equilibrium, 6), terms.moduli.round(6), terms.times.round(6)
-    (1.0, array([2.]), array([1.]))
     """
     if not instant > 0:
         raise ValueError(

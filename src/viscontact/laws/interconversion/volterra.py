@@ -68,15 +68,6 @@ def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats,
     -----
     The error is of second order in the step of ln t, which is extrapolated to 0 (Richardson)
     from three grids; the change of the limit by the last halving is the error estimate.
-
-    Examples
-    --------
-    The inverse of 1 + t is exp(-t):
-
-    >>> import numpy as np
-    >>> values, error = invert(lambda t: 1 + t, lambda a, b: 1 + (a + b) / 2, [0.0, 1.0])
-    >>> values.round(4), error < 1e-3
-    (array([1.    , 0.3679]), True)
     """
     instants = np.asarray(instants, np.float64)
     late = float(instants.max(initial=0.0))

@@ -21,11 +21,6 @@ def nearest_names(name: str) -> list[str]:
     list of str
         At most three: entries with a word that begins with `name` in their own name, else in
         their title or family, else the one of the most similar name; empty if none is similar.
-
-    Examples
-    --------
-    >>> nearest_names("POM"), nearest_names("nylon"), nearest_names("pmma-papre")
-    (['pom-c-23c'], ['pa66-conditioned-23c'], ['pmma-paper'])
     """
     asked = name.strip().lower()
     if not asked:
