@@ -29,24 +29,15 @@ _Work: TypeAlias = Callable[[slice, Numbers], None]
 class Convolution:
     """Surface displacement of a half-space under cell pressures, by the DC-FFT algorithm.
 
-    The convolution is linear: zero padding removes the periodic images, so the result is the
-    direct sum over all pairs of cells, to rounding [1]_. For a problem that is even across x = 0
-    or y = 0 (`mirrored`; an even number of cells there) only the cells with positive coordinates
-    are kept, and cosine transforms replace Fourier transforms of twice the length: a half-sample
-    even sequence convolved with an even kernel is its DCT-II times the kernel's discrete Fourier
-    transform [2]_. Along a `periodic` axis, which is not mirrored, the convolution is circular.
-    `coefficients` are those of the whole block, from `influence_table` or
-    `periodic_layered_table` [m], even along both axes but for a `signed` one, with the 2 n - 1
-    offsets of `moving_influence_table`; `single` precision takes half the time.
-
-    Only the cells with data are kept between the transforms along the two axes. Lines are padded,
-    transformed, multiplied by the symbol and transformed back in blocks that stay in the cache;
-    with several threads each takes blocks of its own, and the result is the same to the bit.
-
-    References
-    ----------
-    .. [1] S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101.
-    .. [2] S. A. Martucci, IEEE Trans. Signal Process. 42 (1994) 1038.
+    Zero padding makes the circular convolution linear: the result is the direct sum over all pairs
+    of cells, to rounding (S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101); along a `periodic` axis it
+    is circular. Along a `mirrored` axis, of an even number of cells, only those with positive
+    coordinates are kept, and a half-sample even sequence convolved with an even kernel is its
+    DCT-II times the kernel's transform (S. A. Martucci, IEEE Trans. Signal Process. 42 (1994)
+    1038). `coefficients` [m] are those of the whole block, from `influence_table` or
+    `periodic_layered_table`, even along both axes but for a `signed` one, with the 2 n - 1 offsets
+    of `moving_influence_table`. Lines are padded, transformed and multiplied in blocks that stay in
+    the cache; threads do not change a bit.
     """
 
     def __init__(  # noqa: PLR0913
@@ -108,11 +99,7 @@ class Convolution:
         return total
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
-        """Displacement over contact compliance [Pa m], positive into the half-space.
-
-        The pressure [Pa] is positive in compression; the result is written to `into` if given.
-        Both are in double precision, or in that of the convolution.
-        """
+        """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.

@@ -87,11 +87,8 @@ class ElasticStack(SurfaceResponse):
 
     @cached_property
     def mean_displacement(self) -> float:
-        """Displacement under a far extended pressure of 1 Pa per unit compliance of the top [m].
-
-        Under an infinitely long wave: bonded layers are compressed without lateral strain, others
-        slide outwards.
-        """
+        """Displacement under a far extended pressure of 1 Pa per unit compliance of the top [m]."""
+        # Bonded layers are compressed without lateral strain, others slide outwards.
         if self.base is not None:
             return math.inf
         q = LONG_WAVE / sum(layer.thickness for layer in self.layers)
@@ -123,11 +120,7 @@ def wave_matrix(poisson_ratio: float) -> Numbers:
 
 @dataclass(frozen=True, eq=False)
 class _Waves:
-    """Two vectors that span the waves which the parts below a level allow there.
-
-    `vectors` has the shape (..., 4, 2): displacements times `shear_modulus` and wave number, and
-    tractions.
-    """
+    """Two waves below a level: μ q times displacements, and tractions, `vectors` (..., 4, 2)."""
 
     vectors: Numbers
     shear_modulus: float

@@ -49,11 +49,8 @@ SIXTH = np.array(
 
 
 def influence_coefficient(x: ArrayLike, y: ArrayLike, cell_size: tuple[float, float]) -> Floats:
-    """Displacement [m] at offsets x, y [m] from the centre of a cell, per unit p and unit J.
-
-    Positive into the half-space; the shape is that of ``x + y``. Closed form near the cell,
-    Taylor's series of the same integral far from it.
-    """
+    """Displacement into the body [m] at x, y [m] from a cell's centre, per unit p and J."""
+    # Closed form near the cell, Taylor's series of the same integral far from it.
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     squared = np.square(x) + np.square(y)
     limit = (FAR * max(cell_size)) ** 2
@@ -68,11 +65,7 @@ def influence_coefficient(x: ArrayLike, y: ArrayLike, cell_size: tuple[float, fl
 def influence_table(
     shape: tuple[int, int], cell_size: tuple[float, float], team: Team | None = None
 ) -> Floats:
-    """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
-
-    All other offsets follow by symmetry; the table of a smaller block is its leading part. The
-    rows are shared out among the threads of a team.
-    """
+    """Influence coefficients [m] at i, j >= 0 cells from a loaded cell, shape (nx, ny)."""
     x, y = (np.arange(cells) * cell for cells, cell in zip(shape, cell_size, strict=True))
     table = np.empty(shape)
 

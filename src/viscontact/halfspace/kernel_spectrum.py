@@ -86,10 +86,8 @@ def _of_even(
 
 
 def _distances(padded: int, cells: int, *, even: bool) -> Integers:
-    """Offsets of a centred even kernel in the order of the transform: 0, 1, 2, ... (2, 1).
-
-    Offsets beyond the block fall on padding, which is never read; they are clipped.
-    """
+    """Offsets of a centred even kernel in the order of the transform: 0, 1, 2, ... (2, 1)."""
+    # Offsets beyond the block fall on padding, which is never read; they are clipped.
     index = np.arange(padded + even)
     return np.minimum(index if even else np.minimum(index, padded - index), cells - 1)
 

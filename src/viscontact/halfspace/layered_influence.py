@@ -59,10 +59,7 @@ NEAR, LEAST_IMAGES = 40.0, 6
 def layered_influence_table(
     shape: tuple[int, int], cell_size: tuple[float, float], response: SurfaceResponse
 ) -> Floats:
-    """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
-
-    Per unit contact compliance of the half-space that the response is relative to.
-    """
+    """Influence coefficients [m] at i, j cells, per unit J of the response's half-space."""
     x = np.arange(shape[0], dtype=np.float64) * cell_size[0]
     return layered_influence_coefficient(x, shape[1], cell_size, response)
 
@@ -70,10 +67,7 @@ def layered_influence_table(
 def layered_influence_coefficient(
     x: Floats, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
 ) -> Floats:
-    """Influence coefficients [m] at any offsets x [m] and of j < ny cells along y, shape (nx, ny).
-
-    Per unit contact compliance of the half-space that the response is relative to.
-    """
+    """Influence coefficients [m] at offsets x [m] and of j < ny cells along y, (nx, ny)."""
     y = np.arange(ny, dtype=np.float64) * cell_size[1]
     table = response.short_waves * influence_coefficient(x[:, None], y[None, :], cell_size)
     if math.isinf(response.length):
@@ -105,10 +99,7 @@ def periodic_layered_coefficient(
     response: SurfaceResponse,
     datum: float,
 ) -> Floats:
-    """Influence coefficients [m] in a period of nx cells along x, at any offsets y [m].
-
-    At offsets of 0 to nx/2 cells along x, shape (nx // 2 + 1, y); see `periodic_layered_table`.
-    """
+    """Influence coefficients [m] of a period of nx cells at offsets y [m], (nx // 2 + 1, y)."""
     dx, dy = cell_size
     if nx == 1:
         dx = dy  # pieces of any length make the strip

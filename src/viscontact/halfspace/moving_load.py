@@ -116,12 +116,10 @@ def moving_influence_table(
     axis: int,
     coefficient: Coefficient = influence_coefficient,
 ) -> Floats:
-    """Displacement per unit pressure of a cell that moves along an axis [m/Pa].
+    """Displacement into the body per unit pressure of a cell that moves along an axis [m/Pa].
 
-    Positive into the half-space. Entry k of the 2 n - 1 along the axis is at k - (n - 1) cells from
-    the loaded one, positive ahead of it; across the motion are the offsets 0, 1, 2, ... cells.
-    `coefficient` gives the coefficients of an elastic surface at offsets along and across the
-    motion, for cells of such edges.
+    Entry k of the 2 n - 1 along the axis is k - (n - 1) cells ahead of the loaded one; across are
+    the offsets 0, 1, 2, ... `coefficient`: those of an elastic surface at offsets along and across.
     """
     cell = (cell_size[axis], cell_size[1 - axis])
     count = shape[axis]
@@ -206,11 +204,9 @@ def _panel_samples(
 
 
 def _panel_weights(ratio: Floats, count: int) -> Floats:
-    """Weights at the nodes of a panel from 0 to h for ∫ exp(-z/l) f(z) dz/l; ratio is h/(2 l).
-
-    Exact for polynomials that Gauss' rule interpolates: exp(-a ξ) in Legendre polynomials has the
-    coefficients (2n + 1) (-1)ⁿ i_n(a), modified spherical Bessel functions.
-    """
+    """Weights at the nodes of a panel from 0 to h for ∫ exp(-z/l) f(z) dz/l; ratio is h/(2 l)."""
+    # Exact for polynomials that Gauss' rule interpolates: exp(-a ξ) in Legendre polynomials has the
+    # coefficients (2n + 1) (-1)ⁿ i_n(a), modified spherical Bessel functions.
     a = np.minimum(ratio, RELAXED_RATIO)[:, None]
     _, weights, polynomials = SHORT if count == len(SHORT[0]) else LONG
     order = np.arange(count)

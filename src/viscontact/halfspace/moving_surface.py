@@ -14,10 +14,7 @@ from viscontact.halfspace.surface_response import HALF_SPACE, SummedResponse, Su
 
 @dataclass(frozen=True, eq=False)
 class MovingSurface:
-    """Terms of the surface: each a frequency response L(q) [-] with its compliance in motion.
-
-    A half-space is one term.
-    """
+    """Terms of the surface: each a response L(q) [-] with its compliance in motion."""
 
     terms: tuple[tuple[SurfaceResponse, MovingCompliance], ...]
 

@@ -45,12 +45,10 @@ def periodic_stress_coefficients(
     response: StressResponse,
     places: int | None = None,
 ) -> Floats:
-    """Stress per unit pressure on cells that repeat along x with a period of `cells` edges [-].
+    """Stress per unit pressure on cells repeated along x by `cells` edges [-], (6, places, ny).
 
-    At points at x = first, first + edge, ... from a cell's centre [m], within half a period or so;
-    as many as `places`, a period if it is None. Components xx, yy, zz, yz, xz, xy, shape
-    (6, places, ny); the other arguments are those of `stress_coefficients`, and the body. The edges
-    along y are equally spaced.
+    At points at x = first, first + edge, ... from a cell's centre [m], a period if `places` is
+    None. Components xx, yy, zz, yz, xz, xy; the edges along y are equally spaced.
     """
     count = cells if places is None else places
 

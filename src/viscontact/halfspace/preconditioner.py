@@ -21,12 +21,9 @@ WAVES_PER_DECADE = 50
 
 
 class Preconditioner:
-    """Approximate inverse of the convolution: |q|/(2 L), the exact inverse symbol of the surface.
+    """Approximate inverse of the convolution, by the exact inverse symbol |q|/(2 L)."""
 
-    It acts on the unpadded block in single precision. The solution does not depend on this
-    accuracy, only the search directions do. `mirrored`: the block is one half of a problem that is
-    even across x = 0, and across y = 0.
-    """
+    # It acts on the unpadded block in single precision: only the search directions depend on it.
 
     def __init__(
         self,
@@ -86,20 +83,16 @@ class Preconditioner:
         return self._spectra.filtered(displacement, self._symbol, into)
 
     def stiffness_of(self, cells: Field, into: Field | None = None) -> Field:
-        """Stiffness of a half-space where some cells are displaced by 1, the others by 0 [1/m].
-
-        Of the stiffest half-space that is nowhere stiffer than the surface.
-        """
+        """Stiffness where some cells are displaced by 1, others by 0 [1/m]."""
+        # That of the stiffest half-space that is nowhere stiffer than the surface.
         return self._spectra.filtered(cells, self._least, into)
 
 
 class MovingPreconditioner(Preconditioner):
-    """Approximate inverse of the convolution with a moving table: |q|/2 over the sum of L J*(k V).
+    """Approximate inverse of the convolution with a moving table: |q|/2 over Σ L J*(k V) [Pa]."""
 
-    The sum goes over the terms of a surface, pairs of L and of the compliance in motion. A wave's
-    complex compliance delays pressure behind displacement; its modulus alone would take more search
-    directions. `apply` returns a pressure [Pa].
-    """
+    # The complex compliance delays pressure behind displacement; its modulus alone would take more
+    # search directions.
 
     def __init__(
         self,

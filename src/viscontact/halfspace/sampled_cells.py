@@ -43,10 +43,8 @@ class SampledCells:
 
 
 def sampled_cells(edges: Floats, length: float) -> SampledCells:
-    """Chebyshev's points of parts of a length [m], as cells, or all of some cells if these are few.
-
-    J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46 (2004) 501, eqs. 4.2 and 5.4.
-    """
+    """Chebyshev's points of parts of a length [m] as cells, or all cells if these are few."""
+    # J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46 (2004) 501, eqs. 4.2 and 5.4.
     count = edges.size - 1
     parts = math.ceil(abs(float(edges[-1] - edges[0])) / length) if length > 0 else count
     if count <= 2 * parts * POINTS:  # a cell beside others has one edge more, one alone has two

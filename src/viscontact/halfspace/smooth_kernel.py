@@ -43,11 +43,9 @@ MIRRORED = 8
 
 @dataclass(frozen=True, eq=False)
 class SmoothKernel:
-    """Table of Δ(r) [1/m] and of its moment ∫_0^r Δ r' dr' [m], up to a distance.
+    """Splines of Δ(r) [1/m] and of ∫_0^r Δ r' dr' [m] over asinh(r/length), up to `reach`."""
 
-    In units of `length` both are splines of asinh(r/length). Beyond the `reach` of the table Δ
-    falls as 1/r, as between two half-spaces.
-    """
+    # Beyond the table Δ falls as 1/r, as between two half-spaces.
 
     length: float
     reach: float

@@ -36,11 +36,9 @@ WaveFactor: TypeAlias = Callable[[Floats], Complexes]
 class PeriodicConvolution:
     """Surface displacement of a half-space, or of layers, whose load is periodic in x and y.
 
-    A circular convolution with the exact symbol 2 L/|q| at the wave numbers of the cells. A mean
-    pressure would displace an infinite half-space without limit, so displacement is measured from
-    the mean plane of the surface: its mean is zero, and so is the symbol at q = 0. Layers on a
-    rigid base are compressed by a mean pressure, and displacement is measured from their free
-    surface.
+    A circular convolution with the exact symbol 2 L/|q|. A mean pressure displaces a half-space
+    without limit: displacement counts from the mean plane, so its mean is zero; on a rigid base
+    from the free surface.
     """
 
     def __init__(
@@ -79,10 +77,7 @@ class PeriodicConvolution:
         return total
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
-        """Displacement over contact compliance [Pa m], positive into the half-space; zero mean.
-
-        The pressure [Pa] is positive in compression; the result is written to `into` if given.
-        """
+        """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
         return self._spectra.filtered(pressure, self._symbol, into)
 
 
@@ -94,12 +89,7 @@ def _ratios(response: SurfaceResponse, half: Floats) -> Floats:
 
 
 class MovingPeriodicConvolution(PeriodicConvolution):
-    """Surface displacement under a periodic load in steady motion.
-
-    The symbol 2/|q| is multiplied by the sum over the surface's terms of L(|q|) times a complex
-    factor for each wave number along the axis of the motion, such as the complex compliance [1/Pa].
-    Displacement is measured as in `PeriodicConvolution`.
-    """
+    """`PeriodicConvolution` in steady motion: 2/|q| times Σ L(|q|) times complex factors by q."""
 
     def __init__(
         self,
@@ -186,10 +176,7 @@ class Spectra:
         return self.real_at_shortest(axis, values[:, None] if axis == 0 else values[None, :])
 
     def real_at_shortest(self, axis: int, values: Complexes) -> Complexes:
-        """Factors, made real where a wave along an axis is its own mirror image.
-
-        That is the shortest one of an even number of cells.
-        """
+        """Factors, real at the shortest wave of an even number of cells, its own mirror image."""
         cells = self._shape[axis]
         if cells % 2 == 0:
             shortest = (cells // 2,) if axis == 0 else (slice(None), cells // 2)

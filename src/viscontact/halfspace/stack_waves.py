@@ -37,10 +37,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class WaveStresses:
-    """Amplitudes of the stresses per unit pressure at one depth, over wave numbers [-].
-
-    Tension is positive. All are to be multiplied by `decay`.
-    """
+    """Stresses per unit pressure at one depth, over q, before `decay`; tension positive [-]."""
 
     along: Numbers  # X, normal stress along the wave
     across: Numbers | float  # Y, normal stress parallel to its crests
@@ -88,10 +85,7 @@ class StackWaves:
 
 
 def layer_at(stack: ElasticStack, depth: float) -> int:
-    """Index of the layer at a depth [m], the number of layers for the base.
-
-    At an interface the layer above; ValueError in a rigid base.
-    """
+    """Index of the layer at or above a depth [m]; the base is the last, if it is not rigid."""
     tops = interface_depths(stack)
     if stack.base is None and depth > tops[-1] * (1 + ROUNDING):
         end, given = format_quantity(tops[-1], "m"), format_quantity(depth, "m")

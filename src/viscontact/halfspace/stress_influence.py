@@ -53,12 +53,10 @@ def stress_coefficients(
 
 
 def _corner_terms(x: Floats, y: Floats, z: float, poisson_ratio: float) -> tuple[Floats, ...]:
-    """Corner terms of all components; a cell's stress is their double difference.
-
-    Without what depends on x or on y alone, such as y/(y² + z²) in σyz, which the differences
-    remove: each term is even or odd in either. Of χ_xx, χ_yy and V_z, whose sum is 0 there, two
-    take an arctangent; the two of χ_xx are one.
-    """
+    """Corner terms of all components; a cell's stress is their double difference."""
+    # Without what depends on x or on y alone, such as y/(y² + z²) in σyz, which the differences
+    # remove: each term is even or odd in either. Of χ_xx, χ_yy and V_z, whose sum is 0 there, two
+    # take an arctangent; the two of χ_xx are one.
     rest = 1 - 2 * poisson_ratio
     xx, yy, xy = x * x, y * y, x * y
     far = xx + yy

@@ -49,10 +49,7 @@ def along_lines(
     y: float,
     progress: Progress | None = None,
 ) -> Floats:
-    """Stresses on the plane of given y [m], shape (6, fields, depths, nx), by fields of pressure.
-
-    On grids that are not periodic along both axes.
-    """
+    """Stresses on the plane of y [m], (6, fields, depths, nx); not periodic along both axes."""
     lines = _lines_beside(pressure, grid, y)
     cells, (dx, dy) = grid.shape[0], grid.cell_size
     columns = np.flatnonzero(lines.even.any(axis=(0, 2)) | lines.odd.any(axis=(0, 2)))

@@ -24,11 +24,9 @@ def waves_on_section(
     y: float,
     progress: Progress | None = None,
 ) -> Floats:
-    """Stresses on the plane of given y [m], shape (6, fields, depths, nx), by fields of pressure.
-
-    Waves along the section by a transform, waves across it by a sum, of those in both directions at
-    once: their stresses are equal, up to the sign of the components yz and xy.
-    """
+    """Stresses on the plane of y [m], shape (6, fields, depths, nx), by fields of pressure."""
+    # Waves along the section by a transform, across it by a sum of both directions at once: their
+    # stresses are equal, up to the sign of the components yz and xy.
     (nx, ny), (dx, dy) = grid.shape, grid.cell_size
     along = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)[:, None]
     across = 2 * np.pi * scipy.fft.rfftfreq(ny, dy)[None, :]
@@ -94,11 +92,7 @@ def lateral_at_rest(response: StressResponse, depth: float) -> float:
 
 
 def _both_directions(pressure: Floats, offset: float, across: Floats) -> tuple[Floats, Floats]:
-    """Sum and difference of the waves of both signs of ky at a section, complex numbers as pairs.
-
-    By kx, ky and the pair, ordered as (fields, kx, ky, 2); `offset` is the section's distance from
-    the first line of cells [m].
-    """
+    """Sum and difference of waves of ky and -ky at `offset` [m], shape (fields, kx, ky, 2)."""
     ny = pressure.shape[2]
     spectrum = scipy.fft.fft(scipy.fft.rfft(pressure, axis=1), axis=2) / ny
     kept = np.arange(across.size)

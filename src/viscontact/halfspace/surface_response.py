@@ -12,11 +12,7 @@ from viscontact.backend.arrays import Numbers
 
 
 class SurfaceResponse(ABC):
-    """Displacement under a wave of pressure, relative to a half-space: the ratio L(q).
-
-    A pressure p cos(q x) on a surface without shear traction displaces it into the body by
-    (2/q) L(q) p cos(q x) per unit contact compliance; on a half-space L = 1.
-    """
+    """Ratio L(q): p cos(q x) displaces the surface by (2/q) L p cos(q x) per J; inwards > 0."""
 
     @property
     @abstractmethod
@@ -31,10 +27,7 @@ class SurfaceResponse(ABC):
     @property
     @abstractmethod
     def length(self) -> float:
-        """Shortest length over which the surface differs from a half-space [m].
-
-        The thickness of the thinnest layer, inf for a half-space.
-        """
+        """Thickness of the thinnest layer, inf for a half-space [m]."""
 
     @abstractmethod
     def ratio(self, wave_number: Numbers) -> Numbers:
@@ -43,10 +36,7 @@ class SurfaceResponse(ABC):
     @property
     @abstractmethod
     def mean_displacement(self) -> float:
-        """Displacement under a uniform pressure of 1 Pa [m/Pa], inf without a rigid base.
-
-        It is the limit of 2 L(q)/q, per unit contact compliance: a length [m].
-        """
+        """Limit of 2 L(q)/q, the displacement per uniform p and J [m]; inf without a rigid base."""
 
 
 @dataclass(frozen=True)

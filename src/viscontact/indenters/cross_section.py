@@ -21,10 +21,7 @@ SHOWN_PART, _ROOM = 0.96, 1.35
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """Section through a body: positions along it and the gap there, NaN where there is no body [m].
-
-    `ends` are the positions at which the body ends within the drawing [m].
-    """
+    """Positions along a section, gap there (NaN: no body) and ends of the body in it [m]."""
 
     position: Floats
     gap: Floats
@@ -45,10 +42,7 @@ def lines_through(
     y: Floats,
     gap: Floats,
 ) -> tuple[float, float]:
-    """Choose x of the section along y and y of that along x [m]; 0 if the axis touches.
-
-    Otherwise they pass through the deepest points. `gap` is given on the mesh of `x` and `y` [m].
-    """
+    """Choose x and y of the two sections [m]: 0 if the axis touches, else the deepest points."""
     step = float(max(x[1] - x[0], y[1] - y[0]))
     at_x, at_y = _deepest(indenter, x, y, gap, step)
     solid = gap[np.isfinite(gap)]
@@ -86,10 +80,7 @@ def _deepest(
 
 
 def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = POINTS) -> Section:
-    """Section through a body along an axis (0: x, 1: y), with the body's ends among its points.
-
-    `extent` is its length around the origin [m], `at` the other coordinate [m].
-    """
+    """Section of length `extent` along an axis (0: x, 1: y) at the other coordinate `at` [m]."""
     position = np.linspace(-extent / 2, extent / 2, points)
 
     def gap_at(along: Floats) -> Floats:

@@ -12,10 +12,7 @@ from viscontact.units.numbers import finite, store, unit_of
 
 
 def check_columns(law: object, column: str, trend: int) -> None:
-    """Check times [s] and values of a table and store them as tuples; rows count from 0.
-
-    `column` is the field of the values; they may not fall for a `trend` of +1, not grow for -1.
-    """
+    """Check and store times [s] and a field that may not fall (`trend` +1) or grow (-1)."""
     owner, unit = type(law).__name__, unit_of(type(law), column) or "1"
     t, v = _column(law, "times"), _column(law, column)
     if len(t) != len(v):

@@ -10,11 +10,10 @@ from viscontact.units.numbers import positive
 
 
 class Uniaxial(NamedTuple):
-    """Conversion Phi(t) = factor (D(t) - volumetric) of a tensile compliance D.
+    """Conversion Phi(t) = factor (D(t) - volumetric) of a tensile compliance D."""
 
-    With a constant Poisson's ratio, Phi = (1 + ν) D. With an elastic bulk modulus K,
-    D = (2/3) Phi + 1/(9K), so Phi = (3/2) (D - 1/(9K)): the volumetric part is instant.
-    """
+    # With a constant Poisson's ratio, Phi = (1 + ν) D. With an elastic bulk modulus K, D = (2/3)
+    # Phi + 1/(9K), so Phi = (3/2) (D - 1/(9K)): the volumetric part is instant.
 
     factor: float
     volumetric: float

@@ -13,11 +13,9 @@ MOST_SAMPLES = 10_000
 
 
 def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
-    """Return the time [s] of the largest load up to the time `end` [s], and the load there.
-
-    The time is a kink, the end, or a multiple of the longest step of a curved load, in the first
-    cycle of a cyclic one; at a jump it is the side with the larger load.
-    """
+    """Return the time [s] of the largest load up to `end` [s], and the load there."""
+    # A kink, the end, or a multiple of the longest step of a curved load, in the first cycle of a
+    # cyclic one; at a jump it is the side with the larger load.
     instants: list[float] = [*load.kinks[load.kinks <= end].tolist(), end]
     if math.isfinite(load.longest_step):
         cycles = load.load_cycles

@@ -22,11 +22,10 @@ MOST_CELLS = 1_000_000
 
 
 class Motion(ABC):
-    """Position of the body's axis over time, along x and y.
+    """Position of the body's axis over time, along x and y."""
 
-    A derived class defines `position_at`, `velocity_at`, `kinks` and `moves`, `reach` and
-    `times_at_cells`, and `longest_step` if its path is curved between its kinks.
-    """
+    # A derived class defines `position_at`, `velocity_at`, `kinks` and `moves`, `reach` and
+    # `times_at_cells`, and `longest_step` if its path is curved between its kinks.
 
     #: True for a body that stays where it is, which has no resistance, friction, or heat.
     stands: ClassVar[bool] = False

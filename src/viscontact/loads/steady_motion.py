@@ -27,10 +27,7 @@ class SteadyMotion:
 
 
 def constant_load(load: LoadHistory) -> LoadPoint:
-    """Return the load of a history that does not change after time 0.
-
-    ValueError for a load that changes, or a force that is not positive.
-    """
+    """Return the positive load of a history that is constant from time 0; else ValueError."""
     held = load.at(0.0)
     later = [
         load.at(float(time), side=side)

@@ -215,12 +215,10 @@ def uniaxial_compression(material: Material) -> SeriesCompliance:
 
 
 def _beside_spring(creep: SeriesCompliance, stiffness: float) -> SeriesCompliance:
-    """Return the creep series of a body in parallel with a spring of stiffness 1/c.
-
-    With C = s L[creep], both have 1/(1/c + 1/C) = c - c²/(c + C). The fraction is the relaxation
-    function of the same body with the spring in series, which is a series even if the body has no
-    instant compliance and its own relaxation modulus is none.
-    """
+    """Return the creep series of a body in parallel with a spring of stiffness 1/c."""
+    # With C = s L[creep], both have 1/(1/c + 1/C) = c - c²/(c + C). The fraction is the relaxation
+    # function of the same body with the spring in series, which is a series even if the body has no
+    # instant compliance and its own relaxation modulus is none.
     c = 1.0 / stiffness
     in_series = relaxation_from_creep(
         c + creep.instant, creep.amplitudes, creep.times, creep.fluidity

@@ -43,21 +43,7 @@ _SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
 
 
 def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
-    """Choose the unit in which the largest of the values reads best.
-
-    Parameters
-    ----------
-    unit : str
-        The SI unit of the values: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"N/m"``, ``"Pa"``,
-        ``"1/Pa"``, ``"Pa s"``, ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
-    *values : array_like
-        All values that share the unit [SI]; values that are not finite are ignored.
-
-    Returns
-    -------
-    ReadableUnit
-        The SI unit itself when all values are zero.
-    """
+    """Unit in which the largest of the values [SI `unit`] reads best; the SI unit for zeros."""
     finite = [np.abs(array[np.isfinite(array)]) for array in map(np.asarray, values)]
     return _unit_of(max((float(array.max(initial=0.0)) for array in finite), default=0.0), unit)
 
@@ -80,18 +66,7 @@ def _prefixed(size: float, symbol: str) -> ReadableUnit:
 
 
 def unit_ladder(unit: str) -> list[tuple[ReadableUnit, float]]:
-    """Return the units in which values of an SI unit are shown, the smallest first.
-
-    Parameters
-    ----------
-    unit : str
-        The SI unit, as in `readable_unit`, other than ``"1/Pa"``.
-
-    Returns
-    -------
-    list of (ReadableUnit, float)
-        Each unit with the least size [SI] from which on `readable_unit` chooses it.
-    """
+    """Units of an SI unit, the smallest first, with the least size [SI] that is shown in each."""
     symbol = _SYMBOLS.get(unit, unit)
     if not symbol or symbol in _WITHOUT_PREFIX:
         return [(ReadableUnit(symbol, 1.0), 0.0)]
@@ -112,22 +87,7 @@ def unit_ladder(unit: str) -> list[tuple[ReadableUnit, float]]:
 
 
 def format_quantity(value: float, unit: str, digits: int = 4) -> str:
-    """Format a value with the unit in which it reads best.
-
-    Parameters
-    ----------
-    value : float
-        The value, in `unit`.
-    unit : str
-        Its SI unit, as in `readable_unit`.
-    digits : int
-        Significant digits; trailing zeros are left out.
-
-    Returns
-    -------
-    str
-        The value with its unit; times from an hour on are in the unit that needs fewest digits.
-    """
+    """Format a value [SI `unit`] to significant digits in the unit that reads best."""
     readable = _unit_of(abs(value), unit)
     if unit == "s" and _HOUR <= abs(value) < math.inf:
         readable = _unit_of_hours(value, digits, readable)
@@ -157,20 +117,7 @@ def quoted(text: str, most: int = 60) -> str:
 
 
 def format_number(value: float, digits: int = 4) -> str:
-    """Format a number with significant digits, without an exponent where possible.
-
-    Parameters
-    ----------
-    value : float
-        The number.
-    digits : int
-        Significant digits, trailing zeros included: columns align.
-
-    Returns
-    -------
-    str
-        The number; a dash for NaN, which means "does not apply".
-    """
+    """Format a number with significant digits, zeros included, without exponent; a dash for NaN."""
     if math.isnan(value):
         return "-"
     # Values that differ by rounding print alike; otherwise 4.7825 is 4.782 or 4.783.
@@ -207,11 +154,8 @@ def format_compact(value: float, digits: int = 3) -> str:
 
 
 def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
-    """Format instants [s] for a legend, with enough digits to differ.
-
-    All are in one unit; instants of runs over hours or days each in s, min, h or d. Speeds as well,
-    with ``"m/s"`` as their SI unit.
-    """
+    """Format instants [s] (or speeds, ``"m/s"``) for a legend, with enough digits to differ."""
+    # All are in one unit; instants of runs over hours or days each in s, min, h or d.
     instants = [float(instant) for instant in times]
     unit = readable_unit(si, instants)
     units = [_clock_unit(each) if _is_long(unit) else unit for each in instants]
@@ -229,25 +173,11 @@ def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
 def clock_ticks(
     unit: ReadableUnit, first: float, last: float, *, close: float = 1e5
 ) -> dict[float, str]:
-    """Return ticks of a logarithmic time axis in hours or days, which read 1 s, 1 min, 1 h, 1 d.
+    """Ticks of a log axis from `first` to `last` [`unit`] in hours or days, with their labels.
 
-    Parameters
-    ----------
-    unit : ReadableUnit
-        Unit of the axis.
-    first, last : float
-        Its ends, in that unit; above 0.
-    close : float, optional
-        Ratio of the ends from which on not all ticks are labelled [-].
+    Labels, of 1 s, 1 min, 1 h, 1 d, are empty where they would be too close, from a ratio of the
+    ends `close` on; an axis in seconds has no ticks.
 
-    Returns
-    -------
-    dict of float to str
-        Places of the ticks in that unit with their labels, which are empty where labels would be
-        too close. There are no ticks for an axis in seconds.
-
-    Examples
-    --------
     >>> clock_ticks(ReadableUnit("h", 3600.0), 0.1, 30.0)
     {0.16666666666666666: '10 min', 1.0: '1 h', 10.0: '10 h', 24.0: '1 d'}
     >>> clock_ticks(readable_unit("s", [1000.0]), 1.0, 1000.0)

@@ -13,10 +13,7 @@ from viscontact.units.formatting import format_quantity
 
 
 def as_real(value: object) -> float | None:
-    """Return a real number as a float; None for a boolean, a text, an array or anything else.
-
-    An array without dimensions counts as its number; an integer beyond all floats is inf.
-    """
+    """Real number or array without dimensions as a float, inf beyond floats; None for others."""
     if getattr(value, "shape", None) == () and hasattr(value, "item"):
         value = value.item()
     if isinstance(value, bool) or not isinstance(value, Real | Decimal):
@@ -67,10 +64,7 @@ def shown(value: object, unit: str = "1") -> str:
 def check_fields(
     instance: object, *names: str, check: Callable[[str, object, str], float] = positive
 ) -> None:
-    """Check fields of a frozen dataclass in their units and store them as floats.
-
-    A field whose default is None may be None.
-    """
+    """Check fields of a frozen dataclass in their units and store them as floats or None."""
     owner = type(instance)
     for name in names:
         value = getattr(instance, name)
@@ -86,11 +80,8 @@ def store(instance: object, **values: object) -> None:
 
 
 def unit_of(owner: type, argument: str, control: str = "") -> str | None:
-    """Return the unit of a dataclass field, from ``field(metadata={"unit": "m"})``.
-
-    None for names, flags and other objects, which have no unit; "1" for dimensionless numbers. A
-    unit that depends on the field `control` (force or approach) is a mapping in the metadata.
-    """
+    """Unit of a dataclass field by its metadata; "1" without dimension, None for names."""
+    # A unit that depends on the field `control` (force or approach) is a mapping in the metadata.
     unit: str | Mapping[str, str] | None = _fields(owner)[argument].metadata.get("unit")
     return unit[control] if isinstance(unit, Mapping) else unit
 

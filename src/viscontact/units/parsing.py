@@ -74,10 +74,9 @@ class Scale:
 
 
 def parse_quantity(text: str, dimension: str) -> float:
-    """Parse a quantity such as ``"5 mm"`` or ``"5.545e-4 / MPa"`` to its SI number.
+    """Parse a quantity such as ``"5 mm"``, of a key of `DIMENSIONS`, to its SI number.
 
-    `dimension` is a key of `DIMENSIONS`. ValueError if there is no unit, the unit is unknown or of
-    another dimension, or the number is not finite.
+    ValueError if its unit is missing, unknown or of another dimension, or it is not finite.
     """
     wanted = DIMENSIONS[dimension]
     number, unit = _split(text, wanted)

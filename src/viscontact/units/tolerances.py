@@ -29,10 +29,9 @@ class Toleranced:
 
 
 def read_toleranced(text: str) -> Toleranced | None:
-    """Read a number with a tolerance, as drawings have it; None for any other text.
+    """Read a number with a tolerance, in any unit or percent, as drawings have it; None for others.
 
-    The tolerance may be in another unit, without one, or in percent. ValueError names the fault.
-    Without a nominal value it is zero.
+    ValueError names the fault. Without a nominal value it is zero.
     """
     match = _TOLERANCED.fullmatch(text)
     if match is None:

@@ -19,10 +19,9 @@ _MOST_DECADES = 60
 class Inverse:
     """Solution g of ∫ f(t - t') dg(t') = r(t), computed up to the largest time requested so far.
 
-    `function` is f(t), `mean` its mean over intervals, as in `volterra.invert`; `first` is the
-    first node [s]; `trend` +1 if g grows, -1 if it falls; `kinks` are the times at which f or r
-    has a kink [s]; `load` is r(t), 1 if left out; up to the time `since` f is a power, if it
-    begins as one [s].
+    `mean` is that of `volterra.invert`; `first` the first node [s]; `trend` +1 if g grows, -1 if it
+    falls; `kinks` [s] those of f or r; r is `load`, 1 if left out; up to `since` [s] f may be a
+    power.
     """
 
     def __init__(

@@ -24,10 +24,7 @@ _DESCENTS, _DECAYED = np.polynomial.laguerre.laggauss(24)
 
 
 def oscillating(curve: LogCurve, omega: Floats) -> Complexes:
-    """Return i ω L[f](i ω) of a curve f at angular frequencies > 0 [rad/s].
-
-    For the creep compliance Phi it is the complex compliance, for G the complex modulus.
-    """
+    """Return i ω L[f](i ω) at ω > 0 [rad/s]: the complex compliance of Phi, the modulus of G."""
     values = [_at(curve, float(each)) for each in omega.ravel()]
     return np.array(values, dtype=np.complex128).reshape(omega.shape)
 

@@ -33,10 +33,9 @@ _NARROW = 1.0
 class LogCurve:
     """Monotone curve through points in log time.
 
-    `times` >= 0 ascend, at least two of them positive [s]; a point at 0 is the instantaneous
-    value, and up to the first positive time the curve is then straight in t. `values` are monotone.
-    The rules `before` the first point (if not at 0) and `beyond` the last are named in `Before` and
-    `Beyond`; `steepest` bounds the exponent of a power before the first point.
+    `times` >= 0 ascend, two or more of them positive [s]; from a point at 0 the curve is straight
+    in t. Rules `before` the first point and `beyond` the last; `steepest` bounds the exponent of a
+    power.
     """
 
     def __init__(
@@ -92,10 +91,7 @@ class LogCurve:
         return np.asarray(np.where(t >= self.times[-1], beyond, values))
 
     def rate(self, t: Numbers, where: Floats) -> Numbers:
-        """Return df/dt at times `t`, by the formula of the pieces that contain the times `where`.
-
-        The formulas are analytic: `t` may be complex.
-        """
+        """Return df/dt at times `t` (or complex), by the pieces that contain `where` [s]."""
         u = np.log(t / self.times[0])
         if self.at_once is not None:
             head = np.full_like(t, (self.values[0] - self.at_once) / self.times[0])
@@ -111,11 +107,9 @@ class LogCurve:
         return np.where(where < self.times[0], head, np.where(where >= self.times[-1], tail, body))
 
     def mean(self, start: ArrayLike, end: ArrayLike) -> Floats:
-        """Return the means over the times `start` to `end` [s], of equal shape; values where equal.
-
-        The primitive of a polynomial P(ln t) is t (P - P' + P'' - P^(3) + ...). Gauss-Legendre
-        quadrature replaces it on intervals so narrow that its difference would cancel.
-        """
+        """Return the means over `start` to `end` [s], of one shape; values where equal."""
+        # The primitive of a polynomial P(ln t) is t (P - P' + P'' - P^(3) + ...). Gauss-Legendre
+        # quadrature replaces it on intervals so narrow that its difference would cancel.
         start, end = np.asarray(start, np.float64), np.asarray(end, np.float64)
         first, last = self.times[0], self.times[-1]
         area = np.zeros(np.broadcast_shapes(start.shape, end.shape))
@@ -218,10 +212,7 @@ def _power(times: Floats, values: Floats) -> float:
 def narrow_mean(
     function: Callable[[Floats], Floats], start: Floats, end: Floats, *, otherwise: Floats
 ) -> Floats:
-    """Return the mean of a smooth function of ln t over narrow intervals of time, by quadrature.
-
-    Over wider ones it is `otherwise`, from a difference of primitives, which is accurate there.
-    """
+    """Return the mean of a function of ln t by quadrature on narrow intervals, else `otherwise`."""
     narrow = np.asarray(end <= start * np.exp(_NARROW))
     if not narrow.any():
         return otherwise
@@ -232,12 +223,9 @@ def narrow_mean(
 
 
 def mean_power(exponent: float, start: Floats, end: Floats) -> Floats:
-    """Return the mean of t^n over intervals of time, t^n where they have no length.
-
-    It is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b, whose differences do not cancel
-    however close a and b are; for n < -1, where b^n may vanish against r^n, with a and b exchanged.
-    Infinite from 0 on if n <= -1.
-    """
+    """Return the mean of t^n over intervals of time; infinite from 0 on if n <= -1."""
+    # b^n (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b, whose differences do not cancel however close
+    # a and b are; for n < -1, where b^n may vanish against r^n, with a and b exchanged.
     length, power = end - start, exponent + 1
     part = np.where(length > 0, length, 1.0) / np.where(length > 0, end, 1.0)
     with np.errstate(divide="ignore"):  # from 0 on

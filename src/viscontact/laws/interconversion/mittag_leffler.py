@@ -25,8 +25,6 @@ def mittag_leffler(x: Floats, alpha: float, beta: float = 1.0) -> Floats: ...
 def mittag_leffler(x: ArrayLike, alpha: float, beta: float = 1.0) -> float | Floats:
     """Return E_α,β(-x) = Σ (-x)^k / Γ(α k + β) for x >= 0, 0 < α <= 1 and α <= β <= 4 [-].
 
-    It is then completely monotone in x. ValueError outside these ranges.
-
     Notes
     -----
     E_α,β(-x) is the inverse Laplace transform of s^(α-β)/(s^α + x) at time 1. For α <= 1 that has
@@ -34,10 +32,8 @@ def mittag_leffler(x: ArrayLike, alpha: float, beta: float = 1.0) -> float | Flo
     error that falls geometrically in the number of nodes (Weideman & Trefethen 2007, Math. Comp.
     76, 1341: the cotangent contour; Garrappa 2015, SIAM J. Numer. Anal. 53, 1350). For large x the
     first terms -Σ (-x)^-k / Γ(β - α k) of the asymptotic series (Erdélyi 1955, Higher
-    Transcendental Functions III, 18.1) are exact to rounding and replace it.
-
-    Relative errors are near 1e-14; as α approaches 1 with β = 1, where the function becomes an
-    exponential, they grow as 1/(1 - α). α = β = 1 is that exponential.
+    Transcendental Functions III, 18.1) are exact to rounding. Relative errors are near 1e-14; as α
+    approaches 1 with β = 1 they grow as 1/(1 - α); α = β = 1 is an exponential.
     """
     argument = np.asarray(x, np.float64)
     if not (0 < alpha <= 1 and alpha <= beta <= 4):

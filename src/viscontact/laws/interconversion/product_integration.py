@@ -52,10 +52,8 @@ _ONE = Load(np.ones_like, lambda start, end: np.ones_like(start))
 class Kernel(NamedTuple):
     """Weights of a falling kernel κ for the rate of the unknown on each step.
 
-    `past`: from lags, a row for each node, and the steps that end there, ∫ κ dl over each step and
-    ∫ κ (h - 2 (l - a)) dl, with a its beginning: the weight of the unknown's curvature. `whole`
-    and `bent`: the same over the current step, for all steps, with the part of κ that is a point
-    at lag 0.
+    `past`, from lags with a row a node: ∫ κ dl over each step, and ∫ κ (h - 2 (l - a)) dl from its
+    beginning a, the weight of the curvature. `whole`, `bent`: the same over the current step.
     """
 
     past: Callable[[Floats, Floats], tuple[Floats, Floats]]
@@ -181,11 +179,9 @@ def first_exponent(function: Function, first: float) -> float:
 
 
 def _first_moment(mean: Mean, ends: Floats) -> Floats:
-    """Return ∫ f(l) l dl from 0 to h, per h², of ends h [s].
-
-    By parts it is F(h)/h - ∫ F(l) dl / h² with F(l) = l mean(0, l), which is smooth enough for
-    Gauss-Legendre quadrature on panels that shrink towards 0.
-    """
+    """Return ∫ f(l) l dl from 0 to h, per h², of ends h [s]."""
+    # By parts F(h)/h - ∫ F(l) dl / h² with F(l) = l mean(0, l), which is smooth enough for
+    # Gauss-Legendre quadrature on panels that shrink towards 0.
     nodes, weights = np.polynomial.legendre.leggauss(5)
     edges = np.append(0.0, 4.0 ** -np.arange(14.0)[::-1])
     x = (edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2).ravel()

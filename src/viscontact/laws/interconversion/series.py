@@ -61,14 +61,9 @@ class RelaxationTerms(NamedTuple):
 def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLike) -> SeriesTerms:
     """Return the creep series that is the exact inverse of a relaxation series.
 
-    Strengths M_j >= 0 and `equilibrium` M_inf >= 0 [Pa] (0 for a fluid), relaxation times ρ_j > 0
-    [s] in any order; compliances [1/Pa], ascending retardation times [s] and, for a fluid only, a
-    fluidity [1/(Pa s)]. ValueError if all moduli are 0.
-
-    Notes
-    -----
-    J_0 = 1/M(0); the residues are J_i = 1 / (τ_i sum_j M_j ρ_j / (τ_i - ρ_j)²), and for a
-    fluid φ = 1 / sum_j M_j ρ_j.
+    Strengths M_j >= 0, `equilibrium` M_inf >= 0 [Pa], relaxation times ρ_j > 0 [s] in any order;
+    ValueError if all moduli are 0. J_0 = 1/M(0); the residues are J_i = 1 / (τ_i sum_j M_j ρ_j /
+    (τ_i - ρ_j)²), and for a fluid (M_inf = 0) φ = 1 / sum_j M_j ρ_j [1/(Pa s)].
     """
     moduli, times = merged(moduli, times)
     total = float(equilibrium + moduli.sum())
@@ -86,14 +81,10 @@ def relaxation_from_creep(
 ) -> RelaxationTerms:
     """Return the relaxation series that is the exact inverse of a creep series.
 
-    `instant` J_0 > 0 and amplitudes J_i >= 0 [1/Pa], retardation times τ_i > 0 [s] in any order,
-    fluidity φ >= 0 [1/(Pa s)]; moduli [Pa] and ascending times [s]. ValueError if `instant` is 0:
-    the inverse then holds a Dirac impulse and is not a series.
-
-    Notes
-    -----
-    M_inf = 1/J(inf); the residues are M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², where the
-    sum includes J_0 as a term of time 0.
+    `instant` J_0 > 0, amplitudes J_i >= 0 [1/Pa], retardation times τ_i > 0 [s] in any order,
+    fluidity φ >= 0 [1/(Pa s)]; ValueError if J_0 is 0, whose inverse holds a Dirac impulse. M_inf =
+    1/J(inf); the residues are M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², with J_0 as a term of time
+    0.
     """
     if not instant > 0:
         raise ValueError(
@@ -156,10 +147,7 @@ def merged(strengths: ArrayLike, times: ArrayLike) -> tuple[Floats, Floats]:
 
 
 def _secular_roots(poles: Floats, weights: Floats, constant: float) -> tuple[Floats, Floats]:
-    """Return the roots x_j of F(x) = sum_i w_i/(x - p_i) - c, and the slopes -F'(x_j) > 0.
-
-    `poles` ascend, `weights` are positive, `constant` is not negative.
-    """
+    """Return the roots of F(x) = sum_i w_i/(x - p_i) - c, p_i ascending, and their -F' > 0."""
     origins, side, reach = _nearest_poles(poles, weights, constant)
     from_origin = poles[origins][:, None] - poles
     # Seen from its nearest pole, at distance d, every root is where side * F falls through 0.
@@ -182,13 +170,11 @@ def _secular_roots(poles: Floats, weights: Floats, constant: float) -> tuple[Flo
 
 
 def _slopes(to_poles: Floats, to_roots: Floats, leading: float) -> Floats:
-    """Return -F'(x_j) from the distances of the roots to all poles and to each other.
-
-    F is its leading coefficient, c or sum(w), times the product of all x - x_k over that of all x
-    - p_i. At x_j this leaves a product of ratios that interlacing bounds. The sum of w_i/(x_j -
-    p_i)² is equivalent for exact roots only: where rounding blurs the distance of a root from a
-    weak pole, the product still gives residues that fit the roots found.
-    """
+    """Return -F'(x_j) from the distances of the roots to all poles and to each other."""
+    # F is its leading coefficient, c or sum(w), times the product of all x - x_k over that of all x
+    # - p_i. At x_j this leaves a product of ratios that interlacing bounds. The sum of w_i/(x_j -
+    # p_i)² is equivalent for exact roots only: where rounding blurs the distance of a root from a
+    # weak pole, the product still gives residues that fit the roots found.
     count = to_roots.shape[0]
     np.fill_diagonal(to_roots, 1.0)
     with np.errstate(over="ignore"):  # a root upon its pole: slope inf, strength 0, left out
@@ -199,10 +185,7 @@ def _slopes(to_poles: Floats, to_roots: Floats, leading: float) -> Floats:
 def _nearest_poles(
     poles: Floats, weights: Floats, constant: float
 ) -> tuple[Integers, Floats, Floats]:
-    """Return, for each root, the index of its nearest pole, its side and its largest distance.
-
-    Side is +1 where the root lies right of that pole and -1 where left.
-    """
+    """Return each root's nearest pole by its index, side (+1: right) and largest distance."""
     half = np.diff(poles) / 2
     middle = (poles[:-1, None] - poles) + half[:, None]
     # F falls from +inf to -inf between two poles: the sign half-way shows the half of the root.

@@ -39,11 +39,7 @@ _MOST_DECADES = 60
 
 
 class Response(NamedTuple):
-    """Solution of a Volterra equation and its estimated error.
-
-    `curve` is extrapolated to a vanishing step, at the nodes of the fine grid; `nodes` are those
-    of the coarse grid [s] and `node_errors` the estimated relative errors there [-].
-    """
+    """Extrapolated solution on the fine grid; nodes of the coarse one [s], errors there [-]."""
 
     curve: LogCurve
     nodes: Floats
@@ -56,18 +52,13 @@ class Response(NamedTuple):
 
 
 def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:
-    """Return the inverse of a creep (or relaxation) function at instants [s], and its error.
+    """Return the inverse g of a creep or relaxation function f at instants [s], and its error.
 
-    `function` is f(t) of an array of times >= 0 [s], positive and monotone for t > 0; f(0) may be
-    0 or inf if f begins like a power of time between t^-1 and t^1. `mean` is the mean of f over
-    the times start..end [s]. The relative error [-] is that of g if g grows, and relative to 1/f,
-    its upper bound, if it falls. ValueError if f begins like a dashpot or vanishes, since its
-    inverse holds a Dirac impulse.
-
-    Notes
-    -----
-    The error is of second order in the step of ln t, which is extrapolated to 0 (Richardson)
-    from three grids; the change of the limit by the last halving is the error estimate.
+    `function` is f(t), positive and monotone for t > 0; f(0) may be 0 or inf if f begins like a
+    power of time between t^-1 and t^1; `mean` its mean over start..end [s]. The error [-], relative
+    to 1/f if g falls, is of second order in the step of ln t: g is extrapolated to step 0
+    (Richardson) from three grids, whose last change is the error. ValueError if f begins like a
+    dashpot or vanishes, since its inverse holds a Dirac impulse.
     """
     instants = np.asarray(instants, np.float64)
     late = float(instants.max(initial=0.0))
@@ -90,12 +81,10 @@ def respond(
     kinks: Sequence[float] = (),
     load: Load | None = None,
 ) -> Response:
-    """Solve ∫ f(t - t') dg(t') = r(t) for g up to the time `end` [s].
+    """Solve ∫ f(t - t') dg(t') = r(t) for g up to `end` [s]; a later end changes no value.
 
-    `function` and `mean` as in `invert`; before the node `first` [s] g is straight in t, or a
-    power if f is one up to `since` [s], far after `first`; `kinks` [s] are made nodes; `load` is
-    r(t) for a growing f with f(0) > 0, and 1 if left out. Values before a time do not depend on
-    `end`.
+    Before the node `first` [s] g is straight in t, or a power if f is one up to `since` [s];
+    `kinks` [s] are made nodes; r is `load` for a growing f with f(0) > 0, and 1 if left out.
     """
     coarse = _nodes(first, end, kinks)
     middle = _halved(coarse)
@@ -134,12 +123,10 @@ def _extrapolated(rough: Floats, better: Floats) -> Floats:
 
 
 def steadied(found: Response, trend: int, function: Function | None) -> Response:
-    """Return a solution made monotone: growing (trend 1) or falling (-1), with its node errors.
-
-    Rounding and extrapolation cause small oscillations. A function that no body of springs and
-    dashpots has, such as a table with kinks, has an inverse that truly oscillates: what is removed
-    counts as error. With `function` f and r = 1, g is at most 1/f where it falls.
-    """
+    """Return a solution made monotone: growing (trend 1) or falling (-1), with its node errors."""
+    # Rounding and extrapolation cause small oscillations. A function that no body of springs and
+    # dashpots has, such as a table with kinks, has an inverse that truly oscillates: what is
+    # removed counts as error. With `function` f and r = 1, g is at most 1/f where it falls.
     times, values, known = found.curve.times, found.curve.values, found.curve.at_once is not None
     if found.curve.at_once is not None:
         times, values = np.append(0.0, times), np.append(found.curve.at_once, values)

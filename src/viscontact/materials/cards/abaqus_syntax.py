@@ -16,10 +16,7 @@ class DataLine:
     fields: tuple[str, ...]
 
     def numbers(self, least: int, most: int) -> list[float]:
-        """Return the fields as numbers, an empty one as 0, padded with 0 to `most`.
-
-        ValueError if there are fewer than `least` or more than `most`.
-        """
+        """Return `least` to `most` fields as numbers, padded with 0; else ValueError."""
         if not least <= len(self.fields) <= most:
             wanted = f"{least} to {most}" if least < most else f"{most}"
             raise ValueError(f"{self.where}: must have {wanted} numbers, got {len(self.fields)}")
@@ -29,10 +26,7 @@ class DataLine:
 
 @dataclass(frozen=True)
 class Block:
-    """One keyword, such as ``SHEAR TEST DATA``, with its parameters and data lines.
-
-    `where` is file and line, for messages; names of keyword and parameters are in capitals.
-    """
+    """One keyword in capitals with parameters and data lines; `where` is file and line."""
 
     where: str
     keyword: str
@@ -40,10 +34,7 @@ class Block:
     data: tuple[DataLine, ...]
 
     def choice(self, name: str, options: tuple[str, ...], default: str) -> str:
-        """Return the value of a parameter that has one of several words, which may be abbreviated.
-
-        ValueError if it has another value.
-        """
+        """Return the word, maybe abbreviated, that a parameter has; ValueError for another."""
         given = self.parameters.get(name)
         if given is None:
             return default

@@ -24,17 +24,13 @@ def tested_material(
     units: CardUnits,
     notes: list[str],
 ) -> Material:
-    """Return the material of a card with test data, as a table law.
+    """Return the material of a card with test data in shear and volume, as a table law.
 
-    `tests` are the blocks ``*SHEAR TEST DATA`` and ``*VOLUMETRIC TEST DATA``, or ``*COMBINED TEST
-    DATA``, of creep or of relaxation. The law is G_0 g_R(t) as modulus [Pa], or j_S(t)/(2 G_0) as
-    creep compliance [1/Pa]; both normalised functions start at 1. Data that are not used are added
-    to `notes`. ValueError if shear data are missing or invalid, or the bulk modulus relaxes
-    differently.
-
-    Abaqus fits a Prony series to the data; here they are not fitted. Abaqus 2016 Keywords
-    Reference Guide, ``*SHEAR TEST DATA``, ``*COMBINED TEST DATA``: lines of j_S or g_R and t > 0,
-    with the long-term value in SHRINF.
+    The law is G_0 g_R(t) as modulus [Pa], or j_S(t)/(2 G_0) as creep compliance [1/Pa]; both
+    normalised functions start at 1. Abaqus fits a Prony series, here they are not fitted; data not
+    used are added to `notes`. ValueError if shear data are missing, or the bulk modulus relaxes
+    differently. Abaqus 2016 Keywords Reference Guide, ``*SHEAR TEST DATA``, ``*COMBINED TEST
+    DATA``: lines of j_S or g_R and t > 0, with the long-term value in SHRINF.
     """
     by_name = {test.keyword: test for test in tests}
     source = by_name.get("COMBINED TEST DATA", by_name.get("SHEAR TEST DATA"))

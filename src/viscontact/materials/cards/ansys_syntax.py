@@ -12,10 +12,7 @@ _ASSIGNMENT = re.compile(r"(?P<name>[A-Za-z]\w{0,31})\s*=\s*(?P<value>[^,=]+)")
 
 @dataclass(frozen=True)
 class Command:
-    """One command, such as ``TBDATA`` (name in capitals), with its fields, parameters substituted.
-
-    `where` is file and line, for messages.
-    """
+    """One command in capitals with its fields, parameters substituted; `where` is file and line."""
 
     where: str
     name: str

@@ -61,10 +61,7 @@ class Numbered:
 
 
 def collect(commands: list[Command]) -> dict[int, Numbered]:
-    """Sort commands by material number, in the order of their first mention.
-
-    ValueError if a property depends on temperature, a table is repeated, or data have no table.
-    """
+    """Sort commands by material number in order of mention; ValueError for what is not read."""
     found: dict[int, Numbered] = {}
     table: DataTable | None = None
     for command in commands:

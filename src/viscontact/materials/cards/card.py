@@ -41,11 +41,7 @@ class Card(Displayable):
 
 @dataclass(frozen=True)
 class CardUnits:
-    """Units of a card's numbers, which the card does not state.
-
-    `modulus` and `time` are factors to Pa and s, `temperature` the scale if it is known, `words`
-    the same in words, for a comment in the card.
-    """
+    """Units of a card: factors to Pa and s, scale of temperature if known; the same in words."""
 
     modulus: float
     time: float

@@ -144,11 +144,7 @@ class Relative:
 
 
 def relative(material: Material, *, instantaneous: bool) -> Relative:
-    """Return a material in a card's terms, with instantaneous or long-term elastic constants.
-
-    ValueError if its law is not a series, has no instant modulus, or is a fluid, which has no
-    long-term constants.
-    """
+    """Return a material in a card's terms; ValueError if it is no series or lacks the constants."""
     law = material.law
     if not isinstance(law, SeriesLaw):
         raise ValueError(

@@ -79,13 +79,8 @@ class Points:
 
 
 def read_points(given: dict[str, Any], poisson_ratio: float | None) -> Points:
-    """Read the points of an entry's file, and convert them to shear.
-
-    `given` has ``quantity``, ``what``, ``data``, ``times`` or ``angular_frequencies``, ``values``
-    and ``tolerance``, in SI units; tensile values need a constant Poisson's ratio. A
-    ``creep_modulus`` is read as the compliance that is its reciprocal. ValueError if a key or a
-    convention is unknown, or lengths differ.
-    """
+    """Read an entry's points as those in shear; tensile ones need a constant Poisson's ratio."""
+    # A creep modulus is read as the compliance that is its reciprocal.
     if given["quantity"] == _CREEP_MODULUS:
         compliances = [1.0 / value for value in given["values"]]
         given = {**given, "quantity": "creep_compliance", "values": compliances}

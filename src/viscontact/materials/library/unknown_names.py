@@ -9,19 +9,8 @@ from viscontact.materials.library.entry import entry, names
 
 
 def nearest_names(name: str) -> list[str]:
-    """Return the shipped materials that a name may mean.
-
-    Parameters
-    ----------
-    name : str
-        A name that is not in the library, such as ``"POM"``.
-
-    Returns
-    -------
-    list of str
-        At most three: entries with a word that begins with `name` in their own name, else in
-        their title or family, else the one of the most similar name; empty if none is similar.
-    """
+    """Return at most three shipped materials that a name such as ``"POM"`` may mean."""
+    # Words of names begin with it, else words of title or family, else the most similar name.
     asked = name.strip().lower()
     if not asked:
         return []
