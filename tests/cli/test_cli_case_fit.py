@@ -11,7 +11,7 @@ from tests.studies.calibration.experiments import ELASTIC_BALL, hertz_depth
 
 from viscontact.case import read_case
 from viscontact.cli.entry import main
-from viscontact.cli.material import case_fit
+from viscontact.cli.studies import case_fit
 from viscontact.studies.calibration.fit_case import fit_case
 
 COMMAND = ("fit", "a.csv", "--case", "ball.yaml")

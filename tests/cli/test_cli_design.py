@@ -9,8 +9,8 @@ import xarray as xr
 from tests.studies.design.test_arguments import BALL
 
 from viscontact.case import read_case
-from viscontact.cli.design.options import DesignRequest
 from viscontact.cli.entry import main
+from viscontact.cli.studies.design import DesignRequest
 
 COMMAND = ("design", "ball.yaml", "--minimise", "peak_pressure", "-o", "found")
 RADIUS = ("--change", "indenter.radius=4 mm,6 mm")
@@ -45,7 +45,7 @@ def test_a_design_writes_the_best_case_and_the_trials(capsys: pytest.CaptureFixt
 
 
 def test_the_worst_corner_of_a_scatter_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viscontact.cli.design.execution.written_report", lambda *_: None)
+    monkeypatch.setattr("viscontact.cli.studies.execution.written_report", lambda *_: None)
     assert main([*COMMAND, *RADIUS, "--scatter", "load.force=50mN:0.2N", "-q"]) == 0
     with xr.open_dataset("found/trials.nc") as table:
         names = ["as in the case", "with force 0.05 N", "with force 0.2 N"]
@@ -70,7 +70,7 @@ def test_an_interrupted_design_says_how_to_continue(
     def interrupted(**arguments: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("viscontact.cli.design.execution.design", interrupted)
+    monkeypatch.setattr("viscontact.cli.studies.execution.design", interrupted)
     assert main([*COMMAND, *RADIUS]) == 130
     assert "continue with the same command and --resume" in capsys.readouterr().err
 

@@ -11,9 +11,9 @@ import pytest
 
 import viscontact as vc
 from viscontact.cli import main
-from viscontact.cli.many import checks
-from viscontact.cli.many.design_options import DesignOptions
-from viscontact.cli.many.request import ManyRequest
+from viscontact.cli.sweep import checks
+from viscontact.cli.sweep.plan_options import DesignOptions
+from viscontact.cli.sweep.request import ManyRequest
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
@@ -40,7 +40,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def idle(monkeypatch: pytest.MonkeyPatch) -> None:
     """No run is started."""
 
-    monkeypatch.setattr("viscontact.cli.many.execution.drive", lambda *_: [])
+    monkeypatch.setattr("viscontact.cli.sweep.execution.drive", lambda *_: [])
 
 
 def manifest(directory: str = "out") -> list[SweepRun]:
@@ -249,7 +249,7 @@ def test_beyond_a_number_of_runs_only_some_are_checked(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(checks, "MOST_READ", 150)
-    monkeypatch.setattr("viscontact.cli.many.jobs.MOST_READ", 150)
+    monkeypatch.setattr("viscontact.cli.sweep.jobs.MOST_READ", 150)
     values = [f"{n} mN" for n in range(1, 161)]
     words = ["run", "ball.yaml", "-o", "out", "--vary"]
     assert main([*words, f"load.force={','.join(values[:-1])},5 MPa"]) == 2  # the last one

@@ -208,7 +208,7 @@ def test_task_of_a_case_that_was_edited_is_refused_until_that_is_meant(
 def test_too_little_memory_warns_where_the_array_is_written_and_refuses_where_it_runs(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for module in ("runs.preparation", "studies.sweep.common_cells", "cli.many.jobs"):
+    for module in ("runs.preparation", "studies.sweep.common_cells", "cli.sweep.jobs"):
         monkeypatch.setattr(f"viscontact.{module}.available_memory", lambda: 1e8)
     assert main([*WORDS[:-1], "-o", "out", "--array", "a.sbatch"]) == 0
     warning = "a run needs about 0.150 GB of memory, this machine has 0.100 GB free"

@@ -10,7 +10,7 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact.cli import main
-from viscontact.cli.many import single_task
+from viscontact.cli.sweep import single_task
 from viscontact.cli.terminal.messages import INTERRUPTED, stop
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.runs.processes.request import RunRequest

@@ -67,7 +67,7 @@ def test_an_interrupted_sensitivity_says_how_to_continue(
     def interrupted(**arguments: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("viscontact.cli.sensitivity.execution.sensitivity", interrupted)
+    monkeypatch.setattr("viscontact.cli.studies.sensitivity.sensitivity", interrupted)
     assert main([*COMMAND, "--of", "approach"]) == 130
     assert "continue with the same command and --resume" in capsys.readouterr().err
 

@@ -18,7 +18,7 @@ from viscontact.accuracy.coarser_results import history_of
 from viscontact.accuracy.error_bars import ZERO_WITHOUT_CONTACT
 from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main
-from viscontact.cli.many.table import print_table
+from viscontact.cli.sweep.table import print_table
 from viscontact.figures.histories import histories, panel_names
 from viscontact.notebook.result_card import result_card
 from viscontact.plot import history

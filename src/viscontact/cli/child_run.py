@@ -42,11 +42,7 @@ def _import_run() -> None:
     limit_libraries()
     if has_memory():
         with suppress(Exception):
-            import viscontact.cli.many.execution
-            import viscontact.cli.many.job_array
-            import viscontact.cli.many.single_task
-            import viscontact.cli.run.execution
-            import viscontact.cli.shell  # noqa: F401
+            pass
 
 
 def _received() -> list[str]:

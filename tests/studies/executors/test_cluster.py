@@ -145,7 +145,7 @@ def test_client_computes_nine_of_ten_runs_within_the_memory_that_its_workers_dec
 def test_scheduler_that_does_not_answer_and_missing_dask_are_refused(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("viscontact.cli.many.cluster._PATIENCE", 1)
+    monkeypatch.setattr("viscontact.cli.sweep.cluster._PATIENCE", 1)
     assert main([*SWEEP, "--scheduler", "tcp://127.0.0.1:9", "-o", "sweep"]) == 2
     assert "tcp://127.0.0.1:9: no scheduler answers: " in capsys.readouterr().err
     assert main([*SWEEP, "--scheduler", "local", "--array", "a.sbatch", "-o", "sweep"]) == 2

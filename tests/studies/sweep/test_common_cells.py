@@ -12,9 +12,9 @@ import xarray as xr
 import viscontact as vc
 from viscontact.case.document import read_document
 from viscontact.cli import main
-from viscontact.cli.many.common_cells import with_common_cells
-from viscontact.cli.many.design_options import DesignOptions
-from viscontact.cli.many.request import ManyRequest
+from viscontact.cli.sweep.common_cells import with_common_cells
+from viscontact.cli.sweep.plan_options import DesignOptions
+from viscontact.cli.sweep.request import ManyRequest
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep import common_cells
 from viscontact.units.formatting import format_quantity

@@ -24,8 +24,8 @@ import xarray as xr
 import viscontact as vc
 from interrupted_runs import BODIES
 from viscontact.cli import main
-from viscontact.cli.many import jobs
-from viscontact.cli.many.design_options import DesignOptions
+from viscontact.cli.sweep import jobs
+from viscontact.cli.sweep.plan_options import DesignOptions
 from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
 from viscontact.runs import many

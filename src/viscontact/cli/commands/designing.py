@@ -119,9 +119,9 @@ def design(
     gets best.yaml, trials.nc and report.html. With --profile free, the drop curve of a roller is
     found.
     """
-    from viscontact.cli.design.execution import execute_design
-    from viscontact.cli.design.options import DesignRequest
-    from viscontact.cli.design.profiles import ProfileRequest, execute_profile_design
+    from viscontact.cli.studies.design import DesignRequest
+    from viscontact.cli.studies.execution import execute_design
+    from viscontact.cli.studies.profiles import ProfileRequest, execute_profile_design
 
     if profile is not None or drop_tolerance is not None:
         excluded = {"--change": change, "--maximise": maximise, "--constraint": constraint}

@@ -234,11 +234,11 @@ def fit(
     printed. In a force curve, the contact point is found and the bending of the cantilever
     subtracted first. With --case, values of a case are fitted to records by runs of the case.
     """
-    from viscontact.cli.material.case_fit import report_case_fit
-    from viscontact.cli.material.case_fit_options import CaseFitRequest
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
     from viscontact.cli.results.figures import chosen_width
+    from viscontact.cli.studies.case_fit import report_case_fit
+    from viscontact.cli.studies.case_fit_options import CaseFitRequest
 
     arguments = FitArguments(
         data=data,

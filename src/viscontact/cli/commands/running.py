@@ -169,11 +169,11 @@ def run(
                 execute(common)
                 return
             with interruption.postponed():
-                from viscontact.cli.many.design_options import DesignOptions
-                from viscontact.cli.many.execution import execute_many
-                from viscontact.cli.many.job_array import write_array
-                from viscontact.cli.many.request import ManyRequest
-                from viscontact.cli.many.single_task import execute_task
+                from viscontact.cli.sweep.execution import execute_many
+                from viscontact.cli.sweep.job_array import write_array
+                from viscontact.cli.sweep.plan_options import DesignOptions
+                from viscontact.cli.sweep.request import ManyRequest
+                from viscontact.cli.sweep.single_task import execute_task
             options = DesignOptions(
                 tuple(varied or ()),
                 zipped,

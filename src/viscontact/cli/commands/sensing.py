@@ -73,7 +73,7 @@ def sensitivity(
     The elasticity is the relative change of an output per relative change of an input; the error of
     each is stated. DIR gets the runs, sensitivity.nc and report.html.
     """
-    from viscontact.cli.sensitivity.execution import SensitivityRequest, execute_sensitivity
+    from viscontact.cli.studies.sensitivity import SensitivityRequest, execute_sensitivity
 
     request = SensitivityRequest(
         *(case, output, of, change or (), scatter or (), samples, seed),

@@ -21,7 +21,7 @@ def status(
     ] = False,
 ) -> None:
     """Print how many runs of a sweep are done, running, waiting, stopped or failed."""
-    from viscontact.cli.many.status import print_status
+    from viscontact.cli.sweep.status import print_status
 
     print_status(directory, watch=watch)
 
@@ -44,6 +44,6 @@ def collect(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
     """Write the results of all runs of a sweep to one file."""
-    from viscontact.cli.many.collect import collect_results
+    from viscontact.cli.sweep.collect import collect_results
 
     collect_results(directory, output, fields=fields, quiet=quiet)

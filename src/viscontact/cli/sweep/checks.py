@@ -14,8 +14,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from viscontact.case import Case, CaseError, read_case
-from viscontact.cli.many.problems import problem_lines
-from viscontact.cli.many.request import ManyRequest, PlannedRun
+from viscontact.cli.sweep.problems import problem_lines
+from viscontact.cli.sweep.request import ManyRequest, PlannedRun
 from viscontact.cli.terminal.messages import CommandError, refuse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import in_use

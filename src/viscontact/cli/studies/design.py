@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from viscontact.cli.many.design_options import split_values
+from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
 from viscontact.units.parsing import parse_quantity
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from viscontact.cli.many.design_options import DesignOptions
+from viscontact.cli.sweep.plan_options import DesignOptions
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.processes.request import RunRequest, command, no_option

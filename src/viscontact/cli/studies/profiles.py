@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.cli.design.execution import REPORT_NAME, performed, written_report
-from viscontact.cli.design.options import instant, keys
-from viscontact.cli.many.design_options import split_values
+from viscontact.cli.studies.design import instant, keys
+from viscontact.cli.studies.execution import REPORT_NAME, performed, written_report
+from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.studies.design.profiles.design_profile import design_profile
 from viscontact.studies.design.profiles.drawing import write_dxf

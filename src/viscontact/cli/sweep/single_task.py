@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from viscontact.cli.many.changed_run import changed_run, write_changed
-from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.run.execution import execute
+from viscontact.cli.sweep.own_settings import changed_run, write_changed
+from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import (
     INTERRUPTED,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from viscontact.case import CaseError
-from viscontact.cli.design.options import DesignRequest, as_typed
+from viscontact.cli.studies.design import DesignRequest, as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.errors import ConvergenceError, DomainError

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from viscontact.cli.many.request import PlannedRun
+from viscontact.cli.sweep.request import PlannedRun
 from viscontact.studies.sweep.designs import Design
 
 #: Most problems that are printed, and most runs that are named in one.

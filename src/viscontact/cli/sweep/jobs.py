@@ -8,15 +8,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from viscontact.cli.many.checks import MOST_READ, checked_jobs
-from viscontact.cli.many.common_cells import with_common_cells
-from viscontact.cli.many.recorded_sweep import (
+from viscontact.cli.sweep.checks import MOST_READ, checked_jobs
+from viscontact.cli.sweep.common_cells import with_common_cells
+from viscontact.cli.sweep.recorded_sweep import (
     RecordedSweep,
     any_begun,
     recorded_runs,
     sweep_runs,
 )
-from viscontact.cli.many.request import ManyRequest
+from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.terminal.messages import say
 from viscontact.runs import resources
 from viscontact.runs.execution.case_digests import Digests

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from viscontact.case import CaseError
-from viscontact.cli.material.case_fit_options import CaseFitRequest, as_typed
 from viscontact.cli.material.fit_report import Drawing, draw_fit, write_section
+from viscontact.cli.studies.case_fit_options import CaseFitRequest, as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError

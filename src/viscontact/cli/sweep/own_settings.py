@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from viscontact.cli.many.design_options import key_of, share_a_branch
+from viscontact.cli.sweep.plan_options import key_of, share_a_branch
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.studies.sweep.case_digests import with_digests

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 
-from viscontact.cli.many.cluster import cluster_tasks
-from viscontact.cli.many.jobs import CheckedSweep, checked_sweep, fitting, resource_warnings
-from viscontact.cli.many.progress import shown_runs
-from viscontact.cli.many.request import ManyRequest
-from viscontact.cli.many.table import first_names, print_table
+from viscontact.cli.sweep.cluster import cluster_tasks
+from viscontact.cli.sweep.jobs import CheckedSweep, checked_sweep, fitting, resource_warnings
+from viscontact.cli.sweep.progress import shown_runs
+from viscontact.cli.sweep.request import ManyRequest
+from viscontact.cli.sweep.table import first_names, print_table
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from viscontact.case import CaseError
 from viscontact.case.document import read_document
-from viscontact.cli.many.request import PlannedRun
+from viscontact.cli.sweep.request import PlannedRun
 from viscontact.cli.terminal.messages import CommandError, say
 from viscontact.run_files import CASE_NAME
 from viscontact.runs.processes.request import RunRequest

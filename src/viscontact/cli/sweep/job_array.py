@@ -9,8 +9,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from viscontact.cli.many.jobs import checked_sweep
-from viscontact.cli.many.request import ManyRequest
+from viscontact.cli.sweep.jobs import checked_sweep
+from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.streams import printing
 from viscontact.run_files import MANIFEST_NAME, STOP_NAME

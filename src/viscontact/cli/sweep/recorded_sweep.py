@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NoReturn
 
-from viscontact.cli.many.request import PlannedRun
+from viscontact.cli.sweep.request import PlannedRun
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option

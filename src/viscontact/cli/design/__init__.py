@@ -1,1 +1,0 @@
-"""Command `design`: its options, its progress and its result."""

@@ -1,1 +1,0 @@
-"""Command `sensitivity`: its progress, its files and the lines that it prints."""

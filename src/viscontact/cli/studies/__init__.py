@@ -1,0 +1,1 @@
+"""Commands of studies: `design`, `sensitivity` and `fit --case`."""
