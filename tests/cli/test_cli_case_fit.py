@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -30,15 +31,20 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_fit_prints_draws_and_writes_the_section(capsys: pytest.CaptureFixture[str]) -> None:
-    point = ("--contact-point", "-9 um:9 um", "-o", "fit.png", "--yaml", "found.yaml")
-    assert main([*COMMAND, *MODULUS, *point]) == 0
+    files = ("-o", "fit.png", "--yaml", "found.yaml", "--report", "fit.html")
+    assert main([*COMMAND, *MODULUS, "--contact-point", "-9 um:9 um", *files]) == 0
     said = capsys.readouterr().out
     assert said.startswith("CaseFit: 7 rows of 1 record, residual ")
     assert "contact_point = 2" in said
-    assert said.endswith("fit.png\nfound.yaml\n")
+    assert said.endswith("fit.png\nfound.yaml\nfit.html\n")
     assert Path("fit.png").read_bytes().startswith(b"\x89PNG")
     section = Path("found.yaml").read_text()
     assert section in said
+    page = Path("fit.html").read_text(encoding="utf-8")
+    assert section in page
+    value, interval = re.search(r"shear_modulus = (\S+ MPa) \(95%: (.*?);", said).groups()
+    assert f"<td>{value}</td><td>{interval}</td>" in page
+    assert page.count("data:image/svg+xml") == 1
     Path("whole.yaml").write_text(section + ELASTIC_BALL.replace("material:", "title: x #"))
     found: Any = read_case("whole.yaml").material
     assert found.law.shear_modulus == pytest.approx(2e6, rel=0.02)
@@ -82,6 +88,7 @@ def test_an_interrupted_fit_goes_on_with_resume_only(
         ((*COMMAND, *MODULUS, "--runs", "1"), "--runs: 1 are too few for this fit"),
         ((*COMMAND, *MODULUS, "--indenter", "sphere 5 mm"), "--indenter does not go with --case"),
         (("fit", "a.csv", *MODULUS), "--change: needs --case CASE.yaml"),
+        (("fit", "a.csv", "--report", "a.html"), "--report: needs --case CASE.yaml"),
         (("fit", "a.csv", "a.csv"), "2 tables: needs --case CASE.yaml"),
         (("fit", "b.csv", "--case", "ball.yaml", *MODULUS), "no such file"),
         (("fit", "a.csv", "--case", "none.yaml", *MODULUS), "none.yaml"),

@@ -10,7 +10,7 @@ from tests.studies.design.test_arguments import BALL
 
 from viscontact.case import read_case
 from viscontact.cli.entry import main
-from viscontact.cli.studies.design import DesignRequest
+from viscontact.cli.studies.design import design_arguments
 
 COMMAND = ("design", "ball.yaml", "--minimise", "peak_pressure", "-o", "found")
 RADIUS = ("--change", "indenter.radius=4 mm,6 mm")
@@ -45,7 +45,7 @@ def test_a_design_writes_the_best_case_and_the_trials(capsys: pytest.CaptureFixt
 
 
 def test_the_worst_corner_of_a_scatter_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viscontact.cli.studies.execution.written_report", lambda *_: None)
+    monkeypatch.setattr("viscontact.cli.studies.design.write_report", lambda *_: None)
     assert main([*COMMAND, *RADIUS, "--scatter", "load.force=50mN:0.2N", "-q"]) == 0
     with xr.open_dataset("found/trials.nc") as table:
         names = ["as in the case", "with force 0.05 N", "with force 0.2 N"]
@@ -68,9 +68,11 @@ def test_an_interrupted_design_says_how_to_continue(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(**arguments: object) -> None:
+        Path("found").mkdir()
+        Path("found/trials.jsonl").touch()
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("viscontact.cli.studies.execution.design", interrupted)
+    monkeypatch.setattr("viscontact.cli.studies.design.design", interrupted)
     assert main([*COMMAND, *RADIUS]) == 130
     assert "continue with the same command and --resume" in capsys.readouterr().err
 
@@ -126,10 +128,10 @@ def test_a_design_that_is_not_feasible_ends_with_the_closest_trial(
 
 
 def test_values_of_lists_are_no_ranges() -> None:
-    request = DesignRequest(
-        *(Path("ball.yaml"), Path("found"), ["grid.size=[1 mm, 1 mm], [2 mm, 2 mm]"]),
-        *(["approach"], [], "10 min", ["load.force=1 N,2 N"], [], [], [], 9, 1),
-    )
-    found = request.arguments()
+    typed = {"case": Path("ball.yaml"), "output": Path("found"), "runs": 9, "jobs": 1}
+    typed |= {"change": ["grid.size=[1 mm, 1 mm], [2 mm, 2 mm]"], "over": ["load.force=1 N,2 N"]}
+    typed |= {"minimise": ["approach"], "at": "10 min"}
+    rest = ("maximise", "scatter", "constraint", "settings")
+    found = design_arguments({**dict.fromkeys(rest), **typed})
     assert found["change"] == {"grid.size": ["[1 mm, 1 mm]", "[2 mm, 2 mm]"]}
     assert found["at"] == 600.0

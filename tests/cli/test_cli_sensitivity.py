@@ -65,6 +65,8 @@ def test_an_interrupted_sensitivity_says_how_to_continue(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(**arguments: object) -> None:
+        Path("found").mkdir()
+        Path("found/runs.jsonl").touch()
         raise KeyboardInterrupt
 
     monkeypatch.setattr("viscontact.cli.studies.sensitivity.sensitivity", interrupted)

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from viscontact.cli.commands.running import CaseFile, Settings
+from viscontact.cli.commands import study_options
+from viscontact.cli.commands.study_options import (
+    CaseFile,
+    Instant,
+    Jobs,
+    Quiet,
+    Resume,
+    Settings,
+    StudyDirectory,
+)
 
 Changes = Annotated[
     list[str] | None,
@@ -44,74 +52,61 @@ Constraints = Annotated[
         help="Bound that is to be kept at all instants, e.g. 'contact_length<=18mm', or with >=.",
     ),
 ]
+Minimised = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--minimise",
+        metavar="SCALAR",
+        help="Scalar to make least: peak_pressure; two or three scalars give a trade-off.",
+    ),
+]
+Maximised = Annotated[
+    list[str] | None,
+    typer.Option("--maximise", metavar="SCALAR", help="Scalar to make largest, likewise."),
+]
+Profile = Annotated[
+    str | None,
+    typer.Option(
+        "--profile",
+        metavar="free[:KNOTS][:asymmetric]",
+        help="Find the drop curve of a roller for the least peak pressure, in place of --change; "
+        "DIR gets profile.csv and profile.dxf, too.",
+    ),
+]
+DropTolerance = Annotated[
+    str | None,
+    typer.Option(
+        "--drop-tolerance",
+        metavar="LENGTH",
+        help="Production tolerance of the drop, to either side, e.g. '1 um'; the worst profile "
+        "within it counts.",
+    ),
+]
+Runs = Annotated[
+    int | None,
+    study_options.runs(
+        "Most runs; by default 60, several times as many for a trade-off, and 2000 for a profile."
+    ),
+]
 
 
 def design(
     case: CaseFile,
-    output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="DIR", help="Directory of the design.")
-    ],
+    output: StudyDirectory,
     change: Changes = None,
-    minimise: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--minimise",
-            metavar="SCALAR",
-            help="Scalar to make least: peak_pressure; two or three scalars give a trade-off.",
-        ),
-    ] = None,
-    maximise: Annotated[
-        list[str] | None,
-        typer.Option("--maximise", metavar="SCALAR", help="Scalar to make largest, likewise."),
-    ] = None,
-    at: Annotated[
-        str,
-        typer.Option(
-            "--at",
-            metavar="worst|end|TIME",
-            help="Instant of the scalar: its worst value, the last one, or a time.",
-        ),
-    ] = "worst",
+    minimise: Minimised = None,
+    maximise: Maximised = None,
+    at: Instant = "worst",
     over: Scenarios = None,
     scatter: Scatter = None,
-    profile: Annotated[
-        str | None,
-        typer.Option(
-            "--profile",
-            metavar="free[:KNOTS][:asymmetric]",
-            help="Find the drop curve of a roller for the least peak pressure, in place of "
-            "--change; DIR gets profile.csv and profile.dxf, too.",
-        ),
-    ] = None,
-    drop_tolerance: Annotated[
-        str | None,
-        typer.Option(
-            "--drop-tolerance",
-            metavar="LENGTH",
-            help="Production tolerance of the drop, to either side, e.g. '1 um'; the worst profile "
-            "within it counts.",
-        ),
-    ] = None,
+    profile: Profile = None,
+    drop_tolerance: DropTolerance = None,
     constraint: Constraints = None,
     settings: Settings = None,
-    runs: Annotated[
-        int | None,
-        typer.Option(
-            "--runs",
-            min=1,
-            metavar="N",
-            help="Most runs; by default 60, several times as many for a trade-off, and 2000 "
-            "for a profile.",
-        ),
-    ] = None,
-    jobs: Annotated[
-        int,
-        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at a time."),
-    ] = 1,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue the design that DIR holds.")
-    ] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print the result only.")] = False,
+    runs: Runs = None,
+    jobs: Jobs = 1,
+    resume: Resume = False,
+    quiet: Quiet = False,
 ) -> None:
     """Find the values of a case for which a scalar is least or largest.
 
@@ -119,20 +114,9 @@ def design(
     gets best.yaml, trials.nc and report.html. With --profile free, the drop curve of a roller is
     found.
     """
-    from viscontact.cli.studies.design import DesignRequest
-    from viscontact.cli.studies.execution import execute_design
-    from viscontact.cli.studies.profiles import ProfileRequest, execute_profile_design
+    typed = dict(locals())
+    from viscontact.cli.studies.design import execute_design
+    from viscontact.cli.studies.profiles import execute_profile_design
 
-    if profile is not None or drop_tolerance is not None:
-        excluded = {"--change": change, "--maximise": maximise, "--constraint": constraint}
-        wanted = ProfileRequest(
-            *(case, output, profile, drop_tolerance, minimise or (), at, over or ()),
-            *(settings or (), runs, jobs, {**excluded, "--scatter": scatter}),
-        )
-        execute_profile_design(wanted, resume=resume, quiet=quiet)
-        return
-    request = DesignRequest(
-        *(case, output, change or (), minimise or (), maximise or (), at),
-        *(over or (), scatter or (), constraint or (), settings or (), runs, jobs),
-    )
-    execute_design(request, resume=resume, quiet=quiet)
+    is_profile = profile is not None or drop_tolerance is not None
+    (execute_profile_design if is_profile else execute_design)(typed)

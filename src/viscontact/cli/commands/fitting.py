@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from viscontact.cli.commands import study_options
 from viscontact.cli.commands.drawing import Width
-from viscontact.cli.commands.running import Settings
+from viscontact.cli.commands.study_options import Settings
 
 Tables = Annotated[
     list[Path],
@@ -178,24 +179,19 @@ Rows = Annotated[
         rich_help_panel=_BY_RUNS,
     ),
 ]
-Runs = Annotated[
-    int | None,
-    typer.Option("--runs", min=1, metavar="N", help="Most runs.", rich_help_panel=_BY_RUNS),
-]
-Jobs = Annotated[
-    int,
+Report = Annotated[
+    Path | None,
     typer.Option(
-        "-j", "--jobs", min=1, metavar="N", help="Runs at a time.", rich_help_panel=_BY_RUNS
+        "--report",
+        metavar="OUT.html",
+        help="Also write a page with values, records and residuals.",
+        rich_help_panel=_BY_RUNS,
     ),
 ]
-Resume = Annotated[
-    bool,
-    typer.Option("--resume", help="Continue an interrupted fit.", rich_help_panel=_BY_RUNS),
-]
-Quiet = Annotated[
-    bool,
-    typer.Option("--quiet", "-q", help="Print the result only.", rich_help_panel=_BY_RUNS),
-]
+Runs = Annotated[int | None, study_options.runs("Most runs.", _BY_RUNS)]
+Jobs = Annotated[int, study_options.jobs(_BY_RUNS)]
+Resume = Annotated[bool, study_options.resume("Continue an interrupted fit.", _BY_RUNS)]
+Quiet = Annotated[bool, study_options.quiet(panel=_BY_RUNS)]
 
 
 def fit(
@@ -224,6 +220,7 @@ def fit(
     settings: Settings = None,
     rows: Rows = 60,
     runs: Runs = None,
+    report: Report = None,
     jobs: Jobs = 1,
     resume: Resume = False,
     quiet: Quiet = False,
@@ -237,32 +234,13 @@ def fit(
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
     from viscontact.cli.results.figures import chosen_width
-    from viscontact.cli.studies.case_fit import report_case_fit
-    from viscontact.cli.studies.case_fit_options import CaseFitRequest
 
-    arguments = FitArguments(
-        data=data,
-        poisson_ratio=poisson_ratio,
-        bulk_modulus=bulk_modulus,
-        terms=terms,
-        fluid=fluid,
-        reference=reference,
-        temperature=temperature,
-        indenter=indenter,
-        law=law,
-        spring_constant=spring_constant,
-        sensitivity=sensitivity,
-        weight=weight or (),
-        stress=stress,
-    )
+    typed = dict(locals())
+    from viscontact.cli.studies.case_fit import execute_case_fit, refuse_without_case
+
     page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
-    request = CaseFitRequest(
-        *(files, case, change or (), drive, contact_point, machine_stiffness),
-        *(settings or (), rows, runs, jobs),
-    )
     if case is not None:
-        request.require_alone(arguments)
-        report_case_fit(request, output, section, width=page, resume=resume, quiet=quiet)
+        execute_case_fit(typed, page)
         return
-    request.require_none()
-    report_fit(files[0], arguments, output, section, width=page)
+    refuse_without_case(typed)
+    report_fit(files[0], FitArguments.of(typed), output, section, width=page)

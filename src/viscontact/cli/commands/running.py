@@ -9,6 +9,15 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.commands.drawing import Width
+from viscontact.cli.commands.study_options import (
+    CaseFile,
+    Jobs,
+    Overwrite,
+    QuietRun,
+    Resume,
+    Scheduler,
+    Settings,
+)
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.log import logged
@@ -25,11 +34,6 @@ class Method(StrEnum):
 
 CaseFiles = Annotated[
     list[Path], typer.Argument(metavar="CASE.yaml...", help="Case file, or several.")
-]
-CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="Case file.")]
-Settings = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Replace a value, e.g. load.force=20kN."),
 ]
 Output = Annotated[
     Path | None,
@@ -118,12 +122,8 @@ Threads = Annotated[int, typer.Option(min=1, help="Number of threads of a Fourie
 def run(
     cases: CaseFiles,
     output: Output = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")
-    ] = False,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue the run that DIR holds.")
-    ] = False,
+    overwrite: Overwrite = False,
+    resume: Resume = False,
     settings: Settings = None,
     varied: Varied = None,
     zipped: Zipped = False,
@@ -134,21 +134,10 @@ def run(
     method: SamplingMethod = None,
     array: Array = None,
     task: TaskNumber = None,
-    jobs: Annotated[
-        int,
-        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
-    ] = 1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            "--scheduler",
-            metavar="ADDRESS|FILE|local",
-            help="Compute the runs on a Dask cluster: the address or the file of its scheduler; "
-            "local starts -j N workers here.",
-        ),
-    ] = None,
+    jobs: Jobs = 1,
+    scheduler: Scheduler = None,
     threads: Threads = 1,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
+    quiet: QuietRun = False,
     verbose: Verbose = 0,
 ) -> None:
     """Run a case and write its result to a directory; several runs get a directory each.

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from viscontact.cli.commands.study_options import QuietRun
+
 SweepDirectory = Annotated[
     Path, typer.Argument(metavar="DIR", help="Directory of a sweep, which holds runs.jsonl.")
 ]
@@ -41,7 +43,7 @@ def collect(
     fields: Annotated[
         bool, typer.Option("--fields", help="Write the fields, too, if all runs have one grid.")
     ] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
+    quiet: QuietRun = False,
 ) -> None:
     """Write the results of all runs of a sweep to one file."""
     from viscontact.cli.sweep.collect import collect_results

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any, Self
 
 from viscontact.identification import ForceCurve, read_force_curve
 from viscontact.identification.force_curve import tabulated_curve
@@ -31,6 +32,12 @@ class FitArguments:
     stress: str | None = None
     spring_constant: str | None = None
     sensitivity: str | None = None
+
+    @classmethod
+    def of(cls, typed: Mapping[str, Any]) -> Self:
+        """Arguments among the options by name."""
+        given = {each.name: typed[each.name] for each in fields(cls)}
+        return cls(**{**given, "weight": given["weight"] or ()})
 
     @property
     def weights(self) -> dict[str, float] | None:

@@ -1,95 +1,100 @@
-"""Fit of a case to records: its progress, and what is printed, drawn and written."""
+"""Command `fit --case`: its options as arguments of `viscontact.fit_case`, and its result."""
 
 from __future__ import annotations
 
-import sys
-import time as clock
 import warnings
-from collections.abc import Callable
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from viscontact.case import CaseError
 from viscontact.cli.material.fit_report import Drawing, draw_fit, write_section
-from viscontact.cli.studies.case_fit_options import CaseFitRequest, as_typed
-from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
-from viscontact.cli.terminal.progress import counted
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.cli.studies.arguments import bounds, by_key, settings_of
+from viscontact.cli.studies.execution import Records, performed, write_report
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.errors import AccuracyWarning
 from viscontact.studies.calibration.fit_case import fit_case
 from viscontact.studies.calibration.result import CaseFit
 
-#: Time between two lines of progress, where the output is no terminal [s].
-_LINE_SECONDS = 30.0
+#: Options of other fits, and of fits to runs, by their parameters.
+_OF_TABLES = (
+    *("data", "poisson_ratio", "bulk_modulus", "terms", "fluid", "weight", "stress"),
+    *("reference", "temperature", "indenter", "spring_constant", "sensitivity"),
+)
+_OF_RUNS = ("change", "drive", "contact_point", "machine_stiffness", "settings", "runs", "report")
 
 
-def report_case_fit(
-    request: CaseFitRequest,
-    output: Path | None,
-    section: Path | None,
-    *,
-    width: str | float | None,
-    resume: bool,
-    quiet: bool,
-) -> None:
-    """Fit the values of a case; print them, and draw and write them where files are named."""
-    found = _fitted(request, resume=resume, quiet=quiet)
+def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> None:
+    """Fit the values of a case; print them, and draw and write them where files are named.
+
+    `typed` are the options by name, `width` is that of the figure.
+    """
+    if idle := _given(typed, _OF_TABLES):
+        refuse(
+            f"{', '.join(idle)} does not go with --case, whose file has body and law; leave it out"
+        )
+    trials = Path(f"{typed['files'][0].stem}-fit.jsonl")
+    found = _fitted(_arguments(typed), trials, resume=typed["resume"], quiet=typed["quiet"])
     print(found)
     for note in found.notes:
         say(f"warning: {note}")
     text = found.section_text
     print(f"\n{text}", end="")
-    if output is not None:
-        draw_fit(Drawing("fitted_records", found.curves), output, width)
-    if section is not None:
-        write_section(section, text)
+    if typed["output"] is not None:
+        draw_fit(Drawing("fitted_records", found.curves), typed["output"], width)
+    if typed["section"] is not None:
+        write_section(typed["section"], text)
+    if typed["report"] is not None:
+        write_report(found, typed["report"])
 
 
-def _fitted(request: CaseFitRequest, *, resume: bool, quiet: bool) -> CaseFit:
-    arguments, log = request.arguments(), request.trials
-    if log.exists() and not resume:
-        refuse(
-            f"{log}: holds the runs of an interrupted fit; continue it with --resume, or remove "
-            "the file"
-        )
-    if resume and not log.exists() and not quiet:
-        say(f"{log}: nothing is saved there; starting at the beginning")
-    begun = log.exists()
-    try:
-        with counted("runs", quiet=quiet) as bar, warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # printed from the notes
-            shown = bar if sys.stderr.isatty() or quiet else _lines()
-            found = fit_case(**arguments, progress=shown)
-    except CaseError as error:
-        refuse(*(as_typed(line) for line in error.problems))
-    except ValueError as error:
-        if not begun:
-            log.unlink(missing_ok=True)
-        refuse(*map(as_typed, str(error).splitlines()))
-    except (ConvergenceError, DomainError) as error:
-        stop(str(error))
-    except OSError as error:
-        stop(str(error))
-    except KeyboardInterrupt:
-        if not log.exists():
+def refuse_without_case(typed: Mapping[str, Any]) -> None:
+    """Refuse options of ``--case`` without it."""
+    idle, count = _given(typed, _OF_RUNS), len(typed["files"])
+    if idle or count > 1:
+        what = ", ".join(idle) or f"{count} tables"
+        refuse(f"{what}: needs --case CASE.yaml, the case of the experiment")
+
+
+def _given(typed: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
+    """Options of some parameters that were typed."""
+    given = (name for name in names if typed[name] is not None and typed[name] is not False)
+    options = {"settings": "--set"}
+    return [options.get(name, f"--{name.replace('_', '-')}") for name in given]
+
+
+def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of `viscontact.fit_case` by name."""
+    if not typed["change"]:
+        refuse("--change: name an unknown, e.g. --change material.shear_modulus='1 MPa:9 MPa'")
+    remedy = "KEY=LOW:HIGH or KEY=LOW:HIGH:log, with units"
+    ranges = {name: typed[name] for name in ("contact_point", "machine_stiffness")}
+    return {
+        **{name: typed[name] for name in ("case", "drive", "rows", "runs")},
+        "records": typed["files"],
+        "change": by_key("--change", typed["change"], remedy, bounds),
+        **{name: text if text is None else bounds(text) for name, text in ranges.items()},
+        "settings": settings_of(typed["settings"]),
+        "workers": typed["jobs"],
+    }
+
+
+def _fitted(arguments: dict[str, Any], trials: Path, *, resume: bool, quiet: bool) -> CaseFit:
+    """Result of a fit, which keeps its runs in a file up to its end."""
+    begun = trials.exists()
+
+    def fit(**progress: Any) -> CaseFit:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", AccuracyWarning)  # printed from the notes
+                return fit_case(**arguments, trials=trials, **progress)
+        except ValueError:
+            if not begun:
+                trials.unlink(missing_ok=True)
             raise
-        stop(
-            f"interrupted; {log} keeps the finished runs",
-            "continue with the same command and --resume",
-            code=INTERRUPTED,
-        )
-    log.unlink(missing_ok=True)
+
+    remedy = "continue it with --resume, or remove the file"
+    refusal = f"holds the runs of an interrupted fit; {remedy}"
+    records = Records(trials, trials, "the finished runs", refusal)
+    found = performed(fit, records, resume=resume, quiet=quiet)
+    trials.unlink(missing_ok=True)
     return found
-
-
-def _lines() -> Callable[[int, int], None]:
-    """Progress as plain lines, with the time left if all runs are needed."""
-    started = said = clock.perf_counter()
-
-    def line(done: int, allowed: int) -> None:
-        nonlocal said
-        now = clock.perf_counter()
-        if now - said >= _LINE_SECONDS:
-            said = now
-            left = (now - started) / done * (allowed - done)
-            say(f"{done} runs of at most {allowed}, at most {left:.0f} s left")
-
-    return line

@@ -1,124 +1,68 @@
-"""Options of `design`, as the arguments of `viscontact.design`."""
+"""Command `design`: its options as arguments of `viscontact.design`, and what it prints."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from viscontact.cli.studies.arguments import bounds, by_key, instant, scenarios_of, settings_of
+from viscontact.cli.studies.execution import REPORT_NAME, Records, performed, show, write_report
 from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
-from viscontact.units.parsing import parse_quantity
+from viscontact.studies.design.design import design
+from viscontact.studies.design.history import HISTORY_NAME
+from viscontact.studies.design.result_files import BEST_NAME
 
-#: Options by the names of the arguments, at the beginning of a message.
-_OPTIONS = {
-    "change": "--change",
-    "over": "--over",
-    "scatter": "--scatter",
-    "constraints": "--constraint",
-    "minimise": "--minimise",
-    "maximise": "--maximise",
-    "at": "--at",
-    "runs": "--runs",
-    "drop_tolerance": "--drop-tolerance",
-    "directory": "-o",
-}
+_CHANGE = "KEY=VALUE, with the unit, e.g. 'indenter.crown_radius=20 mm:2 m:log'"
+_SCATTER = "KEY=VALUE, with the unit, e.g. 'material.poisson_ratio=0.36:0.40'"
 
 
-@dataclass(frozen=True)
-class DesignRequest:
-    """Options of `design`, as they were typed."""
-
-    case: Path
-    output: Path
-    change: Sequence[str]  # KEY=LOW:HIGH[:log] or KEY=A,B,...
-    minimise: Sequence[str]
-    maximise: Sequence[str]
-    at: str
-    over: Sequence[str]  # KEY=A,B,...
-    scatter: Sequence[str]  # KEY=LOW:HIGH or KEY=VALUE ± TOLERANCE
-    constraints: Sequence[str]
-    settings: Sequence[str]
-    runs: int | None
-    jobs: int
-
-    def arguments(self) -> dict[str, Any]:
-        """Arguments of `viscontact.design` by name."""
-        if not self.change:
-            refuse(
-                "--change: name a parameter, e.g. --change indenter.crown_radius='20 mm:2 m:log'"
-            )
-        if not self.minimise and not self.maximise:
-            refuse("give --minimise or --maximise, e.g. --minimise peak_pressure")
-        return {
-            "case": self.case,
-            "change": keys("--change", self.change, _parameter),
-            "minimise": self.minimise,
-            "maximise": self.maximise,
-            "at": instant(self.at),
-            "over": keys("--over", self.over, split_values),
-            "scatter": keys("--scatter", self.scatter, _scatter),
-            "constraints": list(self.constraints),
-            "settings": keys("--set", self.settings, str),
-            "runs": self.runs,
-            "workers": self.jobs,
-            "directory": self.output,
-        }
+def execute_design(typed: Mapping[str, Any]) -> None:
+    """Search, write the result to its directory, and print it; `typed` are the options by name."""
+    search, output = partial(design, **design_arguments(typed)), typed["output"]
+    found = performed(search, trials_in(output), resume=typed["resume"], quiet=typed["quiet"])
+    show(found, [f"{found.runs} runs; the best trial has its error on the cells of the case"])
+    write_report(found, output / REPORT_NAME)
+    print(output / BEST_NAME)
 
 
-def as_typed(message: str) -> str:
-    """Message about an argument of `viscontact.design`, with the option that was typed.
-
-    >>> as_typed("constraints: write SCALAR<=VALUE")
-    '--constraint: write SCALAR<=VALUE'
-    """
-    name = re.match(r"\w+(?=: )", message)
-    option = _OPTIONS.get(name.group() if name else "")
-    return message if name is None or option is None else option + message[name.end() :]
+def trials_in(directory: Path) -> Records:
+    """Trials in the directory of a design."""
+    remedy = "continue it with --resume, or choose another directory with -o DIR"
+    place = directory / HISTORY_NAME
+    return Records(directory, place, "the finished trials", f"holds a design already; {remedy}")
 
 
-def keys(option: str, texts: Sequence[str], read: Any) -> dict[str, Any]:
-    """Values by key, each read from the text behind the equals sign."""
-    found: dict[str, Any] = {}
-    for text in texts:
-        key, equals, given = (part.strip() for part in text.partition("="))
-        if not (key and equals and given):
-            refuse(f"{option} {text}: write KEY=VALUE, with the unit, e.g. {_EXAMPLES[option]}")
-        if key in found:
-            refuse(f"{option} {key}: is given twice; give it once")
-        found[key] = read(given)
-    return found
+def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of `viscontact.design` by name."""
+    if not typed["change"]:
+        refuse("--change: name a parameter, e.g. --change indenter.crown_radius='20 mm:2 m:log'")
+    if not typed["minimise"] and not typed["maximise"]:
+        refuse("give --minimise or --maximise, e.g. --minimise peak_pressure")
+    return {
+        "case": typed["case"],
+        "change": by_key("--change", typed["change"], _CHANGE, _parameter),
+        "minimise": typed["minimise"] or (),
+        "maximise": typed["maximise"] or (),
+        "at": instant(typed["at"]),
+        "over": scenarios_of(typed["over"]),
+        "scatter": by_key("--scatter", typed["scatter"], _SCATTER, _scatter),
+        "constraints": typed["constraint"] or (),
+        "settings": settings_of(typed["settings"]),
+        "runs": typed["runs"],
+        "workers": typed["jobs"],
+        "directory": typed["output"],
+    }
 
 
-_EXAMPLES = {
-    "--change": "'indenter.crown_radius=20 mm:2 m:log'",
-    "--over": "'load.eccentricity_x=0 mm,5 mm'",
-    "--scatter": "'material.poisson_ratio=0.36:0.40'",
-    "--set": "'load.force=20 kN'",
-}
-
-
-def _parameter(given: str) -> Any:
+def _parameter(given: str) -> tuple[str, ...] | list[str]:
     """Bounds of a range as a tuple, or a list of values."""
-    bounds = tuple(part.strip() for part in given.split(":"))
-    if len(bounds) == 1 or given[:1] in "[{":
-        return split_values(given)
-    return bounds
+    is_range = ":" in given and given[0] not in "[{"
+    return bounds(given) if is_range else split_values(given)
 
 
-def _scatter(given: str) -> Any:
+def _scatter(given: str) -> tuple[str, ...] | str:
     """Bounds as a tuple, or a number with its tolerance."""
-    bounds = tuple(part.strip() for part in given.split(":"))
-    return bounds if len(bounds) > 1 else given
-
-
-def instant(text: str) -> Any:
-    """Instant of a goal: worst, end or a time [s]."""
-    if text in ("worst", "end"):
-        return text
-    try:
-        return parse_quantity(text, "time")
-    except ValueError as error:
-        refuse(f"--at: write worst, end or a time: {error}")
+    return bounds(given) if ":" in given else given

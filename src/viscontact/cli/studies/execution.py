@@ -1,86 +1,97 @@
-"""Execution of `design`, and the lines that it prints."""
+"""Execution of a study: what it continues, its progress, its failures, its result and report."""
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from viscontact.case import CaseError
-from viscontact.cli.studies.design import DesignRequest, as_typed
+from viscontact.cli.studies.arguments import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.studies.design.conclusions import InfeasibleError
-from viscontact.studies.design.design import design
-from viscontact.studies.design.history import HISTORY_NAME
-from viscontact.studies.design.profiles.result import ProfileDesign
-from viscontact.studies.design.result import DesignResult
-from viscontact.studies.design.result_files import BEST_NAME
 
 T = TypeVar("T")
 
-#: Report in the directory of a design.
+#: Report in the directory of a study.
 REPORT_NAME = "report.html"
-#: Runs between two lines of progress, where the output is no terminal.
-_LINE_RUNS = 10
+#: Lines of progress, where the most runs are known, and where their number is.
+AT_MOST = "{done} runs of at most {total}, at most {left:.0f} s left"
+OF_ALL = "{done} of {total} runs, about {left:.0f} s left"
 
 
-def execute_design(request: DesignRequest, *, resume: bool, quiet: bool) -> None:
-    """Search, write the result to its directory, and print it."""
-    arguments = request.arguments()
-    found = performed(partial(design, **arguments), request.output, resume=resume, quiet=quiet)
-    _print(found)
-    written_report(found, request.output / REPORT_NAME)
-    print(request.output / BEST_NAME)
+class StudyResult(Protocol):
+    """Result of a study, which prints itself."""
+
+    @property
+    def notes(self) -> Sequence[str]:
+        """Notes on the result."""
+
+    def report(self, path: Path) -> None:
+        """Write a page of HTML."""
 
 
-def performed(search: Callable[..., T], output: Path, *, resume: bool, quiet: bool) -> T:
-    """Result of a search, which takes the argument `progress`; its failures end the program."""
-    has_begun = (output / HISTORY_NAME).exists()
-    if has_begun and not resume:
-        refuse(
-            f"{output}: holds a design already; continue it with --resume, or choose another "
-            "directory with -o DIR"
-        )
-    if resume and not has_begun and not quiet:
-        say(f"{output}: nothing is saved there yet; starting at the beginning")
+@dataclass(frozen=True)
+class Records:
+    """Records of the runs of a study, from which it continues."""
+
+    place: Path  # directory or file that messages name
+    file: Path  # is there once a run is finished
+    content: str = "the runs"
+    #: Reason and remedy where the records of an earlier command are there.
+    refusal: str = (
+        "holds runs already; continue them with --resume, or choose another directory with -o DIR"
+    )
+
+    def refuse_begun(self, *, resume: bool, quiet: bool) -> None:
+        """Refuse to begin a study that has begun, unless it is resumed."""
+        has_begun = self.file.exists()
+        if has_begun and not resume:
+            refuse(f"{self.place}: {self.refusal}")
+        if resume and not has_begun and not quiet:
+            say(f"{self.place}: nothing is saved there yet; starting at the beginning")
+
+
+def performed(
+    study: Callable[..., T], records: Records, *, resume: bool, quiet: bool, line: str = AT_MOST
+) -> T:
+    """Result of a study, which takes the argument `progress`; its failures end the command."""
+    records.refuse_begun(resume=resume, quiet=quiet)
     try:
-        with counted("runs", quiet=quiet) as bar:
-            return search(progress=bar if sys.stderr.isatty() or quiet else _lines())
+        with counted("runs", quiet=quiet, line=line) as progress:
+            return study(progress=progress)
     except CaseError as error:
-        refuse(*(as_typed(line) for line in error.problems))
-    except InfeasibleError as error:
+        refuse(*map(as_typed, error.problems))
+    except (InfeasibleError, ConvergenceError, DomainError) as error:
         stop(str(error))
     except ValueError as error:
         refuse(*map(as_typed, str(error).splitlines()))
-    except OSError as error:
-        stop(f"{output}: {error}")
+    except (RuntimeError, OSError) as error:
+        stop(f"{records.place}: {error}")
     except KeyboardInterrupt:
+        if not records.file.exists():
+            raise
         stop(
-            f"interrupted; {output} keeps the finished trials",
+            f"interrupted; {records.place} keeps {records.content}",
             "continue with the same command and --resume",
             code=INTERRUPTED,
         )
 
 
-def _lines() -> Callable[[int, int], None]:
-    """Progress as plain lines."""
-    said = 0
-
-    def line(done: int, allowed: int) -> None:
-        nonlocal said
-        if done - said >= _LINE_RUNS:
-            said = done
-            say(f"{done} runs of at most {allowed}")
-
-    return line
+def show(found: StudyResult, lines: Iterable[str] = ()) -> None:
+    """Print a result, some lines about it, and its notes."""
+    print(found)
+    for line in lines:
+        print(line)
+    for note in found.notes:
+        say(f"note: {note}")
 
 
-def written_report(found: DesignResult | ProfileDesign, page: Path) -> None:
-    """Write the report where the packages of figures are installed."""
+def write_report(found: StudyResult, page: Path) -> None:
+    """Write the report where the packages of figures are installed, and print its name."""
     try:
         found.report(page)
     except ModuleNotFoundError as error:
@@ -91,10 +102,3 @@ def written_report(found: DesignResult | ProfileDesign, page: Path) -> None:
         say(f"without a report: {error}")
     else:
         print(page)
-
-
-def _print(found: DesignResult) -> None:
-    print(found)
-    print(f"{found.runs} runs; the best trial has its error on the cells of the case")
-    for note in found.notes:
-        say(f"note: {note}")

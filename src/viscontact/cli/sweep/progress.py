@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time as clock
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -19,14 +18,12 @@ from rich.progress import (
 )
 
 from viscontact.cli.terminal.messages import say
+from viscontact.cli.terminal.progress import Pace
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
 from viscontact.studies.executors.driver import Active
 from viscontact.studies.sweep.states import State, state_at_end
 from viscontact.units.formatting import format_quantity
-
-#: A plain line is printed after this part of all the work, or after this time [s].
-_LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 #: Most runs with a bar of their own.
 _MOST_BARS = 16
@@ -73,21 +70,18 @@ class _Lines(RunsDisplay):
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         super().__init__(jobs)
-        self._started = self._said_at = clock.perf_counter()
+        self._pace = Pace()
         self._before: float | None = None
-        self._next = 0.0
 
     def update(self, active: Sequence[Active]) -> None:
         super().update(active)
-        part, now = self._part, clock.perf_counter()
         if self._before is None:  # work of earlier processes is left out of the estimate
-            self._before, self._next = part, part + _LINE_PART
-        is_due = part >= self._next or now - self._said_at >= _LINE_SECONDS
-        if not is_due or part >= 1 or part <= self._before:
+            self._before = min(self._part, 1 - 1e-9)
+        if self._part >= 1:
             return
-        self._next, self._said_at = part + _LINE_PART, now
-        left = (now - self._started) / (part - self._before) * (1 - part)
-        say(f"{part:.0%} done, {self._runs}, about {left:.0f} s left")
+        left = self._pace.seconds_left((self._part - self._before) / (1 - self._before))
+        if left is not None:
+            say(f"{self._part:.0%} done, {self._runs}, about {left:.0f} s left")
 
     def end(self, ended: Ended) -> None:
         super().end(ended)

@@ -12,8 +12,28 @@ from viscontact.simulation.state_generator import Progress as Report
 from viscontact.state import ContactState
 from viscontact.units.formatting import format_quantity
 
-#: A plain line is printed after this part of the run, or after this time [s].
-_LINE_PART, _LINE_SECONDS = 0.1, 30.0
+#: A plain line is printed after this part of the work, or after this time [s].
+LINE_PART, _LINE_SECONDS = 0.1, 30.0
+
+
+class Pace:
+    """Intervals between plain lines of progress, and the time left.
+
+    The first line is due after `first` of the work of this process, 0 to 1.
+    """
+
+    def __init__(self, first: float = LINE_PART) -> None:
+        self._started = self._line_at = clock.perf_counter()
+        self._next = first
+
+    def seconds_left(self, part: float) -> float | None:
+        """Time left after a part of the work [s]; None if no line is due."""
+        now = clock.perf_counter()
+        is_due = part >= self._next - 1e-9 or now - self._line_at >= _LINE_SECONDS
+        if part <= 0 or not is_due:
+            return None
+        self._next, self._line_at = part + LINE_PART, now
+        return (now - self._started) / part * (1 - part)
 
 
 @contextmanager
@@ -41,10 +61,16 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
 
 
 @contextmanager
-def counted(unit: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], None]]:
-    """Display on a terminal how many frames, runs or other units of some work are done."""
+def counted(
+    unit: str, *, quiet: bool = False, line: str = ""
+) -> Iterator[Callable[[int, int], None]]:
+    """Display how many frames, runs or other units of some work are done.
+
+    Elsewhere than on a terminal, lines are printed if a template of `done`, `total` and seconds
+    `left` is given.
+    """
     if quiet or not sys.stderr.isatty():
-        yield lambda done, total: None
+        yield (lambda done, total: None) if quiet or not line else _lines(line)
         return
     from viscontact.cli.terminal.bars import counting_bar
 
@@ -58,23 +84,30 @@ def counted(unit: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], 
             bar.stop()
 
 
+def _lines(template: str) -> Callable[[int, int], None]:
+    """Print lines at intervals."""
+    pace = Pace()
+
+    def show(done: int, total: int) -> None:
+        if done < total and (left := pace.seconds_left(done / total)) is not None:
+            say(template.format(done=done, total=total, left=left))
+
+    return show
+
+
 class _PlainLines:
-    """Progress as plain lines at intervals."""
+    """Progress of a run as plain lines at intervals."""
 
     def __init__(self, before: int, *, guessed: bool) -> None:
         self._before = before
         self._of = " of about " if guessed else "/"
-        self._started = self._said_at = clock.perf_counter()
-        self._next = before + 1
+        self._pace = Pace(first=0.0)
 
     def __call__(self, state: ContactState, done: int, total: int) -> None:
-        now = clock.perf_counter()
-        if done < self._next and done < total and now - self._said_at < _LINE_SECONDS:
-            return
-        self._next, self._said_at = done + max(1, round(total * _LINE_PART)), now
-        left = (now - self._started) / (done - self._before) * (total - done)
-        of = self._of if done < total else "/"
-        say(f"{_row(state)} {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
+        left = self._pace.seconds_left((done - self._before) / (total - self._before))
+        if left is not None:
+            of = self._of if done < total else "/"
+            say(f"{_row(state)} {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
 
 
 def _details(state: ContactState) -> str:

@@ -1,0 +1,62 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="Case file.")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Replace a value, e.g. load.force=20kN."),
+]
+StudyDirectory = Annotated[
+    Path, typer.Option("-o", "--output", metavar="DIR", help="Directory of the study.")
+]
+Instant = Annotated[
+    str,
+    typer.Option(
+        "--at",
+        metavar="worst|end|TIME",
+        help="Instant of the scalars: their worst value, the last one, or a time.",
+    ),
+]
+
+
+def jobs(panel: str | None = None) -> Any:
+    """Option of the number of parallel runs, in a panel of the help."""
+    words = "Number of runs at the same time."
+    return typer.Option("-j", "--jobs", min=1, metavar="N", help=words, rich_help_panel=panel)
+
+
+def runs(words: str, panel: str | None = None) -> Any:
+    """Option of the budget of runs."""
+    return typer.Option("--runs", min=1, metavar="N", help=words, rich_help_panel=panel)
+
+
+def resume(words: str = "Continue what DIR holds.", panel: str | None = None) -> Any:
+    """Option to continue."""
+    return typer.Option("--resume", help=words, rich_help_panel=panel)
+
+
+def quiet(words: str = "Print the result only.", panel: str | None = None) -> Any:
+    """Option without messages."""
+    return typer.Option("--quiet", "-q", help=words, rich_help_panel=panel)
+
+
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler",
+        metavar="ADDRESS|FILE|local",
+        help="Compute the runs on a Dask cluster: the address or the file of its scheduler; local "
+        "starts -j N workers here.",
+    ),
+]
+Jobs = Annotated[int, jobs()]
+Resume = Annotated[bool, resume()]
+Quiet = Annotated[bool, quiet()]
+QuietRun = Annotated[bool, quiet("Print errors only.")]

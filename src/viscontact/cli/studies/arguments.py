@@ -1,0 +1,86 @@
+"""Options of study commands as arguments of Python functions, and messages about them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+from viscontact.cli.sweep.plan_options import key_of, split_values
+from viscontact.cli.terminal.messages import refuse
+from viscontact.units.parsing import parse_quantity
+
+T = TypeVar("T")
+
+#: Options by the names of the arguments, which begin the messages of studies.
+OPTIONS = {
+    **{name: f"--{name}" for name in ("change", "over", "scatter", "minimise", "maximise", "at")},
+    **{name: f"--{name}" for name in ("of", "samples", "seed", "step", "drive", "rows", "runs")},
+    "constraints": "--constraint",
+    "contact_point": "--contact-point",
+    "drop_tolerance": "--drop-tolerance",
+    "machine_stiffness": "--machine-stiffness",
+    "directory": "-o",
+}
+
+
+def as_typed(message: str) -> str:
+    """Message about an argument of a study, with the option that was typed.
+
+    >>> as_typed("constraints: write SCALAR<=VALUE"), as_typed("runs must be above zero")
+    ('--constraint: write SCALAR<=VALUE', '--runs must be above zero')
+    """
+    name = re.match(r"\w+(?=: | must)", message)
+    option = OPTIONS.get(name.group() if name else "")
+    return message if name is None or option is None else option + message[name.end() :]
+
+
+def by_key(
+    option: str, texts: Sequence[str] | None, remedy: str, read: Callable[[str], T]
+) -> dict[str, T]:
+    """Values by key, each read from the text behind the equals sign; `remedy` shows how."""
+    found: dict[str, T] = {}
+    for text in texts or ():
+        key, value = key_of(text), text.partition("=")[2].strip()
+        if not (key and value):
+            refuse(f"{option} {text}: write {remedy}")
+        if key in found:
+            refuse(f"{option} {key}: is given twice; give it once")
+        found[key] = read(value)
+    return found
+
+
+def settings_of(texts: Sequence[str] | None) -> dict[str, str]:
+    """Values of ``--set`` by key."""
+    return by_key("--set", texts, "KEY=VALUE, with the unit, e.g. 'load.force=20 kN'", str)
+
+
+def scenarios_of(texts: Sequence[str] | None) -> dict[str, list[str]]:
+    """Values of ``--over`` by key."""
+    remedy = "KEY=VALUE, with the unit, e.g. 'load.eccentricity_x=0 mm,5 mm'"
+    return by_key("--over", texts, remedy, split_values)
+
+
+def bounds(text: str) -> tuple[str, ...]:
+    """Parts of a range.
+
+    >>> bounds("1 mm : 2 mm:log")
+    ('1 mm', '2 mm', 'log')
+    """
+    return tuple(part.strip() for part in text.split(":"))
+
+
+def instant(text: str) -> Any:
+    """Instant of a scalar: worst, end or a time [s]."""
+    return text if text in ("worst", "end") else quantity("--at", text, "time", _OR_WORDS)
+
+
+_OR_WORDS = "write worst, end or a time: "
+
+
+def quantity(option: str, text: str | None, kind: str, remedy: str = "") -> float | None:
+    """Value of an option in SI units; None if it was not given."""
+    try:
+        return None if text is None else parse_quantity(text, kind)
+    except ValueError as error:
+        refuse(f"{option}: {remedy}{error}")
