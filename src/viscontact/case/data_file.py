@@ -29,8 +29,6 @@ def beside_the_case(name: str, info: ValidationInfo) -> str:
 def is_plain_name(name: str) -> bool:
     """True if a name is that of a file in the same folder, on any system.
 
-    Examples
-    --------
     >>> [is_plain_name(name) for name in ("pmma.csv", "../pmma.csv", "C:pmma.csv", ".profile")]
     [True, False, False, False]
     """

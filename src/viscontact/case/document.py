@@ -22,12 +22,12 @@ _LARGEST_FILE = 1_000_000
 
 @dataclass(frozen=True)
 class Document:
-    """Content of a case file before it is validated.
+    """Content of a case file before it is validated; numbers are nominal, keys canonical.
 
     The `data` contain the values given by ``--set``, which are not in the `source` text; a
-    `confined` case may name files in its folder only. Both have canonical keys; `aliases` are
-    those that were typed in their place, `misused` those that cannot be resolved, with tolerances
-    that cannot be read. Numbers are nominal; `tolerances` are those that were written with one.
+    `confined` case names files in its folder only. `aliases` are keys that were typed in place of
+    canonical ones, `misused` those that cannot be resolved; `tolerances` are those that were
+    written.
     """
 
     path: Path

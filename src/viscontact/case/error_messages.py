@@ -62,10 +62,8 @@ def problem(document: Document, error: ErrorDetails) -> str:
 
 
 def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any] | None:
-    """Return the data with misspelt shapes, laws and kinds corrected, None without any.
-
-    Further errors in a section can be found only when its kind is known.
-    """
+    """Return the data with misspelt shapes, laws and kinds corrected, None without any."""
+    # Further errors in a section can be found only when its kind is known.
     changed = None
     for error in errors:
         if error["type"] != "union_tag_invalid":

@@ -43,8 +43,6 @@ class SourceError(Exception):
 def dotted(path: Iterable[str | int]) -> str:
     """Format a key path, with positions in lists in brackets from 1.
 
-    Examples
-    --------
     >>> dotted(("material", "times", 0))
     'material.times[1]'
     """

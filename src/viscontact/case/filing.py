@@ -15,10 +15,9 @@ from viscontact.run_files import CASE_NAME
 def case_attributes(case: Case) -> Mapping[str, Any]:
     """Return the attributes of a result that come from its case file, as JSON.
 
-    `title_block` has the entries of the section `report`, if any; `input_files` name, key and
-    SHA-256 of the files when they were read; `case_as_typed` all values as they were typed;
-    `measured` the tables of the laws, if any, in the quantities that were measured; `allowable`
-    the limits, if any, to which the verdicts are added when the run is finished.
+    `title_block`: section `report`; `input_files`: name, key and SHA-256 when read;
+    `case_as_typed`; `measured`: tables of laws as measured; `allowable`: limits, to which verdicts
+    are added later.
     """
     limits = {name: {"limit": limit} for name, limit in case.allowable.items()}
     sometimes = {"title_block": case.title_block, "measured": case.measured, "allowable": limits}

@@ -18,11 +18,10 @@ from pydantic_core import CoreSchema, SchemaValidator, core_schema
 
 
 class ChosenBy:
-    """Annotation of a union of sections, of which a key chooses one.
+    """Annotation of a union of sections, of which a key chooses one."""
 
-    It has the effect of pydantic's ``Field(discriminator=...)``, but validators are built for those
-    sections only that occur in a case.
-    """
+    # As pydantic's ``Field(discriminator=...)``, but validators are built for those sections only
+    # that occur in a case.
 
     def __init__(self, discriminator: str) -> None:
         self.discriminator = discriminator

@@ -239,8 +239,6 @@ class Output(Section):
 def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
     """Return the instants whose fields are kept: the requested ones, and the end of the run.
 
-    Examples
-    --------
     >>> kept_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 60.0]))
     (0.0, 30.0, 60.0)
     >>> kept_fields(Output(), adaptive_times(10.0, tolerance=1e-3))[:3]
@@ -289,8 +287,6 @@ def end_of(times: Times) -> float:
 def kept_speeds(output: Output, speeds: Sequence[float]) -> str | tuple[float, ...]:
     """Return the speeds whose fields are kept [m/s].
 
-    Examples
-    --------
     >>> kept_speeds(Output(fields=["100 mm/s"]), (0.01, 0.1, 1.0))
     (0.1,)
     >>> kept_speeds(Output(), (0.01, 0.1, 1.0))
@@ -327,8 +323,6 @@ def _default_fields(times: Times) -> tuple[float, ...]:
 def with_instants(times: Times, fields: str | tuple[float, ...]) -> Times:
     """Return the instants of the run together with those of requested fields.
 
-    Examples
-    --------
     >>> with_instants(np.array([0.0, 1.0]), (0.0, 0.5)).tolist()
     [0.0, 0.5, 1.0]
     """

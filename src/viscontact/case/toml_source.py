@@ -24,8 +24,6 @@ _ENDLESS_KEY = re.compile(
 def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
     r"""Read TOML.
 
-    Examples
-    --------
     >>> parse('[load]\nforce = "10 kN"')
     ({'load': {'force': '10 kN'}}, {('load',): 1, ('load', 'force'): 2})
     """

@@ -37,8 +37,6 @@ _ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
     r"""Read YAML.
 
-    Examples
-    --------
     >>> parse("load:\n  force: 10 kN")
     ({'load': {'force': '10 kN'}}, {('load',): 1, ('load', 'force'): 2})
     """
@@ -56,8 +54,6 @@ def parse_value(text: str) -> Any:
 def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
     r"""Write values into the text of a YAML file, keeping its comments.
 
-    Examples
-    --------
     >>> print(with_overrides("load:  # a step\n  force: 10 kN", {("load", "force"): "20 kN"}))
     load:  # a step
       force: 20 kN
@@ -77,8 +73,6 @@ def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
 def rewritten(text: str, data: dict[str, Any]) -> str:
     r"""Write data as YAML with the order and the comments of an earlier text.
 
-    Examples
-    --------
     >>> print(rewritten("b: 2 m  # long\na: 1\nc: 0", {"a": 1, "b": "3 m"}))
     b: 3 m  # long
     a: 1
@@ -129,8 +123,6 @@ def _bring_up_to_date(old: CommentedMap, new: dict[str, Any]) -> None:
 def write(data: Any) -> str:
     r"""Write data as YAML.
 
-    Examples
-    --------
     >>> write({"load": {"force": "20 kN"}})
     'load:\n  force: 20 kN\n'
     """

@@ -39,10 +39,7 @@ class Candidate:
 
 
 def candidate(name: str, terms: int, modulus: float, duration: float) -> Candidate:
-    """Candidate law by its name in `CANDIDATES`; a creep series has `terms` exponentials.
-
-    Starting values follow from the apparent shear modulus [Pa] and the duration of the record [s].
-    """
+    """Candidate law of `CANDIDATES`, started from apparent shear modulus [Pa] and duration [s]."""
     if name not in CANDIDATES:
         raise ValueError(
             f"fit_indentation: law must be one of {', '.join(CANDIDATES)}, got {name!r}"

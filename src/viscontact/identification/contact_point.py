@@ -181,24 +181,7 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
 def deflection_in_contact(
     indenter: Indenter, contact_modulus: float, spring_constant: float, way: Floats
 ) -> Floats:
-    """Bending of a cantilever whose base moves on after first contact with an elastic body.
-
-    Parameters
-    ----------
-    indenter : Sphere, Cone or FlatPunch
-        The tip.
-    contact_modulus : float
-        E* = E/(1 - nu²) [Pa].
-    spring_constant : float
-        Of the cantilever [N/m].
-    way : ndarray
-        Way of the base from first contact on [m]; negative before.
-
-    Returns
-    -------
-    ndarray
-        Bending y >= 0 [m] with k y = E* f(way - y).
-    """
+    """Deflection y >= 0 with k y = E* f(way - y), from the base's way after contact [m]."""
     way = np.maximum(way, 0.0)
     ratio = contact_modulus / spring_constant
     depth = way.copy()

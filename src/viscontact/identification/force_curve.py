@@ -95,24 +95,8 @@ def tabulated_curve(
 ) -> ForceCurve:
     """Return the force curve of a table of time, position, and deflection, force or signal.
 
-    Parameters
-    ----------
-    table : Table
-        The measured table.
-    spring_constant : float
-        Spring constant of the cantilever [N/m].
-    sensitivity : float, optional
-        Deflection per signal [m/V] of a deflection in volts.
-
-    Raises
-    ------
-    ValueError
-        If a column is missing, or a signal without `sensitivity`; or the curve is not valid.
-
-    Examples
-    --------
-    >>> from viscontact.tables import read_table
-    >>> curve = tabulated_curve(read_table("curve.csv"), 0.1)  # doctest: +SKIP
+    Spring constant [N/m]; `sensitivity` is the deflection per signal [m/V]. ValueError for a
+    missing column or an invalid curve.
     """
     found = [name for name in ("deflection", "force", "signal") if name in table]
     if not {"time", "position"} <= set(table.columns) or not found:

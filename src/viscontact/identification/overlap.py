@@ -16,11 +16,7 @@ _SCANNED = 41
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Set of one temperature in logarithms, increasing in ln(time) or -ln(angular frequency).
-
-    `log_times` has shape (n,), `log_columns` (columns, n); the first column is monotone but for
-    scatter.
-    """
+    """Set of one temperature, increasing in ln(time) or -ln(ω): shapes (n,) and (columns, n)."""
 
     log_times: Floats
     log_columns: Floats
@@ -29,14 +25,12 @@ class Curve:
 def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
     """Shift of the faster curve in ln(time) onto the slower one, and the mismatch [-].
 
-    The mismatch is the root mean square relative difference in the overlap; NaN where the shifted
-    curves do not overlap in time.
-
-    The start is closed-form shifting (ISO 18437-6; Gergesova et al., J. Rheol. 55 (2011) 1-16): the
-    mean distance in ln(time) of the two curves over the values they have in common, after isotonic
-    regression of the scatter. It needs no starting value and cannot diverge. From there the mean
-    squared difference over the overlap in time is minimised; with several columns it is that of the
-    vector of the columns relative to its length, so that the losses of an oscillation count too.
+    The mismatch is the root mean square relative difference in the overlap; NaN without one. The
+    start is closed-form shifting (ISO 18437-6; Gergesova et al., J. Rheol. 55 (2011) 1-16): the
+    mean distance in ln(time) over common values, after isotonic regression of the scatter. It needs
+    no starting value and cannot diverge. From there the mean squared difference over the overlap in
+    time is minimised; with several columns that of their vector relative to its length, so that
+    losses count too.
     """
     start = _closed_form_shift(slow, fast)
     places = start + _NEIGHBOURHOOD * np.linspace(-1.0, 1.0, _SCANNED)

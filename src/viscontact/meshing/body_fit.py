@@ -27,10 +27,7 @@ def straight_ends(
     reach: tuple[float, float],
     centre: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[float, float]:
-    """Distances of a body's straight ends from a centre along x and y, inf without any [m].
-
-    They lie on a grid of this size; lines farther from its centre than `reach` [m] do not count.
-    """
+    """Distances of a body's straight ends within `reach` of a centre, along x and y, or inf [m]."""
     grid = Grid((LINES, LINES), size, centre=centre)
     x, y = grid.x - centre[0], grid.y - centre[1]
     inside = np.isfinite(indenter.gap(grid.x[:, None], grid.y[None, :]))
@@ -57,15 +54,9 @@ def _straight_end(centres: Floats, inside: Bools, crossings: Floats) -> float:
 def fitted_extents(
     size: tuple[float, float], shape: tuple[int, int], ends: tuple[float, float]
 ) -> tuple[float, float]:
-    """Extents near given ones on which cells end where the body ends, also if joined in pairs [m].
-
-    `shape` holds even numbers of cells, `ends` come from `straight_ends` [m].
-
-    Notes
-    -----
-    Cells take a body that ends within one of them as longer or shorter by up to half a cell. At a
-    logarithmic end, whose drop grows fast there, that moves the peak pressure by up to 20 %.
-    """
+    """Extents near given ones on which cells, also joined in pairs, end with the body [m]."""
+    # Cells take a body that ends within one of them as longer or shorter by up to half a cell. At a
+    # logarithmic end, whose drop grows fast there, that moves the peak pressure by up to 20 %.
     x, y = (_fitted(*each) for each in zip(size, shape, ends, strict=True))
     return x, y
 

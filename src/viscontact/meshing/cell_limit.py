@@ -18,11 +18,9 @@ ROUNDING = 1e-6
 def with_small_cells(
     grid: Grid, largest_cell: tuple[float, float], ends: tuple[float, float]
 ) -> Grid:
-    """Cover a grid with cells no larger than `largest_cell` [m], equal to it where possible.
-
-    Along an axis with smaller cells the grid remains. Cells end where the body ends, whose
-    distances are `ends` (`straight_ends`) [m]. ValueError if there would be too many cells.
-    """
+    """Cover a grid with cells up to `largest_cell` that end at the body's `ends` [m]."""
+    # Along an axis with smaller cells the grid remains. ValueError if there would be too many
+    # cells.
     cells = [
         _cell(*each) for each in zip(grid.cell_size, largest_cell, grid.size, ends, strict=True)
     ]

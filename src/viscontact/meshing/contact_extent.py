@@ -48,10 +48,7 @@ def contacts_of_history(
     *,
     response: SurfaceResponse = HALF_SPACE,
 ) -> list[PointContact]:
-    """Estimate the contact under every corner of a load history, at one compliance [1/Pa].
-
-    Up to `end` [s], or the load's last point. Refuses a load that never presses.
-    """
+    """Estimate the contact under every corner of a load up to `end` [s], at one J [1/Pa]."""
     points = _corners(load, end)
     if not points:
         raise ValueError(
@@ -76,10 +73,7 @@ def smallest_contact(
     end: float | None,
     found: Sequence[PointContact],
 ) -> PointContact:
-    """Smallest contact under the largest load: where that acts, and before the body creeps.
-
-    One of `found`, the contacts at the largest compliance, or one of a stiffer body.
-    """
+    """Smallest contact under the largest load: one of `found`, or that before the body creeps."""
     highest = max(each.point.level for each in found)
     as_large = [each for each in found if each.point.level >= NEAR_LARGEST_LOAD * highest]
     smallest = min(as_large, key=lambda each: min(each.estimate.extents))
@@ -96,11 +90,9 @@ def smallest_contact(
 def _compliance_at_largest_load(
     compliance: ContactCompliance, load: LoadHistory, end: float | None
 ) -> float:
-    """Effective compliance when the load first reaches its maximum [1/Pa].
-
-    A contact that has only grown is that of an elastic body whose compliance is the mean of J over
-    the ages of the load's increments.
-    """
+    """Effective compliance when the load first reaches its maximum [1/Pa]."""
+    # A contact that has only grown is that of an elastic body whose compliance is the mean of J
+    # over the ages of the load's increments.
     peak_time, _ = largest_load(load, float(load.kinks[-1]) if end is None else end)
     instants = np.union1d(
         np.linspace(0.0, peak_time, PEAK_LOAD_SAMPLES), load.kinks[load.kinks <= peak_time]

@@ -31,8 +31,6 @@ def locate_contact(
 
     Raises ValueError if no grid fits.
 
-    Examples
-    --------
     A contact of 0.18 mm, 5 mm away, where the cells of a grid around the origin are larger than it:
 
     >>> from viscontact.indenters import Paraboloid
@@ -100,11 +98,9 @@ def _probable_place(
 def _place_elsewhere(
     indenter: Indenter, compliance: float, point: LoadPoint, found: ContactEstimate
 ) -> Place | None:
-    """Point of a height map that lies below the surface beyond the grid of an estimate [m].
-
-    The displacement there is that of a point load, J F/(pi r) (Johnson 1985, Contact Mechanics,
-    eq. 3.22b). A body that is free to tilt is taken as level. None without such a point.
-    """
+    """Point of a height map below the surface beyond the grid of an estimate [m], or None."""
+    # The displacement there is that of a point load, J F/(pi r) (Johnson 1985, Contact Mechanics,
+    # eq. 3.22b). A body that is free to tilt is taken as level.
     x, y = indenter.sample_points
     (middle_x, middle_y), (lx, ly) = found.grid.centre, found.grid.size
     beyond = np.maximum(np.abs(x - middle_x) / lx, np.abs(y - middle_y) / ly) > 0.5
@@ -136,8 +132,6 @@ def _refusal(*places: Place) -> ValueError:
 def grid_centre(contacts: Sequence[ContactEstimate]) -> Place:
     """Centre of a grid over some contacts, rounded [m]: 0 along an axis unless they are far away.
 
-    Examples
-    --------
     >>> from viscontact.indenters import Sphere
     >>> from viscontact.loads import step
     >>> grid_centre([estimate_contact(Sphere(0.01), 1e-9, step(100.0).at(0.0))])

@@ -59,11 +59,10 @@ TINY = float(np.finfo(np.float64).tiny)
 
 @dataclass(frozen=True, eq=False)
 class ContactGrowth:
-    """Elastic reference of a growing contact, and the steps of its history.
+    """Elastic reference of a growing contact, and the steps of its history."""
 
-    The reference is the force ∫ J dF [m²] or the approach [m]. Extents of the contact along x and
-    y, and the peak of the elastic pressure, are powers of it, and 1 at its largest value.
-    """
+    # The reference is the force ∫ J dF [m²] or the approach [m]. Extents of the contact along x and
+    # y, and the peak of the elastic pressure, are powers of it, and 1 at its largest value.
 
     load: LoadHistory
     steps: tuple[Step, ...]
@@ -78,10 +77,7 @@ class ContactGrowth:
         return self.extents[0] == self.extents[1]
 
     def peak_errors(self, axis: int, across: ArrayLike) -> Floats:
-        """Errors of the peak pressure over its largest value, for several numbers of cells [-].
-
-        Cells along x (axis 0) or along y across the largest contact.
-        """
+        """Errors of the peak pressure over its maximum, for cells across an axis [-]."""
         cells = np.minimum(across, MOST_ACROSS)
         widths, pressures = self._march(axis, cells / 2)
         exact, found = pressures[:, :1], pressures[:, 1:]
@@ -90,10 +86,7 @@ class ContactGrowth:
         return np.asarray(errors.max(axis=0) / max(float(exact.max()), TINY))
 
     def _march(self, axis: int, halves: Floats) -> tuple[Floats, Floats]:
-        """Relative widths of the strips' contact, its exact largest pressure and those on cells.
-
-        After each step; `halves` are largest half widths of the strips' contact in cells.
-        """
+        """Relative widths, exact peaks, peaks on cells by step; `halves` in cells."""
         counts = np.ceil(halves).astype(int) + 2
         contact = strip_contact(2 ** math.ceil(math.log2(counts.max())))
         edges = np.linspace(0.0, 1.0, EXACT_STRIPS + 1)
@@ -142,10 +135,7 @@ def contact_growth(
     end: float | None,
     largest: PointContact,
 ) -> ContactGrowth | None:
-    """Growth of a contact up to `end` [s]; None on a body that hardly creeps.
-
-    `largest` is the elastic contact under the largest load, at the largest compliance.
-    """
+    """Growth of a contact up to `end` [s] and `largest`; None on a body that hardly creeps."""
     last = _last(load, compliance, end)
     if not compliance(last) > (1 + LEAST_CREEP) * compliance.instant:
         return None

@@ -33,9 +33,9 @@ def resolve_ring(
 ) -> RingResolution:
     """Fewest additional cells for which the peak pressure of a history meets a tolerance.
 
-    `across` are cells across the largest contact, `most` the largest factors of the cells along x,
-    along y, and in all. If the tolerance is out of reach, the factors are the largest ones, or 1
-    where these would hardly reduce the error.
+    `across`: cells across the largest contact; `most`: largest factors of the cells along x, y, in
+    all, the result if the tolerance is out of reach, or 1 where these would hardly reduce the
+    error.
     """
     errors = _errors(growth, across, np.minimum(most[:2], most[2]))
     steps = [_fewest(each, tolerance) for each in errors]
@@ -49,11 +49,9 @@ def resolve_ring(
 
 
 def _errors(growth: ContactGrowth, across: Floats, most: Floats) -> list[Floats]:
-    """Errors of the peak pressure on ever more cells along x, and along y, up to these factors.
-
-    As cells come into contact one after the other, the error scatters from mesh to mesh: that of
-    the next mesh counts, too.
-    """
+    """Errors of the peak pressure on ever more cells along x, and along y, up to these factors."""
+    # As cells come into contact one after the other, the error scatters from mesh to mesh: that of
+    # the next mesh counts, too.
     finest = np.log(np.clip(most, 1.0, LARGEST_FACTOR)) / math.log(STEP)
     factors = [STEP ** np.arange(math.floor(each + 1e-9) + 2) for each in finest]
     along = _with_next(growth.peak_errors(0, across[0] * factors[0]))

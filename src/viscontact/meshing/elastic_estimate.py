@@ -172,9 +172,8 @@ def estimate_contact(
     *,
     response: SurfaceResponse = HALF_SPACE,
 ) -> ContactEstimate:
-    """Solve an elastic contact to a few per cent, on a coarse grid that is fitted to it.
+    """Solve an elastic contact to a few per cent, on a grid at the origin or `around` [m].
 
-    The grid is centred on the origin, or follows a contact whose probable place is `around` [m].
     Raises ValueError if no grid fits, for example because the force acts outside the body.
     """
     scale, centre = _first_scale(indenter, contact_compliance, point), around or (0.0, 0.0)
@@ -257,10 +256,7 @@ def _misfit(indenter: Indenter, point: LoadPoint, scale: float) -> str:
 
 
 def _size_factors(found: ContactEstimate, *, follows: bool) -> Floats | None:
-    """Factors that make the grid fit the contact along x and y; None if it fits.
-
-    The grid lies around the origin, or `follows` the contact.
-    """
+    """Factors that make a grid fit the contact, or None; the grid may `follow` the contact."""
     touched = found.in_contact
     if not touched.any():
         return _refining_factors(found.open_gap)

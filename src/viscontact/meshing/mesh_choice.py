@@ -82,8 +82,7 @@ class Mesh:
 def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     """Choose the grid of a contact problem, up to `end` [s] or the end of its load and creep.
 
-    Raises ValueError if no end of the creep is known, no grid fits, or the tolerance would need
-    millions of cells.
+    ValueError if creep never ends, no grid fits, or the tolerance would need millions of cells.
     """
     indenter, load, compliance = problem.indenter, problem.load, problem.compliance
     request = problem.automatic_grid or AutomaticGrid()
@@ -124,10 +123,8 @@ def _log(mesh: Mesh) -> None:
 
 
 def _contacts_before_creep(problem: Problem, end: float | None) -> list[PointContact]:
-    """Contacts of layers that creep differently under an approach, before they creep.
-
-    Such layers do not keep the contact: it shrinks if a coating becomes the stiffer part.
-    """
+    """Contacts of layers that creep differently under an approach, before they creep."""
+    # Such layers do not keep the contact: it shrinks if a coating becomes the stiffer part.
     compliance = float(problem.compliance(0.0))
     if problem.load.control != "approach" or len(problem.surface.terms) == 1 or compliance == 0:
         return []

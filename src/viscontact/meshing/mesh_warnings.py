@@ -23,10 +23,7 @@ EARLY_WARNING = {
 
 
 def spacing_warning(name: str, error: float, points: tuple[float, float]) -> dict[str, str]:
-    """Warning that the spacing of a height map limits the accuracy.
-
-    `points` of the map lie along and across the contact.
-    """
+    """Warning that the spacing of a map limits the accuracy; `points` along and across."""
     return {
         "map spacing": (
             f"cells as small as the steps of the height map leave {_about(error, points)} "
@@ -36,10 +33,7 @@ def spacing_warning(name: str, error: float, points: tuple[float, float]) -> dic
 
 
 def facet_warning(error: float, points: tuple[float, float]) -> dict[str, str]:
-    """Warning that the facets of a height map limit the accuracy.
-
-    `points` of the map lie along and across the contact.
-    """
+    """Warning that the facets of a map limit the accuracy; `points` along and across."""
     return {
         "facets": (
             "between its points the height map is taken as straight, which leaves "

@@ -81,8 +81,6 @@ def refine_mesh(
 
     `fewest` cells along x and y to begin with, no more than `finest`, and `most_cells` in all.
 
-    Examples
-    --------
     >>> from viscontact.indenters import Sphere
     >>> from viscontact.loads import step
     >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))

@@ -17,11 +17,10 @@ from viscontact.backend.arrays import Floats
 
 @dataclass(frozen=True, eq=False)
 class StripContact:
-    """Contacts of 0, 1, 2, .. strips on either side, each as the next strip is about to touch.
+    """Contacts of 0, 1, 2, .. strips on either side, each as the next strip is about to touch."""
 
-    Between them the pressure is linear in the force. Lengths are in strips, pressures such that
-    Hertz's is sqrt(a² - x²).
-    """
+    # Between them the pressure is linear in the force. Lengths are in strips, pressures such that
+    # Hertz's is sqrt(a² - x²).
 
     forces: Floats  # increasing, shape (strips,)
     pressures: Floats  # of the strips on one side, shape (strips, strips)
@@ -29,8 +28,6 @@ class StripContact:
     def pressure(self, half_width: float) -> Floats:
         """Pressure of the strips on one side, under the force of Hertz's contact.
 
-        Examples
-        --------
         >>> round(float(strip_contact(64).pressure(40.0).max()), 2)
         40.0
         """
@@ -44,14 +41,11 @@ class StripContact:
 
 @lru_cache(maxsize=4)
 def strip_contact(strips: int) -> StripContact:
-    """Contacts of up to `strips` strips on either side of the centre.
-
-    Notes
-    -----
-    Displacement under a uniform strip: Johnson 1985, Contact Mechanics, eq. 2.30, for a modulus of
-    1, a cylinder of radius 1/2 and a depth of 10 grids. Under a contact of m strips, the pressure
-    is that of a flat punch times the approach, less that which makes the surface a parabola.
-    """
+    """Contacts of up to `strips` strips on either side of the centre."""
+    # Displacement under a uniform strip: Johnson 1985, Contact Mechanics, eq. 2.30, for a modulus
+    # of 1, a cylinder of radius 1/2 and a depth of 10 grids. Under a contact of m strips, the
+    # pressure is that of a flat punch times the approach, less that which makes the surface a
+    # parabola.
     x = np.arange(strips) + 0.5
     kernel = _influence(np.subtract.outer(x, x), 20.0 * strips)
     kernel += _influence(np.add.outer(x, x), 20.0 * strips)

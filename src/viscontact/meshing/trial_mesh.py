@@ -91,10 +91,7 @@ class MeshTrial:
 
     @property
     def unlimited(self) -> tuple[str, ...]:
-        """Quantities that have no limit if the peak pressure has none.
-
-        Towards a sharp end of the body the contact becomes wider as the cells get smaller.
-        """
+        """Quantities that have no limit if the peak pressure has none: widths at a sharp end."""
         widens = self.at_end & (self.end_excess > 0)
         return (PEAK, *(name for axis, name in enumerate(EXTENTS) if widens[1 - axis]))
 
@@ -114,8 +111,6 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
 
     `shape` holds even numbers of cells; `tolerance` is that of gap and balances.
 
-    Examples
-    --------
     >>> from viscontact.indenters import Sphere
     >>> from viscontact.loads import step
     >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))

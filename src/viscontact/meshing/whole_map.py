@@ -19,10 +19,8 @@ from viscontact.units.formatting import format_quantity
 
 
 def whole_map_warning(indenter: Indenter, found: PointContact, grid: Grid) -> dict[str, str]:
-    """Warn if all of a height map is in contact under a load on a grid; empty otherwise.
-
-    The coarse estimate leaves out short waves, which open first: it only excludes the warning.
-    """
+    """Warn if all of a height map is in contact under a load on a grid; empty otherwise."""
+    # The coarse estimate leaves out short waves, which open first: it only excludes the warning.
     if min(indenter.sample_spacing) <= 0 or not _is_whole(found.estimate):
         return {}
     whole = _pressed(found, indenter.gap(grid.x[:, None], grid.y[None, :]), grid, found.point)
@@ -43,11 +41,9 @@ def whole_map_warning(indenter: Indenter, found: PointContact, grid: Grid) -> di
 
 
 def opening_force(found: PointContact) -> float:
-    """Return the force at which a body wholly in contact under a force begins to open [N].
-
-    While the contact does not change, the pressure is linear in the force. It is solved at the
-    given one and at twice that; the first cell whose pressure falls to zero opens.
-    """
+    """Return the force at which a body wholly in contact under a force begins to open [N]."""
+    # While the contact does not change, the pressure is linear in the force. It is solved at the
+    # given one and at twice that; the first cell whose pressure falls to zero opens.
     estimate, force = found.estimate, found.point.force
     assert force is not None  # under an approach there is no such force
     doubled = replace(found.point, force=2 * force)

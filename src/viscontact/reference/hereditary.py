@@ -28,11 +28,9 @@ _GAUSS, _WEIGHTS = legendre.leggauss(_DEGREE)
 
 
 def _stieltjes_matrix() -> Floats:
-    """Matrix B with: integral of k ds over a panel = sum of k(Gauss node j) B_ji s(node i).
-
-    It does not depend on the panel's length, as the integral does not. Where k is constant it
-    gives k times the difference of s, whatever s does in between.
-    """
+    """Matrix B of a panel: integral of k ds = sum of k(Gauss node j) B_ji s(node i)."""
+    # It does not depend on the panel's length, as the integral does not. Where k is constant it
+    # gives k times the difference of s, whatever s does in between.
     slopes = chebyshev.chebval(_GAUSS, chebyshev.chebder(np.eye(_DEGREE + 1))).T
     matrix: Floats = _WEIGHTS[:, None] * (slopes @ _FIT)
     return matrix
@@ -115,9 +113,8 @@ def superposed(
 ) -> Floats:
     """Hereditary integral of kernel(now - t') d path(t') from start to end, shape (n,).
 
-    The kernel is a function of the lag, smooth on a logarithmic scale and at most integrably
-    infinite at 0, where it is never evaluated. The path is called with times of shape (n, panels,
-    nodes) and not differentiated; it is smooth but for an algebraic singularity at start <= end <=
+    The kernel is smooth in log lag, at most integrably infinite at 0. The path is called with times
+    of shape (n, panels, nodes); it is smooth but for an algebraic singularity at start <= end <=
     now [s].
 
     >>> zero, one = np.zeros(1), np.ones(1)

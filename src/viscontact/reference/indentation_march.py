@@ -61,11 +61,9 @@ class StepEnd:
 
 
 def deepest_approach(profile: Profile, steps: LoadSteps, law: LagCompliance) -> float:
-    """Upper bound of the approach over a history [m].
-
-    Under force control it is the approach of a contact that never shrinks, under a force that never
-    falls: 2 (s g(s) - integral of g) = J * dF.
-    """
+    """Upper bound of the approach over a history [m]."""
+    # Under force control it is the approach of a contact that never shrinks, under a force that
+    # never falls: 2 (s g(s) - integral of g) = J * dF.
     if steps.by_approach or np.isfinite(profile.edge):
         return max(float(steps.load.max()), 0.0) or 1.0
     growth = np.diff(np.maximum.accumulate(steps.load), prepend=0.0)

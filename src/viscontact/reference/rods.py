@@ -19,10 +19,9 @@ from viscontact.reference.profiles import Profile
 
 @dataclass(frozen=True)
 class Rods:
-    """Rods at given radii, whose load is linear in the depth g(s) between them.
+    """Rods at given radii [m], whose load is linear in the depth g(s) between them."""
 
-    A Hertzian load is linear in g, so on an elastic body the sum over rods is exact.
-    """
+    # A Hertzian load is linear in g, so on an elastic body the sum over rods is exact.
 
     profile: Profile
     # radii s, ascending from 0 [m], shape (n,); the last is in contact under a flat punch only
@@ -59,12 +58,9 @@ class Rods:
 
 
 def placed_rods(profile: Profile, deepest: float, elements: int) -> Rods:
-    """Rods for contacts up to the approach `deepest` > 0 [m], clustered towards the largest radius.
-
-    There is one rod more than elements, and a single one for a flat punch. Where the approach turns
-    smoothly the contact radius is nearly constant and the loads end like a root of the distance
-    from the largest radius, which even elements would follow with a lower order.
-    """
+    """Rods for contacts up to `deepest` > 0 [m], clustered towards the largest radius."""
+    # Where the approach turns smoothly the contact radius is nearly constant and the loads end like
+    # a root of the distance from the largest radius, which even elements follow with a lower order.
     if np.isfinite(profile.edge):
         none = np.zeros(0)
         return Rods(profile, np.array([profile.edge]), np.zeros(1), none, none)
@@ -113,11 +109,9 @@ class RodState:
 
 
 def solve_at_approach(rods: Rods, step: Step, approach: float) -> RodState:
-    """Contact state of all rods at the end of a step, at a given approach [m].
-
-    Loads change evenly over the step, or over its share in contact: a rod that meets the indenter
-    within the step is loaded from there on, one whose load reaches 0 is free from there on.
-    """
+    """Contact state of all rods at the end of a step, at a given approach [m]."""
+    # Loads change evenly over the step, or over its share in contact: a rod that meets the indenter
+    # within the step is loaded from there on, one whose load reaches 0 is free from there on.
     excess = approach - rods.depths - step.crept
     wanted = step.before + excess / step.compliance
     share = np.ones_like(wanted)
@@ -154,11 +148,9 @@ def _front(rods: Rods, step: Step, excess: Floats, wanted: Floats, reached: int)
 
 
 def solve_at_force(rods: Rods, step: Step, force: float, guess: float) -> RodState:
-    """Contact state in which the rods carry a force >= 0 [N]; at 0 N they are about to touch.
-
-    The force grows with the approach, by 2 a over the compliance: first a Newton step with that
-    slope, then the secant method, bracketed.
-    """
+    """Contact state in which the rods carry a force >= 0 [N]; at 0 N they are about to touch."""
+    # The force grows with the approach, by 2 a over the compliance: a Newton step with that slope,
+    # then the secant method, bracketed.
     low = step.touching(rods.depths)
     high = np.inf if np.isfinite(rods.profile.edge) else max(low, float(rods.depths[-1]))
     if force == 0:

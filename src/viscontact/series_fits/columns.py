@@ -49,11 +49,9 @@ def require_rows(owner: str, least: int, **columns: Floats) -> None:
 
 
 def require_trend(owner: str, name: str, points: Floats, values: Floats, rises: bool) -> None:
-    """Refuse a curve that as a whole rises where it can only fall, or the reverse.
-
-    It does if the median of its last third is a tenth or more on the wrong side of that of its
-    first.
-    """
+    """Refuse a curve that as a whole rises where it can only fall, or the reverse."""
+    # It does if the median of its last third is a tenth or more on the wrong side of that of its
+    # first.
     ordered = values[np.argsort(points, kind="stable")]
     third = max(1, ordered.size // 3)
     first, last = float(np.median(ordered[:third])), float(np.median(ordered[-third:]))

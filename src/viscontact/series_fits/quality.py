@@ -54,10 +54,8 @@ class Misfit:
 
 
 def misfit_of(observed: Observed, found: Spectrum, names: Sequence[str]) -> Misfit | None:
-    """Misfit of a spectrum to the columns with these names; None within the limits.
-
-    Each possible reason is removed in turn, and the best fit with any number of terms compared.
-    """
+    """Misfit of a spectrum to the columns with these names; None within the limits."""
+    # Each possible reason is removed in turn, and the best fit with any number of terms compared.
     residuals = _by_column(observed, found, names)
     rms, largest = _rms(residuals), np.abs(residuals).max(axis=1)
     if rms.max() <= RMS_LIMIT and largest.max() <= LARGEST_LIMIT:
@@ -109,10 +107,7 @@ def _freed_fits(
 
 
 def residuals_alone(observed: Observed) -> Floats:
-    """Relative residuals of storage and loss, each fitted alone with any number of terms [-].
-
-    Shape (2, rows).
-    """
+    """Relative residuals of storage and loss, each fitted alone [-], shape (2, rows)."""
     rows = observed.values.size // 2
     alone = [
         Observed(observed.response, observed.values, np.repeat(weights, rows))

@@ -74,10 +74,7 @@ def unweighted(response: Response, values: Floats) -> Observed:
 
 
 def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float) -> Spectrum:
-    """Spectrum of fewest terms with a residual within `excess` times that of the dense fit.
-
-    A relative residual up to `tolerance` is accepted in any case.
-    """
+    """Spectrum of fewest terms with a residual up to `tolerance` or `excess` times the best."""
     dense = dense_spectrum(observed)
     enough = max(excess * dense.residual, tolerance)
     # More terms never fit worse, so the fewest are found by bisection. The number of terms of the
@@ -102,11 +99,9 @@ def dense_spectrum(observed: Observed) -> Spectrum:
 
 
 def spectrum_of(observed: Observed, count: int) -> Spectrum:
-    """Best fit found with at most `count` terms.
-
-    It descends from the merged neighbours of the dense fit; for few terms also from times spread
-    evenly over the span of the data.
-    """
+    """Best fit found with at most `count` terms."""
+    # It descends from the merged neighbours of the dense fit; for few terms also from times spread
+    # evenly over the span of the data.
     near = _near(observed, count, dense_spectrum(observed))
     return _descended(observed, np.log(near.times), _FINE)
 
@@ -168,11 +163,9 @@ def _jacobian(observed: Observed, log_times: Floats) -> Floats:
 
 
 def _merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Floats:
-    """Logarithms ln τ of the dense fit's terms, neighbours merged until `count` are left.
-
-    Ward's criterion: the pair with the least w1 w2/(w1 + w2) times the squared distance is merged
-    first, where a weight is the contribution of the term to the fit.
-    """
+    """Logarithms ln τ of the dense fit's terms, neighbours merged until `count` are left."""
+    # Ward's criterion: the pair with the least w1 w2/(w1 + w2) times the squared distance is merged
+    # first, where a weight is the contribution of the term to the fit.
     shown = observed.relative(observed.response.terms(dense.times) * dense.strengths)
     weights, places = list(np.linalg.norm(shown, axis=0)), list(np.log(dense.times))
     while len(places) > count:

@@ -36,11 +36,9 @@ def given_weights(
 def scatter_weights(
     observed: Observed, tolerance: float, names: tuple[str, ...]
 ) -> dict[str, float]:
-    """Weights by the inverse scatter of each column about the best fit to it alone, least 1.
-
-    Scatter below `tolerance` [-] is not distinguished. The scatter about a common fit would count
-    a contradiction between the columns as scatter of one of them, which then has no weight.
-    """
+    """Weights by the inverse scatter of each column about the best fit to it alone, least 1."""
+    # Scatter below `tolerance` [-] is not distinguished. The scatter about a common fit would count
+    # a contradiction between the columns as scatter of one of them, which then has no weight.
     scatter = np.sqrt(np.mean(residuals_alone(observed) ** 2, axis=1))
     # Limits: scatter within the tolerance is equal, and no column loses its weight.
     scatter = np.maximum(scatter, max(tolerance, scatter.max() / _LARGEST_RATIO, 1e-12))

@@ -22,11 +22,9 @@ _CLOSE = 1e-3
 
 
 def read_text_map(path: Path, units: Units, channel: str | None) -> Surface:
-    """Read a map from a CSV file or a spreadsheet; points without a row are missing.
-
-    Rows of bare heights are scan lines along x; a header such as ``x [um], y [um], height [nm]`` is
-    followed by a row for each point, in any order.
-    """
+    """Read a map from a CSV file or a spreadsheet; points without a row are missing."""
+    # Rows of bare heights are scan lines along x; a header such as ``x [um], y [um], height [nm]``
+    # is followed by a row for each point, in any order.
     if channel is not None:
         raise ValueError(f"channel: {path.name} is a table and has none; leave it out")
     rows = read_rows(path)

@@ -74,10 +74,7 @@ def chosen_level(source: str, levels: Sequence[float], stress: float | None) -> 
 
 
 def with_creep_compliance(table: Table, stress: float | None) -> Table:
-    """Return a table with the creep compliance, strain over stress, in place of both.
-
-    `stress` [Pa] is that of the heading or of the caller, None if neither states one.
-    """
+    """Return a table with strain over `stress` [Pa], that of a heading or of the caller."""
     source = table.source.name
     if "stress" in table:
         table = _at_level(table, chosen_level(source, _levels(source, table["stress"]), stress))

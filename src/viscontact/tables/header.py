@@ -57,10 +57,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Header:
-    """Columns to read, headings left out, cells in a row, and header rows (1, or 2 with units).
-
-    `stress` is that of the creep test [Pa], if a heading states it.
-    """
+    """Columns to read, headings left out, cells in a row, header rows (1, 2), stress [Pa]."""
 
     columns: tuple[Column, ...]
     left_out: tuple[str, ...]
@@ -91,10 +88,7 @@ def read_header(
     columns: Mapping[str, str | None],
     stress: float | None = None,
 ) -> Header:
-    """Read the header; `columns` maps headings to quantities, or to None to leave them out.
-
-    Of creep tests at several stresses in columns of their own, that at `stress` [Pa] is read.
-    """
+    """Read the header; `columns` maps headings to quantities, `stress` [Pa] chooses a test."""
     _require_names(source, rows[0])
     cells = _without_empty_end(rows[0].cells)
     headings = [_heading(cell, rows[0].line) for cell in cells]

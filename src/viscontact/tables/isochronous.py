@@ -36,12 +36,10 @@ class _Curve:
 
 
 def isochronous_table(path: Path, rows: list[Row], stress: float | None) -> Table | None:
-    """Creep compliance over time at a stress [Pa]; None if the header is of another table.
-
-    The first column is the strain and the others are stresses at times (``stress at 10 h [MPa]``),
-    or the first is the stress and the others are strains. Curves may end early. The strain at the
-    stress is interpolated linearly; each curve begins at the origin.
-    """
+    """Creep compliance over time at a stress [Pa]; None if the header is of another table."""
+    # The first column is the strain and the others are stresses at times (``stress at 10 h
+    # [MPa]``), or the first is the stress and the others are strains. Curves may end early. The
+    # strain at the stress is interpolated linearly; each curve begins at the origin.
     found = _layout(rows[0])
     if found is None:
         return None

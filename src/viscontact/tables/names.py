@@ -42,12 +42,11 @@ QUANTITIES: dict[str, str | None] = {
 
 @dataclass(frozen=True)
 class Meaning:
-    """Meaning of a heading: quantity, kind of test, and base of the logarithm if it has one.
+    """Meaning of a heading: quantity, kind of test, and base of the logarithm if it has one."""
 
-    The quantity is a key of `QUANTITIES`, ``"frequency"`` for one in hertz, or ``"modulus"``: the
-    relaxation modulus in a table over time, ambiguous in one over frequency. A creep modulus is
-    read as its inverse, the creep compliance.
-    """
+    # The quantity is a key of `QUANTITIES`, ``"frequency"`` in hertz, or ``"modulus"``: the
+    # relaxation modulus over time, ambiguous over frequency. A creep modulus is read as its
+    # inverse.
 
     quantity: str
     data: Data | None = None

@@ -57,11 +57,8 @@ def is_spreadsheet(path: Path) -> bool:
 
 
 def read_sheet(path: Path) -> Sheet:
-    """Read the named sheet of a spreadsheet, or the first one that holds a table.
-
-    Rows count from 1, as the spreadsheet shows them. Titles above the table, and empty columns
-    before and behind it, are left out.
-    """
+    """Read the named sheet of a spreadsheet, or the first with a table; rows count from 1."""
+    # Titles above the table, and empty columns before and behind it, are left out.
     from python_calamine import CalamineError, CalamineWorkbook  # slow to load, and rarely needed
 
     file, wanted = split_sheet(path)

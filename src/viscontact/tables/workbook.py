@@ -47,12 +47,9 @@ _PARTS = {
 
 
 def write_workbook(file: BinaryIO, rows: Iterable[Sequence[str]]) -> None:
-    """Write rows of cells, the first with the headings, as a workbook of one sheet.
-
-    Cells are texts, as of a CSV file. Those that are finite numbers are written as numbers, so that
-    a decimal separator is chosen by the program that shows them; empty cells are left out.
-    ValueError if there are more rows or columns than a sheet has.
-    """
+    """Write rows of cells as a workbook of one sheet; ValueError if they are too many for it."""
+    # Finite numbers are written as numbers, so that the program that shows them chooses the decimal
+    # separator; empty cells are left out.
     table = [list(row) for row in rows]
     columns = max(map(len, table), default=0)
     if len(table) > _MOST_ROWS or columns > _MOST_COLUMNS:

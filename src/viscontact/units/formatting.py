@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 class ReadableUnit:
     """A unit to print or draw in: its symbol, and its size in SI units.
 
-    Examples
-    --------
     >>> ReadableUnit("mm", 1e-3)(0.0025).item()
     2.5
     """
@@ -133,8 +131,6 @@ def format_number(value: float, digits: int = 4) -> str:
 def without_trailing_zeros(number: str) -> str:
     """Drop the zeros at the end of a formatted decimal number.
 
-    Examples
-    --------
     >>> [without_trailing_zeros(number) for number in ("1.500", "10.0", "100", "1e+06")]
     ['1.5', '10', '100', '1e+06']
     """
@@ -145,8 +141,6 @@ def without_trailing_zeros(number: str) -> str:
 def format_compact(value: float, digits: int = 3) -> str:
     """Format a finite number for a label: rounded, without exponent and trailing zeros.
 
-    Examples
-    --------
     >>> format_compact(8.33333), format_compact(1000.0)
     ('8.33', '1000')
     """

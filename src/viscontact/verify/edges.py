@@ -28,10 +28,8 @@ _CORNER = 0.7034
 
 
 def _roller(cells: int) -> tuple[Comparison, ...]:
-    """Peak pressure and half width under the middle section's force; mean errors of several meshes.
-
-    The missing load beyond the roller's ends, (b/L)²/8 of the peak, is 3e-6.
-    """
+    """Peak pressure and half width under the middle section's force; mean errors of meshes."""
+    # The missing load beyond the roller's ends, (b/L)²/8 of the peak, is 3e-6.
     parts = (0.95, 0.97, 0.99, 1.0, 1.02, 1.05)
     peaks, widths = zip(*(_middle(part * cells) for part in parts), strict=True)
     return with_mean_error(peaks), with_mean_error(widths)

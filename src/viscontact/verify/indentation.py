@@ -105,10 +105,8 @@ def press_ball(
 def instants_of_change(
     material: Material, load: LoadHistory, times: Floats, radius: float, cells: float
 ) -> list[float]:
-    """Instants of contact made and lost, without the first contact [s].
-
-    They are the middles of the parts of divided steps, found in a second run on the same mesh.
-    """
+    """Instants of contact made and lost, without the first contact [s]."""
+    # The middles of the parts of divided steps, found in a second run on the same mesh.
     first = press_ball(material, load, times, radius, cells)
     between = [np.linspace(begin, end, PARTS + 1) for begin, end in first.changes[1:]]
     finer = np.unique(np.concatenate([times, *between]))

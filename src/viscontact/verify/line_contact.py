@@ -55,10 +55,8 @@ def _cylinder(cells: int) -> tuple[Comparison, ...]:
 
 
 def _creeping(steps: int) -> tuple[Comparison, ...]:
-    """Half width, and pressure in the middle at the end.
-
-    By the correspondence principle b² = 4 R q J(t)/π and p = ∫ M(t - t') db/(2 R) in the middle.
-    """
+    """Half width, and pressure in the middle at the end."""
+    # By the correspondence principle b² = 4 R q J(t)/π and p = ∫ M(t - t') db/(2 R) in the middle.
     body = Material(_CREEPING, poisson_ratio=_POISSON)
     compliance = body.contact_compliance()
 

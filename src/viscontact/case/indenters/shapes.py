@@ -158,8 +158,6 @@ Shapes = Annotated[
 def combined(shapes: Sequence[Shape]) -> indenters.Indenter:
     """Return the indenter that a list of shapes describes: their sum.
 
-    Examples
-    --------
     >>> combined([Sphere(shape="sphere", radius="5 mm")])
     Sphere(radius=0.005)
     """

@@ -65,10 +65,7 @@ class Form:
 
 @dataclass(frozen=True)
 class Reading:
-    """Match of a form with a sentence, with the values of its slots.
-
-    `expected` is the next word, empty for a complete match; `why` the error of a slot.
-    """
+    """Match of a form with a sentence: slots, next word expected ("": none), error of a slot."""
 
     form: Form
     slots: tuple[Any, ...]
@@ -80,8 +77,6 @@ class Reading:
 def read_form(text: str, forms: Sequence[Form]) -> Reading:
     """Return the form that fits a sentence.
 
-    Examples
-    --------
     >>> read_form("Wait for 2 min", [Form("hold", "hold|wait [for] TIME")]).slots
     (120.0,)
     """

@@ -29,8 +29,6 @@ class Level(NamedTuple):
 def read_level(given: Any) -> Level:
     """Read a force or a length with its unit.
 
-    Examples
-    --------
     >>> read_level("10 kN")
     Level(value=10000.0, control='force')
     >>> read_level("-5 um").control

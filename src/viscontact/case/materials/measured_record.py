@@ -21,11 +21,9 @@ _KEPT = (
 
 
 def measured_record(table: Table, data: str) -> dict[str, Any]:
-    """Return file, kind of test, number of rows, and columns in SI units.
-
-    A creep modulus, which a table holds as its inverse, is a modulus again. The strain of a creep
-    test is the compliance, strain over stress.
-    """
+    """Return file, kind of test, number of rows, and columns in SI units."""
+    # A creep modulus, which a table holds as its inverse, is a modulus again. The strain of a creep
+    # test is the compliance, strain over stress.
     rows = np.unique(np.linspace(0, len(table) - 1, min(len(table), MOST_ROWS)).round().astype(int))
     columns = [_column(table, name, rows) for name in table.columns if name in _KEPT]
     return {"file": table.source.name, "data": data, "rows": len(table), "columns": columns}
