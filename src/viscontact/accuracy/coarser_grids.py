@@ -24,8 +24,6 @@ def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid
     With `parity` even numbers of cells stay even; otherwise they become odd. It extends at least
     one cell further, so that the contact does not touch its rim.
 
-    Examples
-    --------
     >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), (2.0, 2.0), parity=True)
     Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
     """
@@ -42,11 +40,9 @@ def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid
 
 
 def aligned_spacing(run: RunSetup, spacing: float, parity: bool) -> tuple[float, float]:
-    """Ratios of cells along x and y near a given one at which the body ends alike within a cell.
-
-    Cells approximate an end by whole cells: the error is of first order in their size, with a
-    factor that depends on where within a cell the body ends.
-    """
+    """Ratios of cells along x and y near a given one at which the body ends alike within a cell."""
+    # Cells approximate an end by whole cells: the error is of first order in their size, with a
+    # factor that depends on where within a cell the body ends.
     # Where numbers of cells change their parity, edges change places with centres.
     shift = 0.0 if parity else 0.5
     ratios = []
@@ -59,11 +55,9 @@ def aligned_spacing(run: RunSetup, spacing: float, parity: bool) -> tuple[float,
 
 
 def straight_ends(run: RunSetup) -> tuple[float, float]:
-    """Distances from the grid's centre to the body's straight ends along x and y, in cells.
-
-    Those on +x and +y, or else on -x and -y; inf where there is none: the end of a round body has
-    no single place in a cell, nor has the end of a body within a period.
-    """
+    """Distances from the grid's centre to the body's straight ends along x and y, in cells."""
+    # Those on +x and +y, or else on -x and -y; inf where there is none: the end of a round body has
+    # no single place in a cell, nor has the end of a body within a period.
     inside = np.isfinite(run.open_gap)
     if all(run.grid.periodic) or inside.all():
         return np.inf, np.inf

@@ -78,12 +78,10 @@ class CoarserRun:
 
 
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
-    """Yield the coarser runs of a completed run, the cheapest first.
-
-    Two are coarser in cells and in steps. Where the time error is not known to be small, a third
-    one divides the steps that these two take like the run: the first ones behind kinks and jumps of
-    the load, and all of a run of few steps.
-    """
+    """Yield the coarser runs of a completed run, the cheapest first."""
+    # Two are coarser in cells and in steps. Where the time error is not known to be small, a third
+    # one divides the steps that these two take like the run: the first ones behind kinks and jumps
+    # of the load, and all of a run of few steps.
     times, load = history["time"], run.problem.history
     own = step_ends(plan_steps(times, load))
     creeping = creeps(run.problem.surface.creep, times)
@@ -126,10 +124,7 @@ def _kept_times(run: RunSetup, times: Floats, step_ratio: int) -> Floats:
 
 
 def _has_small_time_error(run: RunSetup, history: History) -> bool:
-    """Test whether the estimated time errors are small.
-
-    There is none where contact begins within a step, later than at time 0.
-    """
+    """Test whether the estimated time errors are small and no contact begins within a step."""
     times, peak, error = history["time"], history["peak_pressure"], history["time_error"]
     begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
     begins &= times[:-1] > 0
@@ -153,8 +148,6 @@ def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]
 
     It has a number of steps, and of cells across its largest contact.
 
-    Examples
-    --------
     >>> usual_coarsening(60, across=50)
     ((1.9, 4), (2.9, 8))
     >>> usual_coarsening(20, across=30), usual_coarsening(6, across=30)
@@ -164,11 +157,9 @@ def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]
 
 
 def _may_have_larger_cells(run: RunSetup) -> bool:
-    """Test whether the coarser runs of a contact of many cells may have larger ones than others.
-
-    The rims of a strip lie alike among the cells all along it, so that their errors do not cancel;
-    on layers, errors depend on the cells within their thickness as well.
-    """
+    """Test whether the coarser runs of a contact of many cells may have larger ones than others."""
+    # The rims of a strip lie alike among the cells all along it, so that their errors do not
+    # cancel; on layers, errors depend on the cells within their thickness as well.
     return run.grid.has_datum and not np.isfinite(run.problem.thinnest_layer)
 
 
@@ -183,10 +174,7 @@ def _step_ratios(steps: int) -> tuple[int, int]:
 def march_coarser_run(
     coarser_run: CoarserRun, on_step: Callable[[], None] | None = None
 ) -> CoarserResult | None:
-    """Solve a coarser run; None if it stops before its end.
-
-    `on_step` is called after each step, and may stop the run by an exception.
-    """
+    """Solve a coarser run; None if it stops before its end, as by an exception of `on_step`."""
     run, program_times = coarser_run.run, coarser_run.program_times
     observed = ObservedStates(run, coarser_run.spacing)
     events: OwnEvents | None = None
@@ -210,11 +198,9 @@ def march_coarser_run(
 
 
 def _parities(run: RunSetup) -> tuple[bool, bool]:
-    """Grids that keep the parity of the run's numbers of cells, the finer one first.
-
-    Of a run that is symmetric on even numbers of cells only a quarter is solved: also on grids that
-    keep the parity. They all do where the body does not end, else the larger one.
-    """
+    """Grids that keep the parity of the run's numbers of cells, the finer one first."""
+    # Of a run that is symmetric on even numbers of cells only a quarter is solved: also on grids
+    # that keep the parity. They all do where the body does not end, else the larger one.
     free = [axis for axis, repeats in enumerate(run.grid.periodic) if not repeats]
     if not all(is_even(run.open_gap, axis) for axis in free):
         return False, True

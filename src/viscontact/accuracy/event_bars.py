@@ -14,10 +14,7 @@ from viscontact.simulation.setup import RunSetup
 
 
 def event_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, str | list[float]]:
-    """Attributes with the errors of the instants of events; none without a load program.
-
-    They follow from the instants in the coarser runs, with the model of the approach.
-    """
+    """Errors of the instants of events from coarser runs, as attributes, modelled as approach."""
     load = run.problem.load
     if not isinstance(load, MixedHistory) or load.program is None:
         return {}

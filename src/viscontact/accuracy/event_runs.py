@@ -39,11 +39,9 @@ class OwnEvents:
 def own_events(
     coarse: RunSetup, times: Floats, on_state: Callable[[ContactState], None]
 ) -> OwnEvents:
-    """Carry the program of a run out on coarser cells, in steps to some of the run's times.
-
-    `on_state` is called with the state at the end of each step. EventError if a condition is not
-    met; ConvergenceError, DomainError as in `march`.
-    """
+    """Carry the program of a run out on coarser cells, in steps to some of the run's times."""
+    # `on_state` is called with the state at the end of each step. EventError if a condition is not
+    # met; ConvergenceError, DomainError as in `march`.
     own = coarse.problem.load
     assert isinstance(own, MixedHistory)
     assert own.program is not None

@@ -119,10 +119,7 @@ class ContactKinds:
 def least_bar(
     run: RunSetup, name: str, kinds: ContactKinds, history: History, by_cells: Floats
 ) -> Floats | float:
-    """Lower limit of the bars of a scalar over the run's times, in its unit.
-
-    `by_cells` is its error from the cells by the differences between the grids.
-    """
+    """Lower limit of a scalar's bars over times, in its unit, by the differences of the grids."""
     if name in EXTENTS:
         axis = EXTENTS.index(name)
         # An extent on which the grids agree at all times is that of the body.
@@ -170,12 +167,10 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
 
 
 def _tip_curvature(run: RunSetup, history: History) -> Floats:
-    """Logarithm of the cells along x, y over the radius of a slender contact's tip; (2, times).
-
-    The contact counts as an ellipse, whose tip at the end of its half axis a has the radius b²/a.
-    It is smaller along an axis along which the contact is shorter. A strip through a whole period
-    has no tip.
-    """
+    """Logarithm of the cells along x, y over the radius of a slender contact's tip; (2, times)."""
+    # The contact counts as an ellipse, whose tip at the end of its half axis a has the radius b²/a.
+    # It is smaller along an axis along which the contact is shorter. A strip through a whole period
+    # has no tip.
     extents = np.array([np.nan_to_num(history[name]) for name in EXTENTS])
     strip = _fills_period(run, history).any(axis=0)
     touching = (history["contact_area"] > 0) & (extents > 0).all(axis=0) & ~strip
@@ -186,10 +181,8 @@ def _tip_curvature(run: RunSetup, history: History) -> Floats:
 
 
 def _crest_cells(run: RunSetup, history: History, axis: int) -> Floats:
-    """Least error of the crests of a rim that waves along the only period of a grid, in cells.
-
-    A crest may lie half a cell beside the lines of cells. The rim counts as one cosine.
-    """
+    """Least error of the crests of a rim that waves along the only period of a grid, in cells."""
+    # A crest may lie half a cell beside the lines of cells. The rim counts as one cosine.
     grid, along = run.grid, 1 - axis
     if grid.has_datum or grid.periodic[axis]:
         return np.zeros(len(history["time"]))

@@ -61,10 +61,8 @@ class RefinementLevels:
 
 
 def end_flags(times: Floats, results: list[CoarserResult]) -> Floats:
-    """1 at times at which any coarser run has reached the end of the body, else 0.
-
-    Between two of its instants, a coarser run is there where it is at one of them.
-    """
+    """1 at times at which any coarser run has reached the end of the body, else 0."""
+    # Between two of its instants, a coarser run is there where it is at one of them.
     flags = np.zeros(len(times))
     for result in results:
         theirs = result.scalars["time"]
@@ -135,8 +133,6 @@ def _windows(values: Numbers, reach: int) -> Floats:
 def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
     """Maximum over a window of `reach` times on both sides; NaN where all are NaN.
 
-    Examples
-    --------
     >>> moving_maximum(np.array([1.0, np.nan, 5.0, 2.0, 0.0]), reach=1)
     array([1., 5., 5., 5., 2.])
     """
@@ -146,8 +142,6 @@ def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
 def between_known(values: Floats) -> Floats:
     """Larger one of the nearest known values on both sides; NaN where one of them is unknown.
 
-    Examples
-    --------
     >>> between_known(np.array([1.0, np.nan, 5.0, 2.0, np.nan]))
     array([ 1.,  5.,  5.,  2., nan])
     """
@@ -161,8 +155,6 @@ def between_known(values: Floats) -> Floats:
 def moving_minimum(values: Numbers) -> Floats:
     """Minimum over a window of times; NaN where all are NaN.
 
-    Examples
-    --------
     >>> moving_minimum(np.array([1.0, np.nan, 5.0]))
     array([1., 1., 1.])
     """
@@ -172,8 +164,6 @@ def moving_minimum(values: Numbers) -> Floats:
 def moving_mean(values: Floats) -> Floats:
     """Mean over a window of times without NaN; NaN where all are NaN.
 
-    Examples
-    --------
     >>> moving_mean(np.array([1.0, np.nan, 5.0]))
     array([3., 3., 3.])
     """

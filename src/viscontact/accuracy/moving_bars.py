@@ -15,10 +15,7 @@ TINY = float(np.finfo(np.float64).tiny)
 
 
 def least_resistance_bar(run: RunSetup, name: str, history: History) -> Floats:
-    """Effect of the solver's tolerance of the gap: the force times the slope of the indentation.
-
-    In the unit of the scalar, over the run's times.
-    """
+    """Effect of the tolerance of the gap over times [N]: force times slope of the indentation."""
     motion = run.problem.motion
     extent = np.fmax(history["contact_length"], history["contact_width"])
     slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(np.nan_to_num(extent), TINY)
@@ -33,12 +30,10 @@ def least_resistance_bar(run: RunSetup, name: str, history: History) -> Floats:
 
 
 def entry_rise(run: RunSetup, times: Floats) -> Floats:
-    """Possible relative rise of a peak at the leading edge of a moving contact on finer cells [-].
-
-    The material in the first cell has been in contact for the time in which the body passes a
-    cell, and is as compliant as then; it is stiffer on finer cells, up to its instant modulus. The
-    largest pressure of such a layer grows with the root of its stiffness.
-    """
+    """Possible relative rise of a peak at the leading edge of a contact on finer cells [-]."""
+    # The material in the first cell has been in contact for the time in which the body passes a
+    # cell, and is as compliant as then; it is stiffer on finer cells, up to its instant modulus.
+    # The largest pressure of such a layer grows with the root of its stiffness.
     motion, compliance = run.problem.motion, run.problem.compliance
     if motion.stands or not compliance.instant > 0:
         return np.zeros(len(times))

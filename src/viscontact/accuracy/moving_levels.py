@@ -32,8 +32,6 @@ def aligned_along(grid: Grid, fine: Grid, motion: Motion) -> Grid:
 
     Its error then differs by the cells' size only, and not by the place of the body within them.
 
-    Examples
-    --------
     >>> from viscontact.loads import Travel
     >>> fine, coarse = Grid((8, 8), (8.0, 8.0)), Grid((6, 6), (12.0, 12.0))
     >>> aligned_along(coarse, fine, Travel([0, 1], y=[0.5, 3.0])).centre
@@ -59,8 +57,6 @@ def fewer_moving_times(
 
     Of times that are not at whole cells every `step_ratio`-th, without those behind stops.
 
-    Examples
-    --------
     >>> from viscontact.loads import Travel
     >>> path = Travel([0, 6], y=[0, 6.0])
     >>> fewer_moving_times(np.arange(7.0), path.kinks, path, Grid((9, 9), (9.0, 9.0)), 3).tolist()

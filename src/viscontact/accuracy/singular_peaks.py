@@ -56,10 +56,8 @@ SINGULAR = (
 def peak_bars(
     bars: Floats, history: History, results: Sequence[CoarserResult], *, left_out: bool = False
 ) -> Floats:
-    """Bars of the peak pressure: widened at the body's end, and inf where it has no limit [Pa].
-
-    `left_out` if the automatic grid was refined without it, as it had no limit on finer cells.
-    """
+    """Bars of the peak pressure: widened at the body's end, and inf where it has no limit [Pa]."""
+    # `left_out` if the automatic grid was refined without it, as it had no limit on finer cells.
     excess = EXCESS_FACTOR * moving_maximum(_end_excess(history["time"], results))
     widened = np.maximum(bars, np.nan_to_num(excess) * history["peak_pressure"])
     unbounded = unbounded_peak(history, results)
@@ -71,15 +69,7 @@ def peak_bars(
 def singular_warnings(
     bars: Floats, indenter: Indenter, issued: Sequence[str] = ()
 ) -> tuple[str, ...]:
-    """Warning of infinite bars of the peak pressure, unless the run has issued one with the reason.
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Cone
-    >>> (warning,) = singular_warnings(np.array([np.inf]), Cone(1.4))
-    >>> warning.startswith(SINGULAR), warning.endswith("under indenter")
-    (True, True)
-    """
+    """Warning of infinite bars of the peak pressure, unless the run has given the reason."""
     is_known = any(DEPENDS_ON_MESH in text for text in issued)
     if is_known or not np.isinf(bars).any():
         return ()

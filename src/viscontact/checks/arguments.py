@@ -109,11 +109,9 @@ def check_jumps(problem: Problem) -> None:
 
 
 def points_under_load(problem: Problem) -> list[tuple[float, LoadPoint]]:
-    """Return times [s] and loads that a body on any grid must be able to carry, time 0 first.
-
-    A point without load counts where the load grows from it or falls to it; a cycle from zero to
-    zero has its load between. Where the force never moves, the first time is enough.
-    """
+    """Return times [s] and loads that a body on any grid must be able to carry, time 0 first."""
+    # A point without load counts where the load grows from it or falls to it; a cycle from zero to
+    # zero has its load between. Where the force never moves, the first time is enough.
     load, end = problem.load, problem.end
     peak = [problem.largest_load[0]] if np.isfinite(load.longest_step) else []
     instants = np.unique([*load.kinks[load.kinks < end], *peak, end])

@@ -34,16 +34,7 @@ class Cover:
 
 
 def covers_of(bodies: Iterable[Material | Layered], time: float) -> tuple[Cover, ...]:
-    """Covers of the bodies that have layers, with the moduli that they creep to [s].
-
-    Examples
-    --------
-    >>> from viscontact.laws import Elastic
-    >>> from viscontact.materials.layers import Layer
-    >>> rubber = Material(Elastic(1e6), poisson_ratio=0.49)
-    >>> covers_of([Layered([Layer(5e-3, rubber)], base="rigid")], 1.0)
-    (Cover(depth=0.005, squeezed=True, incompressible=0.005),)
-    """
+    """Covers of the bodies that have layers, with the moduli that they creep to [s]."""
     return tuple(_cover(body, time) for body in bodies if isinstance(body, Layered))
 
 
@@ -59,14 +50,6 @@ def cover_warnings(
     The shear strain at the bond of a thin incompressible layer follows from its pressure, as
     γ = h p'/G: with the pressure of thin layers (Jaffar 1989) its largest value is 0.58 w a/h²
     under a sphere and 1.15 w a/h² under a cylinder.
-
-    Examples
-    --------
-    >>> rubber = Cover(depth=5e-3, squeezed=True, incompressible=5e-3)
-    >>> list(cover_warnings([rubber], 4e-3, 0.2e-3, (1e-3, 1e-3)))
-    []
-    >>> list(cover_warnings([rubber], 20e-3, 0.6e-3, (2e-3, 2e-3)))
-    ['cover', 'squeeze', 'layer_cells']
     """
     warnings: dict[str, str] = {}
     for cover in covers:

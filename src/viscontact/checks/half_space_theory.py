@@ -116,11 +116,7 @@ def geometry_warnings(
     displacement: Floats,
     pressure: Floats,
 ) -> dict[str, str]:
-    """Warn of large strains, ends of the bodies, and parts that the grid misses.
-
-    The motion holds approach [m] and tilts [rad], the displacement that of the surface [m]; the
-    pressure is that of all cells [Pa].
-    """
+    """Warn of large strains, ends of the bodies, and parts that the grid misses [m, rad, Pa]."""
     return (
         strain_warnings(geometry, rim, motion)
         | body_warnings(geometry, rim, pressure)
@@ -167,10 +163,7 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: Floats) -> dict[str, s
 def body_warnings(
     geometry: Geometry, rim: Rim, pressure: Floats, *, has_limit: bool = False
 ) -> dict[str, str]:
-    """Warn of bodies that end where a half-space continues: profile, end face, thickness.
-
-    The pressure is that of all cells [Pa]; `has_limit` if its peak is known to have one.
-    """
+    """Warn of bodies that end where a half-space continues, by the pressure of all cells [Pa]."""
     warnings: dict[str, str] = {}
     half_width, (be, reach) = _half_width(rim), geometry._verbs
     if _touches_seam(geometry, rim):
@@ -216,11 +209,7 @@ def corner_warnings(
     strain: float,
     searched: tuple[float, float] | None = None,
 ) -> dict[str, str]:
-    """Warn of a pressure peak at a tip, an edge or a corner of the body.
-
-    The largest pressure lies at `place` [m], to within `searched` [m] (a cell if left out);
-    `strain` is `singularities.strain_of` of it [-].
-    """
+    """Warn of a pressure peak at a tip, edge or corner near `place`, within `searched` [m]."""
     cell = geometry.grid.cell_size
     along, across = (1.5 * each for each in searched or cell)
     if not is_sharp(geometry.indenter, place, (along, across), cell, strain):
@@ -262,10 +251,8 @@ def _end_warnings(
 
 
 def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
-    """True if contact lies at a step from a period's last cells to its first.
-
-    A step is much larger than the differences between neighbouring cells elsewhere.
-    """
+    """True if contact lies at a step from a period's last cells to its first."""
+    # A step is much larger than the differences between neighbouring cells elsewhere.
     for axis, lines in enumerate((rim.rows, rim.columns)):
         if not geometry.grid.periodic[axis]:
             continue

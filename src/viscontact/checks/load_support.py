@@ -20,16 +20,6 @@ class LoadSupport:
     """Region in which a force can be balanced by pressure, which is never negative.
 
     `solid` marks the cells that can touch.
-
-    Examples
-    --------
-    >>> reach = LoadSupport(np.ones((4, 4), dtype=bool), Grid((4, 4), (0.04, 0.04)))  # to 0.015 m
-    >>> reach.refuse_outside((0.01, None), 0.0)
-    >>> try:
-    ...     reach.refuse_outside((0.02, None), 0.0)
-    ... except ValueError as error:
-    ...     print(str(error)[:47])
-    load.eccentricity_x: the force acts at 20 mm at
     """
 
     def __init__(self, solid: Bools, grid: Grid) -> None:
@@ -77,10 +67,8 @@ class LoadSupport:
 
 
 def _upper_envelope(x: Floats, y: Floats) -> Floats:
-    """Upper convex hull of points of ascending x (Andrew 1979).
-
-    Not by SciPy's hulls, whose import takes a tenth of a second.
-    """
+    """Upper convex hull of points of ascending x (Andrew 1979)."""
+    # Not by SciPy's hulls, whose import takes a tenth of a second.
     corners: list[tuple[float, float]] = []
     for x2, y2 in zip(x.tolist(), y.tolist(), strict=True):
         while len(corners) > 1:

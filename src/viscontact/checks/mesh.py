@@ -23,8 +23,6 @@ WARNING_SPOT_CELLS = 4.0
 def layer_warnings(thickness: float, cell_size: tuple[float, float]) -> dict[str, str]:
     """Warn of cells that are long against the thinnest layer [m].
 
-    Examples
-    --------
     >>> list(layer_warnings(1e-3, (5e-3, 1.2e-3))), layer_warnings(1e-3, (5e-3, 1e-4))
     (['layers'], {})
     """
@@ -42,16 +40,7 @@ def layer_warnings(thickness: float, cell_size: tuple[float, float]) -> dict[str
 
 
 def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:
-    """Warn of few cells across the contact, or across the spots that it consists of.
-
-    `cells_across` counts along the shorter axis of the run's largest contact; `across_spots` comes
-    from `cells_across_spots`.
-
-    Examples
-    --------
-    >>> list(mesh_warnings(8)), list(mesh_warnings(30)), list(mesh_warnings(30, across_spots=1.5))
-    (['mesh'], [], ['spots'])
-    """
+    """Warn of few cells across the run's largest contact, or across the spots it consists of."""
     if cells_across < WARNING_CELLS:
         return {
             "mesh": (
@@ -71,18 +60,9 @@ def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str
 
 
 def cells_across_spots(contact: Bools, *, periodic: Sequence[bool] = (False, False)) -> float:
-    """Mean chord of a contact along the axis where it is smaller, in cells; 0 without contact.
-
-    It shows what the extents of a contact hide: the spots of a rough surface, or a strip that lies
-    askew on the grid.
-
-    Examples
-    --------
-    >>> spots = np.zeros((8, 8), dtype=bool)
-    >>> spots[1:3, 1:6] = spots[5:7, 1:6] = True
-    >>> cells_across_spots(spots)
-    2.0
-    """
+    """Mean chord of a contact along the axis where it is smaller, in cells; 0 without contact."""
+    # It shows what the extents of a contact hide: the spots of a rough surface, or a strip that
+    # lies askew on the grid.
     if any(periodic) and contact.all():
         return float(max(contact.shape))
     return float(mean_chords(contact, periodic=periodic).min())

@@ -91,14 +91,7 @@ def turn_warnings(problem: Problem) -> dict[str, str]:
 
 
 def left_after(compliance: ContactCompliance, turn: float) -> float:
-    """Part of the deflection in the contact that is left after a turn [s]: at most, about.
-
-    It is that after a load during a tenth of the turn, as in a contact as long as a tenth of the
-    circumference. Of a fluid all of the flow is left:
-
-    >>> round(left_after(SeriesCompliance(0.0, [], [], fluidity=2.0), 5.0), 12)
-    1.0
-    """
+    """Part of the deflection in the contact that is left after a turn [s]: at most, about."""
     passed = CONTACT_OF_TURN * turn
     loaded, before, after = compliance(np.array([passed, turn, turn + passed])).tolist()
     return float((after - before) / loaded) if loaded > 0 else 0.0
@@ -207,8 +200,6 @@ def edge_warnings(*, along: bool, across: bool) -> dict[str, str]:
 def way_warnings(way: float, half_extent: float) -> dict[str, str]:
     """Warn of a step whose way [m] is long against half the contact's extent along it [m].
 
-    Examples
-    --------
     >>> list(way_warnings(1e-4, 1e-3)), list(way_warnings(1e-3, 1e-3))
     ([], ['way'])
     """
@@ -225,10 +216,7 @@ def way_warnings(way: float, half_extent: float) -> dict[str, str]:
 
 
 def loss_shares(compliance: SeriesCompliance, rate: float) -> Floats:
-    """Shares of the retardation times in the loss compliance at an angular frequency [1/s].
-
-    They add up to one with that of the fluidity.
-    """
+    """Shares of retardation times in the loss at a rate [1/s]; 1 with the fluidity's."""
     amplitudes, times = np.asarray(compliance.amplitudes), np.asarray(compliance.times)
     loss = amplitudes * rate * times / (1 + (rate * times) ** 2)
     total = float(loss.sum()) + (compliance.fluidity / rate if rate > 0 else 0.0)
@@ -238,8 +226,6 @@ def loss_shares(compliance: SeriesCompliance, rate: float) -> Floats:
 def unresolved_loss(compliance: SeriesCompliance, rate: float, duration: float) -> float:
     """Part of the loss at an angular frequency [1/s] by retardation times shorter than a step [s].
 
-    Examples
-    --------
     >>> unresolved_loss(SeriesCompliance(1.0, [1.0], [2.0]), rate=0.1, duration=3.0)
     1.0
     """

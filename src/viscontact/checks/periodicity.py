@@ -40,19 +40,8 @@ def check_period(
 
     Along a periodic axis a load must be centred and level, and waves, dimples and height maps must
     fit into the period. An approach must not close the gap everywhere; along one periodic axis only
-    it has no datum. Layers that are `supported` by a rigid base have one, and are compressed by any
-    approach. `open_gap` is the gap on the grid [m].
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Waviness
-    >>> from viscontact.loads import step
-    >>> waves, period = Waviness(1e-6, 2e-3), Grid((8, 8), (3e-3, 1e-3), periodic=True)
-    >>> try:
-    ...     check_period(waves, waves.gap(period.x[:, None], period.y), period, step(1.0))
-    ... except ValueError as error:
-    ...     print(str(error)[:52])
-    grid.size: the body does not repeat itself over 3 mm
+    it has no datum, but on layers that are `supported` by a rigid base. `open_gap` is that on the
+    grid [m].
     """
     if not any(grid.periodic):
         return
@@ -80,10 +69,7 @@ def check_period(
 
 
 def check_endless(indenter: Indenter, grid: Grid | None) -> None:
-    """Refuse a body that continues without end along an axis along which no period ends it.
-
-    `grid` is None for an automatic grid, which is not periodic.
-    """
+    """Refuse a body without end along an axis that no period ends; `grid` None is automatic."""
     periodic = grid.periodic if grid is not None else (False, False)
     for name, endless, repeats in zip("xy", indenter.endless, periodic, strict=True):
         if endless and not repeats:

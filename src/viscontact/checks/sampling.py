@@ -73,10 +73,9 @@ class Sampling:
 
     @cached_property
     def missed(self) -> Floats:
-        """Height of a map's points over the interpolated grid, or over neighbouring points [m].
-
-        As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
-        """
+        """Height of a map's points over the interpolated grid, or over neighbouring points [m]."""
+        # As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are
+        # meant.
         x, y = self.indenter.sample_points
         if not x.size:
             return np.broadcast_to(0.0, self.grid.shape)
@@ -121,16 +120,7 @@ def local_approach(grid: Grid, motion: Floats) -> float:
 
 
 def map_warnings(missed: float, cell: float, strain: float) -> dict[str, str]:
-    """Warn of a height map that is finer than the grid.
-
-    `missed` is its largest height between the grid's points within the contact [m], `cell` the
-    longer edge of a cell [m], `strain` the approach over the contact's half width [-].
-
-    Examples
-    --------
-    >>> list(map_warnings(1e-6, 1e-5, strain=0.1)), list(map_warnings(1e-8, 1e-5, strain=0.1))
-    (['map'], [])
-    """
+    """Warn of a height map that is finer than the grid, by `missed` [m], at a strain [-]."""
     if missed <= 0 or math.pi / 2 * missed <= MISSED_PEAK * strain * cell:
         return {}
     return {
@@ -148,10 +138,7 @@ def sampling_warnings(
     motion: Floats,
     displacement: Floats,
 ) -> dict[str, str]:
-    """Warn of parts of the body under load that the grid does not represent.
-
-    The motion holds approach [m] and tilts [rad], the displacement that of the surface [m].
-    """
+    """Warn of parts of the body under load that the grid does not represent [m, rad]."""
     missed = 0.0
     if not sampling.sees_all:
         missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
@@ -175,15 +162,7 @@ def sampling_warnings(
 
 
 def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:
-    """Warn of waves or dimples with too few cells in a period, along an axis where they vary.
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Waviness
-    >>> waves, period = Waviness(1e-6, wavelength_x=1e-3), (1e-3, 1e-3)
-    >>> [list(texture_warnings(waves, Grid(shape, period))) for shape in ((4, 64), (64, 4))]
-    [['texture'], []]
-    """
+    """Warn of waves or dimples with too few cells in a period, along an axis where they vary."""
     cells, period, axis = min(
         (period / cell, period, axis)
         for period, cell, axis in zip(indenter.periods, grid.cell_size, "xy", strict=True)

@@ -41,8 +41,6 @@ class EndCells:
 def cells_at_end(open_gap: Floats) -> EndCells:
     """Cells at the end of a body whose open gap is +inf outside it [m].
 
-    Examples
-    --------
     >>> ends = cells_at_end(np.array([[0.0, 0.0, 0.0, np.inf]]))
     >>> ends.pressures(np.array([[1.0, 2.0, 3.0, 0.0]]))
     (3.0, 1.0)
@@ -111,10 +109,7 @@ def sharpest_angle(
     reach: tuple[float, float],
     cell: tuple[float, float],
 ) -> float:
-    """Angle of the sharpest corner near a place, 0 if the body is round there [rad].
-
-    Arguments as those of `is_sharp`, where angles larger than MIN_ANGLE times the strain are sharp.
-    """
+    """Angle of the sharpest corner near a place, 0 where round [rad]; see `is_sharp`."""
     x, y = (_samples(*each) for each in zip(place, reach, cell, strict=True))
     gap = indenter.gap(x[:, None], y[None, :])
     gap = np.where(np.isinf(gap), np.nan, gap)  # where the body ends, nothing bends

@@ -14,15 +14,7 @@ NOTABLE_CHANGE = 0.25
 
 
 def step_warnings(duration: float, change: float) -> dict[str, str]:
-    """Warn of a time step [s] too long for the law while load or pressure change.
-
-    `change` is the largest relative change of force and peak pressure over it [-].
-
-    Examples
-    --------
-    >>> list(step_warnings(10.0, change=0.5)), list(step_warnings(10.0, change=0.01))
-    (['step'], [])
-    """
+    """Warn of a time step [s] too long for the law, by the `change` of load and peak [-]."""
     if change < NOTABLE_CHANGE:
         return {}
     return {
@@ -35,16 +27,9 @@ def step_warnings(duration: float, change: float) -> dict[str, str]:
 
 
 def touch_warnings(duration: float, share: float) -> dict[str, str]:
-    """Warn of a load on a creeping body that grows from zero in one step [s].
-
-    The contact grows with a root of the force, which one linear step follows badly: the pressure
-    after it is off by a few per cent. `share` is the force over the largest of the history [-].
-
-    Examples
-    --------
-    >>> list(touch_warnings(0.1, share=1.0)), list(touch_warnings(0.1, share=0.1))
-    (['touch'], [])
-    """
+    """Warn of a load on a creeping body that grows from zero in one step [s]."""
+    # The contact grows with a root of the force, which one linear step follows badly: the pressure
+    # after it is off by a few per cent. `share` is the force over the largest of the history.
     if share <= NOTABLE_CHANGE:
         return {}
     return {
@@ -57,17 +42,9 @@ def touch_warnings(duration: float, share: float) -> dict[str, str]:
 
 
 def release_warnings(duration: float, share: float) -> dict[str, str]:
-    """Warn of a contact of a creeping body that is lost in one step [s] as the load falls.
-
-    Over one linear step the rim, which loses contact early, is loaded for too long: the remaining
-    indentation has an error of up to a third. `share` is the fall over the largest load of the
-    history [-].
-
-    Examples
-    --------
-    >>> list(release_warnings(0.1, share=1.0)), list(release_warnings(0.1, share=0.1))
-    (['release'], [])
-    """
+    """Warn of a contact of a creeping body that is lost in one step [s] as the load falls."""
+    # Over one linear step the rim, which loses contact early, is loaded for too long: the remaining
+    # indentation has an error of up to a third. `share` is the fall over the largest load.
     if share <= NOTABLE_CHANGE:
         return {}
     return {
@@ -80,15 +57,7 @@ def release_warnings(duration: float, share: float) -> dict[str, str]:
 
 
 def unreported_peak_warnings(peak: float, time: float, reported: float) -> dict[str, str]:
-    """Warn of a peak pressure [Pa] between the requested times that exceeds the reported one.
-
-    Examples
-    --------
-    >>> list(unreported_peak_warnings(2e6, 0.3, reported=1e6))
-    ['unreported']
-    >>> unreported_peak_warnings(1e6, 0.3, reported=1e6)
-    {}
-    """
+    """Warn of a peak pressure [Pa] between the requested times that exceeds the reported one."""
     if peak <= (1 + UNREPORTED_PEAK) * reported:
         return {}
     return {

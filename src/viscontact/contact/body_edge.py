@@ -20,10 +20,7 @@ BISECTIONS = 45
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Crossings of the indenter's outline with the lines between neighbouring cell centres.
-
-    Distances from the inner centre, in cells; NaN where the outline does not cross.
-    """
+    """Distances from inner cell centres to the indenter's outline, in cells, or NaN."""
 
     along_x: Floats  # shape (nx - 1, ny)
     along_y: Floats  # shape (nx, ny - 1)
@@ -32,8 +29,6 @@ class Outline:
 def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
     """Find by bisection where an indenter's gap becomes +inf between cell centres.
 
-    Examples
-    --------
     >>> from viscontact.indenters import FlatPunch
     >>> outline = trace_outline(FlatPunch(1.0), Grid((8, 8), (4.0, 4.0)))
     >>> round(float(outline.along_x[5, 4]), 6)  # rim at x = sqrt(1 - 0.25²), centre at 0.75
@@ -49,16 +44,7 @@ def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
 
 
 def end_cells(open_gap: Floats, depth: int) -> Bools:
-    """Cells of a body within a number of cells of its end along x, and along y.
-
-    The open gap is +inf outside the body [m]. The result has shape (2, nx, ny).
-
-    Examples
-    --------
-    >>> open_gap = np.array([[0.0, 0.0, 0.0, 0.0, np.inf]])
-    >>> end_cells(open_gap, depth=2)[1].tolist()
-    [[False, False, True, True, False]]
-    """
+    """Cells of a body within `depth` cells of its end along x, and along y, shape (2, nx, ny)."""
     outside = np.isinf(open_gap)
     near = np.zeros((2, *outside.shape), dtype=bool)
     for axis in (0, 1):

@@ -10,10 +10,8 @@ from viscontact.backend.arrays import Floats
 def height_over_neighbours(gap: Floats, axis: int) -> Floats:
     """Half the height of each point over the mean of its two neighbours along an axis [m].
 
-    The gap falls where the surface rises. 0 at dips, at the ends of a line and at holes (+inf).
+    0 at dips, at the ends of a line and at holes, where the gap is +inf.
 
-    Examples
-    --------
     >>> height_over_neighbours(np.array([[3.0], [1.0], [3.0], [2.0]]), 0).ravel().tolist()
     [0.0, 1.0, 0.0, 0.0]
     """

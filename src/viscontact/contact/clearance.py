@@ -29,23 +29,12 @@ FIRST_DISTANCE, FIRST_HEIGHT = 3.0, 1e6
 
 
 def touching_motion(gap: Floats, plane: RigidPlane, free: Bools) -> Floats:
-    """Largest approach [m] without contact, and free tilts [rad] at which the body then touches.
+    """Largest approach without contact, and free tilts at which the body then touches [m, rad].
 
-    `gap` [m] is +inf where there is no body. A body that lies on one side of the pivot can be clear
-    at any approach; the one returned is then far larger than its gap.
-
-    By the simplex method on the dual program (Dantzig 1963, Linear Programming and Extensions,
+    A body that lies on one side of the pivot can be clear at any approach: one far larger than its
+    gap. By the simplex method on the dual program (Dantzig 1963, Linear Programming and Extensions,
     chapter 5): a plane through corners around the pivot is exchanged for a lower one, through the
     cell farthest below it.
-
-    Examples
-    --------
-    A ball with the gap (x - 1)²/2 turns until it touches on both sides of the pivot:
-
-    >>> x = np.linspace(-2.5, 2.5, 6)
-    >>> row = RigidPlane(x, np.zeros(1), (1.0, 1.0))
-    >>> touching_motion((x[:, None] - 1) ** 2 / 2, row, np.array([False, True, False])).round(6)
-    array([ 0.625, -1.   ,  0.   ])
     """
     sought = np.append(0, 1 + np.flatnonzero(free[1:]))
     solid = gap[np.isfinite(gap)]
@@ -84,15 +73,7 @@ def just_clear(
     begin: Floats,
     clear: Floats,
 ) -> Floats:
-    """First motion on the way from one to another at which no cell overlaps the surface.
-
-    Examples
-    --------
-    >>> row = RigidPlane(np.array([-1.0, 1.0]), np.zeros(1), (1.0, 1.0))
-    >>> gap, level = np.array([[9.0], [0.5]]), np.array([1.0, 0.0, 0.0])
-    >>> just_clear(gap, row, level, np.array([1.0, -2.0, 0.0])).tolist()
-    [1.0, -0.5, 0.0]
-    """
+    """First motion on the way from one to another at which no cell overlaps the surface."""
     overlap = np.maximum(plane.field(begin) - gap, 0.0)
     # At most all the way, in spite of rounding.
     opening = np.maximum(np.broadcast_to(plane.field(begin - clear), gap.shape), overlap)

@@ -59,10 +59,7 @@ MIN_STEP_FRACTION = 0.1
 
 
 class BoundedCG:
-    """Bound-constrained conjugate gradients on one patch, from a guess on that patch.
-
-    The pressure and the displacement of the guess are changed in their own memory.
-    """
+    """Bound-constrained conjugate gradients on one patch, from a guess, which is overwritten."""
 
     def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
         self.problem, self.patch = problem, patch
@@ -86,10 +83,8 @@ class BoundedCG:
         self.stagnated = not (self._is_feasible() or self._project_to_feasible())
 
     def run(self, tolerance: float, max_iterations: int) -> None:
-        """Iterate until the relative residual meets the tolerance, or no progress is made.
-
-        The pressure is balanced to the rounding of its steps, which are in single precision.
-        """
+        """Iterate until the relative residual meets the tolerance, or no progress is made."""
+        # The pressure is balanced to the rounding of its steps, which are in single precision.
         best, since_best = np.inf, 0
         while not self.stagnated:
             # Step 1: measure the residual.
@@ -202,10 +197,7 @@ class BoundedCG:
             self._step_to_first_bound(length)
 
     def _is_projected_trial(self) -> bool:
-        """Put the pressure after a step of about the last length, cut and balanced, aside.
-
-        False without a cut, and where no plane factor balances it.
-        """
+        """Put the pressure after a step of the last length aside; False without a cut."""
         ahead, length = self._ahead, TRIAL_STEP_FACTOR * self._length * self._force_unit
 
         def stepped(block: RigidPlane) -> float:
@@ -217,10 +209,7 @@ class BoundedCG:
         return min(self.patch.plane.each(stepped)) < 0 and self._is_balanced(ahead)
 
     def _step_to_projected(self) -> bool:
-        """Step towards the feasible pressure set aside, at most all the way.
-
-        Return whether that is far enough.
-        """
+        """Step towards the feasible pressure set aside, at most all the way; whether far enough."""
         # Exact line search on the segment from the iterate to the projected pressure.
         plane, step = self.patch.plane, self._step_ahead()
         change = self._unit_displacement_of(step)
@@ -286,10 +275,7 @@ class BoundedCG:
         return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
 
     def _project_to_feasible(self, *, is_ahead: bool = False) -> bool:
-        """Cut off tension and restore the balances; whether that was possible.
-
-        Of the iterate's pressure, or of one that has been put aside.
-        """
+        """Cut off tension of a pressure and restore the balances; whether that was possible."""
         ahead = self._ahead
         if not is_ahead:
             ahead[...] = self.iterate.pressure
@@ -320,10 +306,8 @@ def _largest_displacement(problem: ContactProblem, iterate: Guess) -> float:
 
 
 def _inner(plane: RigidPlane, field: Singles, *others: Singles) -> list[float]:
-    """Inner products with other fields, in double precision but for the rows.
-
-    Not by BLAS, which would start threads.
-    """
+    """Inner products with other fields, in double precision but for the rows."""
+    # Not by BLAS, which would start threads.
 
     def of_rows(block: RigidPlane) -> Floats:
         here = field[block.rows]

@@ -34,8 +34,8 @@ def contact_residual(
 ) -> ContactResidual:
     """Step 1: rigid motion by least squares over the contact, gap and residual.
 
-    The cells under pressure and the gap, in a `unit` [m], are written to `into` if that is given.
-    `first` works on each block of the iterate before it is read.
+    Cells under pressure and gap, in a `unit` [m], are written to `into`; `first` works on each
+    block.
     """
     shape = iterate.pressure.shape
     contact, gap = into or (np.empty(shape, bool), np.empty(shape))

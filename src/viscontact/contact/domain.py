@@ -43,22 +43,14 @@ class ContactDomain:
     """Half-space under a grid, with operators on all cells and on patches around contacts.
 
     The search for the pressure runs on the contact's patch, by changes convolved in single
-    precision, at a fraction of the cost of the whole grid; its result is convolved and checked on
-    the whole grid in double precision (`convolution`). The last patch is kept, since a creeping
-    contact stays in it for many steps.
+    precision; its result is convolved and checked on the whole grid in double precision
+    (`convolution`). The last patch is kept, since a creeping contact stays in it for many steps.
 
-    A problem that is even across x = 0 or y = 0 (`mirrored`) needs the cells beyond only: its
-    fields are reduced by `reduce_by_symmetry`, its constraints by `reduced_constraints`. Along a
-    periodic axis a grid is not mirrored, patches are as long as the period, and nothing is padded;
-    on a grid periodic along both the preconditioner is the exact inverse. On one that is periodic
-    along one axis displacement counts from that at the distance of the grid's size across from a
-    line load.
-
-    Examples
-    --------
-    >>> domain = ContactDomain(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
-    >>> domain.reduce_by_symmetry(np.ones((4, 8))).shape
-    (4, 4)
+    A problem that is even across x = 0 or y = 0 (`mirrored`) needs the cells beyond only: see
+    `reduce_by_symmetry` and `reduced_constraints`. Along a periodic axis a grid is not mirrored,
+    patches are as long as the period, and nothing is padded. On a grid periodic along both axes the
+    preconditioner is the exact inverse; along one, displacement counts from that of a line load at
+    the distance of the grid's size.
     """
 
     whole: Patch  # all cells of the domain
@@ -168,10 +160,7 @@ class ContactDomain:
         return constraints
 
     def patch_around(self, cells: Bools) -> Patch:
-        """Patch that holds the given cells with some room to grow.
-
-        The last patch if it fits well, the whole grid if a patch would save little.
-        """
+        """Last patch if it fits the given cells, else one with room to grow, or the grid."""
         if all(self.grid.periodic) or not cells.any():
             return self.whole
         rows, columns = (self._lines(np.any(cells, axis=1 - axis), axis) for axis in (0, 1))
@@ -225,10 +214,9 @@ class ContactDomain:
         )
 
     def _influence_table(self) -> Floats:
-        """Influence coefficients between all cells of the grid.
-
-        None for a periodic one, and for a half-space, where those of each block are soon computed.
-        """
+        """Influence coefficients between all cells of the grid."""
+        # Empty for a periodic one, and for a half-space, where those of each block are soon
+        # computed.
         if all(self.grid.periodic) or self._parts or self._is_plain(self.response):
             return np.empty((0, 0))
         if not isinstance(self.response, SummedResponse):
@@ -336,10 +324,7 @@ def _arm(shape: tuple[int, int], grid: Grid) -> float:
 
 
 def mirrored_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) -> tuple[bool, bool]:
-    """Symmetry of a problem across x = 0 and across y = 0: True if gap and load are even.
-
-    Moments are about the origin, so that the grid must be centred on it along the axis.
-    """
+    """Evenness of gap and load across x = 0 and y = 0, on a grid that is centred there."""
     along_x, along_y = (
         even_load[axis]
         and not grid.periodic[axis]

@@ -64,11 +64,11 @@ def solve_contact(
 ) -> ContactSolution:
     """Solve for the pressure and rigid motion that satisfy contact conditions and balances.
 
-    The unit displacement of a guess must belong to its pressure; tension in it is cut off and its
-    balances are restored. The solution is found in the memory of the guess. Without a guess, or if
-    it does not converge, the solve starts from the solution on a coarser grid, and on the coarsest
-    from a Winkler foundation. The tolerance bounds the relative residual and the relative
-    imbalance. ``converged`` is False if the iteration stagnates or uses up `max_iterations`.
+    The unit displacement of a guess must belong to its pressure; the solution is found in its
+    memory. Without a guess, or if it does not converge, the solve starts from the solution on a
+    coarser grid, and on the coarsest from a Winkler foundation. The tolerance bounds the relative
+    residual and imbalance. ``converged`` is False if the iteration stagnates or uses up
+    `max_iterations`.
     """
     problem = _above_rounding(problem, domain, tolerance)
     spent = 0, 0
@@ -181,10 +181,7 @@ def _is_balanced(
 
 
 def _cold_start(problem: ContactProblem, domain: ContactDomain, memory: Floats) -> Guess:
-    """Nested iteration: the solution of a coarser grid, on the coarsest a Winkler foundation.
-
-    It is put into the given memory, of shape (2, nx, ny).
-    """
+    """Nested iteration from coarser grids, the coarsest a Winkler foundation; (2, nx, ny)."""
     coarser = domain.coarser()
     # A body may be too narrow to lie under any four cells.
     if coarser is None or not np.isfinite((coarsened := problem.coarsened()).open_gap).any():

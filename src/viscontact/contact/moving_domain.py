@@ -36,17 +36,13 @@ COARSEST = 32
 
 
 class MovingDomain(ContactDomain):
-    """Surface under a body in steady motion, in the coordinates of the body.
+    """Surface under a body in steady motion towards the positive end of `axis`, in its coordinates.
 
-    The unit displacement is that of the moving contact over a reference compliance
-    (`compliance`): that of a wave as long as the grid, so that it has the size of an elastic one.
-    Only evenness across the motion halves the problem. The grid may be periodic across the motion,
-    or along both axes, under a body that is periodic itself.
-
-    `axis` is that of the motion, which is towards its positive end; `mirrored` means even across
-    it. `added` is an elastic compliance added to the operator [1/Pa], for the proximal point
-    method; `moving_table` the influence table without it, if it is known. On layers the terms of
-    the `surface` are added; elastic, it is then the one at rest, over that of the reference wave.
+    The unit displacement is over a reference `compliance`, that of a wave as long as the grid, so
+    that it has the size of an elastic one. `mirrored` means even across the motion. The grid may be
+    periodic across the motion, or along both axes, under a body that is periodic itself. `added` is
+    an elastic compliance [1/Pa], for the proximal point method; `moving_table` the influence table
+    without it.
     """
 
     def __init__(
@@ -71,10 +67,7 @@ class MovingDomain(ContactDomain):
         super().__init__(grid, mirrored=even, transforms=transforms)
 
     def coarser(self) -> MovingDomain | None:
-        """Same region in cells twice as long and wide; None if their number is odd or too small.
-
-        An axis with a single cell keeps it.
-        """
+        """Same region in doubled cells, but for an axis of one; None if odd or too small."""
         shape = coarser_shape(self.grid.shape)
         if shape is None or np.any(np.logical_and(self.mirrored, np.mod(shape, 2))):
             return None
@@ -109,10 +102,8 @@ class MovingDomain(ContactDomain):
 
     @property
     def _drift(self) -> float:
-        """Slope of the surface behind a line contact by its old creep, per pressure of a cell [-].
-
-        The deflection of a strip falls as -(2/π) F ln(distance) with the force F on its length.
-        """
+        """Slope of the surface behind a line contact by old creep, per pressure of a cell [-]."""
+        # The deflection of a strip falls as -(2/π) F ln(distance) with the force F on its length.
         if self.grid.has_datum:
             return 0.0
         across = self.grid.shape[1 - self.axis]
@@ -267,8 +258,6 @@ def _remembered(coefficient: Coefficient) -> Coefficient:
 def coarser_shape(shape: tuple[int, int]) -> tuple[int, int] | None:
     """Half the numbers of cells; None if they are odd or too small. A single cell is kept.
 
-    Examples
-    --------
     >>> coarser_shape((64, 1)), coarser_shape((64, 62))
     ((32, 1), None)
     """

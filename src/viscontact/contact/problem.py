@@ -27,10 +27,7 @@ class ContactProblem:
         return replace(self, open_gap=patch.cut(self.open_gap))
 
     def coarsened(self) -> ContactProblem:
-        """Same problem in cells twice as long and wide, with the mean gap of the four.
-
-        An axis with a single cell keeps it.
-        """
+        """Same problem in doubled cells, but for an axis of one, with the mean gap."""
         nx, ny = self.open_gap.shape
         pair_x, pair_y = min(nx, 2), min(ny, 2)
         fours = self.open_gap.reshape(nx // pair_x, pair_x, ny // pair_y, pair_y)

@@ -18,11 +18,10 @@ Operator = Convolution | PeriodicConvolution
 
 
 class PartOperators:
-    """Operators of each part over one block of cells, of which those of a sum are made.
+    """Operators of each part over one block of cells, of which those of a sum are made."""
 
-    In each step the layers' terms have other weights. The symbol of their sum is that of the parts'
-    symbols, which need no new transform.
-    """
+    # In each step the layers' terms have other weights. The symbol of their sum is that of the
+    # parts' symbols, which need no new transform.
 
     def __init__(
         self,

@@ -84,11 +84,7 @@ class Constraints:
         return np.where(self.free, motion, np.array(self.motions))
 
     def imbalance(self, sums: Floats, arm: float) -> float:
-        """Largest relative error of the balances of resultants `sums` [N, N m, N m].
-
-        Moments are divided by `arm` [m]; errors are relative to the force or its target, the
-        larger.
-        """
+        """Largest error of `sums` [N, N m, N m] over the force or target; `arm` in [m]."""
         force = max(abs(self.targets[0]), abs(float(sums[0])), LEAST_FORCE)
         error = (sums - self.targets) / (force * np.array([1.0, arm, arm]))
         return float(np.abs(error[self.free]).max(initial=0.0))
@@ -97,15 +93,9 @@ class Constraints:
 class RigidPlane:
     """Planes c0 + c1 x + c2 y on a block of cells, and sums of fields against 1, x, y.
 
-    `x` and `y` are cell centres [m]. Mirrored cells count for their mirror images across x = 0, or
-    y = 0, as well: sums that are odd along that axis vanish. Passes over the fields of the cells go
-    through blocks of rows, `each` of which is a plane on its own, by the threads of a `team`.
-
-    Examples
-    --------
-    >>> row = np.array([0.5, 1.5])
-    >>> RigidPlane(row, row, (1.0, 1.0), (False, True)).sums(np.ones((2, 2))).tolist()
-    [4.0, 4.0, 0.0]
+    `x` and `y` are cell centres [m]. Mirrored cells count for their mirror images as well: sums
+    that are odd along that axis vanish. Passes over fields go through blocks of rows, `each` a
+    plane, by a `team`.
     """
 
     def __init__(
@@ -177,11 +167,9 @@ class RigidPlane:
         return np.array([along_x.sum(), moment_x, moment_y])
 
     def inverse_gram(self, weight: Numbers, free: Bools) -> Floats:
-        """Pseudo-inverse of the weighted sums of (1, x, y) (1, x, y)ᵀ over the free coefficients.
-
-        Where the cells determine only some coefficients (one cell, or a line of cells) the others
-        are of least norm about the cells' centre.
-        """
+        """Pseudo-inverse of weighted sums of (1, x, y) (1, x, y)ᵀ over free coefficients."""
+        # Where the cells determine only some coefficients (one cell, or a line of cells) the others
+        # are of least norm about the cells' centre.
         moments = self.each(lambda block: block.moments_of_rows(weight[block.rows]))
         return self.inverse_of(moments, free)
 
@@ -218,10 +206,8 @@ def added(parts: Sequence[Floats]) -> Floats:
 
 
 def _inverse(moments: tuple[float, ...], free: Bools) -> Floats:
-    """Rank-revealing inverse: eliminates the mean first, if it is free, then the slopes.
-
-    In plain numbers, as it is called in every iteration, and arrays of three are slow.
-    """
+    """Rank-revealing inverse: eliminates the mean first, if it is free, then the slopes."""
+    # In plain numbers, as it is called in every iteration, and arrays of three are slow.
     n, x, y, xx, xy, yy = moments
     if n <= 0:
         return np.zeros((3, 3))
@@ -260,11 +246,7 @@ def restore_balance(
     cell_area: float,
     arm: float,
 ) -> Floats | None:
-    """Cut off tension, and multiply by a plane so that force and moments match the constraints.
-
-    None if the cells under pressure cannot carry the resultants. `arm` [m] scales moments as in
-    `Constraints.imbalance`.
-    """
+    """Cut off tension and multiply by a plane that restores the resultants; None if none can."""
     restored = pressure.copy()
     return restored if balance(restored, constraints, plane, cell_area, arm) else None
 

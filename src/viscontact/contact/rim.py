@@ -33,11 +33,10 @@ SEGMENT_LOSS, LEAST_SEGMENTS = 2.1, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Rim:
-    """Cells in contact, and crossings of the rim with the lines between cell centres.
+    """Cells in contact, and crossings of the rim with the lines between cell centres."""
 
-    The fields cover a block around the contact. Along a periodic axis it may cross the border;
-    where the contact does so all around, the block ends with the row that it begins with.
-    """
+    # The fields cover a block around the contact. Along a periodic axis it may cross the border;
+    # where the contact does so all around, the block ends with the row that it begins with.
 
     grid: Grid
     contact: Bools  # cells under pressure in the block
@@ -72,11 +71,7 @@ class Rim:
 
     @property
     def breadth(self) -> float:
-        """Shorter extent of the contact [m].
-
-        An axis along which the contact continues through the whole period does not count, if there
-        is another.
-        """
+        """Shorter extent; one through a whole period does not count if there is another [m]."""
         extents = (self.length, self.width)
         ended = [own for own, whole in zip(extents, self.grid.size, strict=True) if own < whole]
         return min(ended or extents)
@@ -89,11 +84,9 @@ class Rim:
 
     @property
     def cells_across(self) -> int:
-        """Rows or columns of cells that have contact, the fewer of the two.
-
-        An axis along which the contact continues through the whole period does not count; without
-        any other, it is the number of cells of the grid.
-        """
+        """Rows or columns of cells that have contact, the fewer of the two."""
+        # An axis along which the contact continues through the whole period does not count; without
+        # any other, it is the number of cells of the grid.
         lines, counts = (self.rows, self.columns), self.grid.shape
         touched = [len(each) for each in self._touched]
         ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
@@ -113,8 +106,6 @@ def mean_chords(contact: Bools, *, periodic: Sequence[bool] = (False, False)) ->
 
     Along a periodic axis the last cell of a line is followed by the first.
 
-    Examples
-    --------
     >>> spots = np.zeros((8, 8), dtype=bool)
     >>> spots[1:3, 1:6] = spots[5:7, 1:6] = True
     >>> mean_chords(spots).tolist()
@@ -133,27 +124,12 @@ def trace_rim(
     gap: Floats,
     outline: Outline | None = None,
 ) -> Rim:
-    """Locate the rim of a contact between cell centres.
+    """Locate the rim of a contact between cell centres; the area is of second order.
 
-    The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the middle
-    between two centres if none is given. The area is accurate to the second order.
-
-    Notes
-    -----
-    The square root of the pressure inside a smooth rim belongs to an opening of distance^(3/2)
-    outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep law.
-
-    Examples
-    --------
-    A straight edge 0.4 cells outside the inner centre:
-
-    >>> from viscontact.contact.straight_edge import edge_law
-    >>> law = edge_law(1.0, periodic=False)
-    >>> t, (b, c) = 0.6 - law.threshold, law.growth
-    >>> gap = np.tile([0.0, t, 1 + (1 + b) * t, 2 + b + (1 + b + c) * t], (4, 1)).T
-    >>> rim = trace_rim(Grid((4, 4), (4.0, 4.0)), gap == 0, gap)
-    >>> float(round(rim.along_x[0, 0], 12))
-    0.4
+    The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the
+    middle. The square root of the pressure inside a smooth rim belongs to an opening of
+    distance^(3/2) outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep
+    law.
     """
     if any(grid.periodic):
         return _trace_around(grid, contact, gap, outline)

@@ -44,10 +44,7 @@ class _Intervals:
 def locate_rim(
     grid: Grid, contact: Bools, gap: Floats, ends: tuple[Floats, Floats] | None
 ) -> tuple[Floats, Floats]:
-    """Distances from the inner centres, in cells, where contact changes along x and along y.
-
-    `ends` are the distances to the body's outline; NaN, or none at all, is the middle.
-    """
+    """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
     intervals = _changes(contact)
     touches, gaps = _padded(contact, outside=False), _padded(gap, outside=np.inf)
     located, slope = _by_gaps(grid, intervals, touches.ravel(), gaps.ravel())
@@ -106,10 +103,8 @@ def _changes(contact: Bools) -> _Intervals:
 def _by_gaps(
     grid: Grid, intervals: _Intervals, contact: Bools, gap: Floats
 ) -> tuple[Floats, Floats]:
-    """Distances from the inner centres by the gaps further out, and slopes of the rim.
-
-    The middle, if the second gap is not wider (a groove of one cell, the body's end).
-    """
+    """Distances from the inner centres by the gaps further out, and slopes of the rim."""
+    # The middle, if the second gap is not wider (a groove of one cell, the body's end).
     outer, outwards = intervals.outer, intervals.outwards
     second = outer + outwards
     near, far, farther = np.maximum(gap[outer], 0.0), gap[second], gap[second + outwards]
@@ -145,10 +140,8 @@ def _body_ends(ends: tuple[Floats, Floats], intervals: _Intervals, width: int) -
 
 
 def _by_chords(fields: Floats, intervals: _Intervals, contact: Bools, opens: Bools) -> Floats:
-    """Distances of chords between the nearest crossings along the other axis, NaN without both.
-
-    The gap increases towards the next line where it `opens`, else towards the line before.
-    """
+    """Distances of chords between the nearest crossings along the other axis, NaN without both."""
+    # The gap increases towards the next line where it `opens`, else towards the line before.
     across, inner, outer = intervals.across, intervals.inner, intervals.outer
     up = np.where(opens, across, -across)
     crossed = contact[inner - up] & contact[outer - up] & ~contact[inner + up]

@@ -26,10 +26,9 @@ FEW_CHANGES = 1e-3
 
 
 class RimStiffness:
-    """Stiffness of a patch against a uniform displacement of the active cells, the others held.
+    """Stiffness of a patch against a uniform displacement of the active cells, the others held."""
 
-    It is kept while the active cells change: where few do, only their neighbours' is corrected.
-    """
+    # It is kept while the active cells change: where few do, only their neighbours' is corrected.
 
     def __init__(self, patch: Patch) -> None:
         self._patch = patch

@@ -113,11 +113,9 @@ class _LinearSystem:
         self._inverse = patch.plane.inverse_gram(self._weight, problem.constraints.free)
 
     def closed(self, gap: Floats, accuracy: float) -> tuple[Floats, Floats]:
-        """Change of pressure that closes the gap on the set, and the gap after it.
-
-        By GMRES, preconditioned from the right, until the norm of the gap on the set is
-        down to an accuracy [m] or a fiftieth.
-        """
+        """Change of pressure that closes the gap on the set, and the gap after it."""
+        # By GMRES, preconditioned from the right, until the norm of the gap on the set is down to
+        # an accuracy [m] or a fiftieth.
         cells = self.cells
         residual = self._projected(gap)[cells]
         norm = _norm(residual)

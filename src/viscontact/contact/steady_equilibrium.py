@@ -53,12 +53,9 @@ def solve_steady_contact(
     *,
     tolerance: float = 1e-6,
 ) -> SteadySolution:
-    """Solve for the steady pressure and rigid motion, as `solve_contact` does at one instant.
-
-    The compliance of the problem is that of the domain. Without a guess, or if the search from it
-    fails, it starts from the solution on a coarser grid, and on the coarsest from a Winkler
-    foundation.
-    """
+    """Solve for the steady pressure and rigid motion, as `solve_contact` does at one instant."""
+    # Without a guess, or if the search from it fails, it starts from the solution on a coarser
+    # grid, and on the coarsest from a Winkler foundation.
     work = 0.0
     if guess is not None and (start := _balanced(guess, problem, domain)) is not None:
         found = newton_search(problem, domain, start, tolerance, max_steps=STEPS_FROM_GUESS)

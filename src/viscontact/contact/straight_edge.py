@@ -62,10 +62,7 @@ class EdgeLaw:
     offsets: tuple[float, ...] = (0.0,)  # mean errors of the distance at these slopes [cells]
 
     def distance(self, first: Floats, second: Floats, third: Floats) -> Floats:
-        """Distance from the rim of the first of three open centres along a line, in cells.
-
-        The gaps increase outwards; a third of NaN is unknown.
-        """
+        """Distance of the rim from the first of three open centres, in cells, by their gaps."""
         b, c = self.growth
         slack = second - (1 + b) * first
         t = np.full_like(first, MAX_DISTANCE)
@@ -88,14 +85,7 @@ class EdgeLaw:
 
 @lru_cache(maxsize=256)
 def edge_law(cell_ratio: float, *, periodic: bool) -> EdgeLaw:
-    """Law of the gaps along lines of a grid; `cell_ratio` is a cell's breadth over its length.
-
-    Examples
-    --------
-    >>> law = edge_law(1.0, periodic=False)
-    >>> round(law.threshold, 3), round(law.growth[0], 3), round(law.offsets[-1], 3)
-    (0.175, 0.574, 0.013)
-    """
+    """Law of the gaps along lines of a grid; `cell_ratio` is a cell's breadth over its length."""
     edge = _straight_edge(1, 0, cell_ratio, periodic=periodic)
     law = EdgeLaw(edge.threshold, (float(edge.growth[1]), float(edge.growth[2])))
     edges = [_straight_edge(*normal, cell_ratio, periodic=periodic) for normal in NORMALS]
@@ -152,11 +142,9 @@ def _straight_edge(m: int, n: int, cell_ratio: float, *, periodic: bool) -> _Str
 
 
 def _symbol(phase_x: Floats, phase_y: Floats, cell_ratio: float, *, periodic: bool) -> Floats:
-    """1/|q| of the half-space on cells of unit length at phases per cell along both axes.
-
-    On a periodic grid the coefficients have the exact symbol. Elsewhere they belong to rectangles
-    of uniform pressure: means over a cell, with all aliases of the sampled displacement.
-    """
+    """1/|q| of the half-space on cells of unit length at phases per cell along both axes."""
+    # On a periodic grid the coefficients have the exact symbol. Elsewhere they belong to rectangles
+    # of uniform pressure: means over a cell, with all aliases of the sampled displacement.
     phases = [(each + np.pi) % (2 * np.pi) - np.pi for each in (phase_x, phase_y)]
     if periodic:
         return np.asarray(1 / np.hypot(phases[0], phases[1] / cell_ratio))

@@ -30,12 +30,9 @@ def winkler_contact(
     plane: RigidPlane,
     cell_area: float,
 ) -> tuple[Floats, Floats]:
-    """Balanced pressure [Pa] and rigid motion of a body on a Winkler foundation.
-
-    The stiffness of the springs is matched to the half-space by the size of the contact, 1/(J
-    sqrt(area)). `open_gap` [m] is +inf where there is no body, the compliance is J [1/Pa], the
-    motion approach [m] and tilts [rad].
-    """
+    """Balanced pressure [Pa] and rigid motion [m, rad] of a body on a Winkler foundation."""
+    # The stiffness of the springs is matched to the half-space by the size of the contact, 1/(J
+    # sqrt(area)).
     given = constraints.with_prescribed(np.zeros(3))
     gap = open_gap - plane.field(given)
     if not constraints.free[0]:
@@ -78,23 +75,8 @@ def project_onto_balance(
     plane: RigidPlane,
     cell_area: float,
 ) -> Floats:
-    """Nearest non-negative pressure [Pa] with the prescribed resultants.
-
-    A plane is added and tension cut off, as on springs that are already compressed. Only the given
-    `cells` carry pressure; together they must be able to carry the load. The balances hold to a few
-    digits at least.
-
-    Examples
-    --------
-    Two newtons at the middle one of three cells of 1 m², one of which pulls; the first and the
-    last have to carry alike:
-
-    >>> row = RigidPlane(np.array([-1.0, 0.0, 1.0]), np.zeros(1), (1.0, 1.0))
-    >>> pressure, cells = np.array([[3.0], [-2.0], [-1.0]]), np.ones((3, 1), dtype=bool)
-    >>> centred = Constraints((2.0, 0.0, None))
-    >>> project_onto_balance(pressure, cells, centred, row, 1.0).round(9).tolist()
-    [[1.0], [0.0], [1.0]]
-    """
+    """Nearest pressure >= 0 [Pa] on `cells` with the prescribed resultants, to a few digits."""
+    # A plane is added and tension cut off, as on springs that are already compressed.
     tension = np.where(cells, -pressure, np.inf)
     target = constraints.targets / cell_area
     _, balanced = _newton_solve(
@@ -132,11 +114,9 @@ def _newton_solve(
     free: Bools,
     bearing: Floats,
 ) -> tuple[Floats, Floats]:
-    """Motion of least energy and its overlap, by a damped Newton method.
-
-    The cells in contact on the last, softer foundation (`bearing`) add a little stiffness, so that
-    the Hessian is never singular.
-    """
+    """Motion of least energy and its overlap, by a damped Newton method."""
+    # The cells in contact on the last, softer foundation (`bearing`) add a little stiffness, so
+    # that the Hessian is never singular.
     energy, overlap = _energy(gap, motion, target, plane)
     for _ in range(MAX_NEWTON):
         inverse = plane.inverse_gram((overlap > 0) + REGULARISATION * bearing, free)

@@ -48,8 +48,6 @@ def estimated_steps(
 ) -> float:
     """Estimated number of adaptive steps, within a factor of two if J(0) > 0.
 
-    Examples
-    --------
     >>> from viscontact.materials.compliance import SeriesCompliance
     >>> from viscontact.loads import step
     >>> zener = SeriesCompliance(1.0, [1.0], [2.0])
@@ -69,11 +67,10 @@ def estimated_steps(
 
 
 class AdaptiveSteps:
-    """Controller that chooses each step by the error of the last one.
+    """Controller that chooses each step by the error of the last one."""
 
-    `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
-    which longer steps end, increasing: those at which a moving body has passed whole cells [s].
-    """
+    # `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
+    # which longer steps end, increasing: those at which a moving body has passed whole cells [s].
 
     def __init__(
         self,

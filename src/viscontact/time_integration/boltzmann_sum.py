@@ -32,22 +32,8 @@ BLOCK_CELLS = 2048
 class BoltzmannSum(HereditaryIntegral):
     """Running hereditary integral of one field under any law, by superposition of increments.
 
-    `instants` are the planned ends of the steps, a jump's twice [s]: sums are computed for several
-    of them at once, and singly for a step that ends elsewhere. Memory is reserved for `steps`
-    increments, and grows beyond them.
-
-    Examples
-    --------
-    A fluid, J = 1 + t, under q = 1 from time 0 on, has the displacement J(2) = 3 at t = 2:
-
-    >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> memory = BoltzmannSum(SeriesCompliance(1.0, (), (), 1.0), (1,))
-    >>> memory.jump().compliance
-    1.0
-    >>> memory.accept(np.ones(1))
-    >>> response = memory.ramp(2.0)
-    >>> float(response.history[0] + response.compliance * 1.0)
-    3.0
+    `instants` are planned ends of steps, a jump's twice [s]: sums are computed for several of them
+    at once, singly for others. Memory for `steps` increments is reserved, and grows beyond them.
     """
 
     def __init__(

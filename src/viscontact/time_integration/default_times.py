@@ -40,17 +40,7 @@ SPHERE_EXPONENT = 2 / 3
 
 
 def default_times(load: LoadHistory, compliance: ContactCompliance) -> Floats:
-    """Times up to the end of the load, or of the creep under a load that is held [s].
-
-    Examples
-    --------
-    >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> from viscontact.loads import ramp
-    >>> law = SeriesCompliance(1.0, [9.0], [10.0])
-    >>> times = default_times(ramp(1.0, 0.5), law)
-    >>> float(times[-1]), 0.5 in times, int((times < 0.5).sum())
-    (50.5, True, 18)
-    """
+    """Times up to the end of the load, or of the creep under a load that is held [s]."""
     end = default_end(load, compliance)
     if end == 0:
         return np.zeros(1)

@@ -23,8 +23,7 @@ SMALL_RATIO = 1e-3
 def power_lost(compliance: SeriesCompliance, variables: Floats, value: Floats) -> float:
     """Power lost at an instant, over the area of a cell [W/m²].
 
-    `value` are pressure [Pa] and unit displacement [Pa m], shape (2, nx, ny); `variables` are the
-    internal variables of both, one for each term.
+    `value`: pressure [Pa], unit displacement [Pa m], (2, nx, ny); `variables`: both, for each term.
     """
     power = compliance.fluidity * _product(value, value)
     for amplitude, time, variable in zip(
@@ -45,8 +44,6 @@ def heat_of_step(
     `variables` are the internal variables at its beginning, `parts` its linear parts: duration [s],
     and pressure and unit displacement at both ends.
 
-    Examples
-    --------
     A Kelvin unit, J = 1 - exp(-t), under q = 1 from time 0: all of its heat is 1/2.
 
     >>> unit = SeriesCompliance(0.0, [1.0], [1.0])

@@ -41,11 +41,9 @@ class ElasticReference:
 def predict(
     past: Sequence[ElasticReference], time: float, drive: float, team: Team | None = None
 ) -> ElasticReference | None:
-    """Extrapolate the elastic reference to a time [s] and its drive [m² or m].
-
-    `past` holds those since the load's last kink or jump, oldest first. Linear in the drive where
-    that moves steadily, else in time; constant with one past reference, None without any.
-    """
+    """Extrapolate the elastic reference to a time [s] and its drive [m² or m]."""
+    # `past` holds those since the load's last kink or jump, oldest first. Linear in the drive where
+    # that moves steadily, else in time; constant with one past reference, None without any.
     if not past:
         return None
     known = past[-EXTRAPOLATION_POINTS:]
@@ -72,8 +70,6 @@ def shifted(fields: Floats, cells: tuple[int, int], *, periodic: tuple[bool, boo
 
     What enters at a border is a copy of the last values there, along a period what leaves.
 
-    Examples
-    --------
     >>> shifted(np.array([[1.0, 2.0, 3.0]]), (0, 1), periodic=(False, False)).tolist()
     [[1.0, 1.0, 2.0]]
     """
@@ -97,13 +93,7 @@ def _is_steady(drives: Sequence[float]) -> bool:
 
 
 def lagrange_weights(nodes: Sequence[float], at: float) -> list[float]:
-    """Weights of the values at distinct nodes in their polynomial's value at a point.
-
-    Examples
-    --------
-    >>> lagrange_weights([0.0, 1.0], 2.0)
-    [-1.0, 2.0]
-    """
+    """Weights of the values at distinct nodes in their polynomial's value at a point."""
     return [
         math.prod((at - other) / (node - other) for other in nodes if other != node)
         for node in nodes

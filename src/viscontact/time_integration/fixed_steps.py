@@ -50,13 +50,6 @@ def plan_steps(times: Floats, load: LoadHistory, step_ratio: float = 1.0) -> tup
 
     A time that differs from a kink by rounding is taken as the kink. Steps longer than `step_ratio`
     times what the load allows are divided.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from viscontact.loads import ramp
-    >>> [step.time for step in plan_steps(np.array([0.0, 2.0]), ramp(1.0, 0.5))]
-    [0.0, 0.5, 2.0]
     """
     wanted = _requested_ends(times, load, step_ratio * load.longest_step)
     _refuse_endless_span(list(wanted))
@@ -174,8 +167,6 @@ def _up_to(
 def snap_to_kink(time: float, kinks: Floats) -> float:
     """Kink that a time differs from by rounding only, else the time [s].
 
-    Examples
-    --------
     >>> import numpy as np
     >>> snap_to_kink(0.1 + 0.2, np.array([0.3])), snap_to_kink(0.31, np.array([0.3]))
     (0.3, 0.31)

@@ -62,20 +62,15 @@ class HereditaryIntegral(ABC):
 
     @abstractmethod
     def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
-        """Response to a step of a positive duration [s], `smooth` if no kink is at its beginning.
-
-        The field rises linearly: over the whole step, with an error of second order, wherever the
-        step is short enough for the law. Over a step long against the relaxation times that would
-        make the field oscillate about its true value from step to step; there it rises over the
-        first part of the step only (`step_shape`).
-        """
+        """Response to a step of a duration > 0 [s], `smooth` without kink at its beginning."""
+        # The field rises linearly: over the whole step, with an error of second order, wherever the
+        # step is short enough for the law. Over a step long against the relaxation times that would
+        # make the field oscillate about its true value from step to step; there it rises over the
+        # first part of the step only (`step_shape`).
 
     @abstractmethod
     def accept(self, value: Floats) -> None:
-        """Close the last `jump` or `ramp` with the new value of the field.
-
-        A read-only array may be kept without a copy, and must never change.
-        """
+        """Close the last `jump` or `ramp` with a value; a read-only one must never change."""
 
     @abstractmethod
     def restart_data(self) -> RestartData:
@@ -101,8 +96,6 @@ def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
     `crept` is J at its end less J(0), `instant` is J(0) [1/Pa]. With J(0) = 0 no step is short, but
     one over whose `whole` length the field may rise is followed well.
 
-    Examples
-    --------
     >>> is_resolved(0.4, 1.0, whole=True), is_resolved(0.6, 1.0, whole=True)
     (True, False)
     """

@@ -30,29 +30,11 @@ from viscontact.time_integration.step_shape import FieldMap, StepShape, Trend, s
 class InternalVariables(HereditaryIntegral):
     """Running hereditary integral of one field under a Prony series, by internal variables.
 
-    Notes
-    -----
-    With J(t) = J0 + Σ Ji (1 - exp(-t/τi)) + φ t each term is an internal variable with
-    τi d' = Ji q - d, integrated exactly for q linear over the rise of a step (Taylor, Pister &
-    Goudreau 1970, Int. J. Numer. Meth. Eng. 2, 45, for relaxation; Simo & Hughes, Computational
-    Inelasticity, 1998, section 10.3).
-
-    `others` are further creep functions that act on the same field, for the shape of its steps; the
-    threads of a `team` share the field out.
-
-    Examples
-    --------
-    A Maxwell body, J = 1 + t, under q = 1 from time 0 on, has the displacement J(2) = 3 at t = 2:
-
-    >>> import numpy as np
-    >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> memory = InternalVariables(SeriesCompliance(1.0, (), (), 1.0), (1,))
-    >>> memory.jump().compliance
-    1.0
-    >>> memory.accept(np.ones(1))
-    >>> response = memory.ramp(2.0)
-    >>> float(response.history[0] + response.compliance * 1.0)
-    3.0
+    With J(t) = J0 + Σ Ji (1 - exp(-t/τi)) + φ t each term is an internal variable with τi d' = Ji q
+    - d, integrated exactly for q linear over the rise of a step (Taylor, Pister & Goudreau 1970,
+    Int. J. Numer. Meth. Eng. 2, 45, for relaxation; Simo & Hughes, Computational Inelasticity,
+    1998, section 10.3). `others` are further creep functions on the same field, for the shape of
+    its steps; the threads of a `team` share the field out.
     """
 
     def __init__(
@@ -111,11 +93,8 @@ class InternalVariables(HereditaryIntegral):
         self._value = value
 
     def loss(self, value: Floats) -> tuple[float, float]:
-        """Heat of the step to a new value of the field, and the power lost at its end.
-
-        The field is a pair of pressure and unit displacement; both are over the area of a cell
-        [J/m², W/m²]. To be called before `accept`.
-        """
+        """Heat of the step to a new value, and power lost at its end, per area [J/m², W/m²]."""
+        # The field is a pair of pressure and unit displacement. To be called before `accept`.
         shape, turned = self._shape, value
         if self._trend is not None and not shape.is_level:
             turned = shape.turn_weight * value + (1 - shape.turn_weight) * self._trend.mean
@@ -199,14 +178,7 @@ def _jump(compliance: SeriesCompliance) -> RampWeights:
 # Cached, as the integrals of fields and of the numbers that go with them take the same step.
 @lru_cache(maxsize=16)
 def ramp_weights(compliance: SeriesCompliance, shape: StepShape) -> RampWeights:
-    """Weights of a step, for each term; those of the fluidity last.
-
-    Examples
-    --------
-    >>> flow = SeriesCompliance(1.0, [], [], 0.01)
-    >>> ramp_weights(flow, StepShape(2.0, rise=2.0)).new.tolist()
-    [0.01]
-    """
+    """Weights of a step, for each term; those of the fluidity last."""
     times, amplitudes = np.asarray(compliance.times), np.asarray(compliance.amplitudes)
     rise, slow = shape.rise, shape.slow
     first, second = (_share_of_new(part / times) for part in (rise, slow))

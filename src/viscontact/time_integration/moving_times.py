@@ -39,8 +39,6 @@ def moving_times(
     scatter. At rest they are in geometric progression. The last one is that of load and path, or
     `end`. The times `kept` up to there are among them.
 
-    Examples
-    --------
     >>> from viscontact.loads import Travel, step
     >>> path = Travel([0.0, 1.0], y=[0.0, 1e-3])
     >>> moving_times(path, step(1.0), (1e-4, 2.5e-4)).round(9).tolist()

@@ -51,10 +51,7 @@ class HereditaryPlan:
         others: tuple[ContactCompliance, ...] = (),
         team: Team | None = None,
     ) -> HereditaryIntegral:
-        """Hereditary integral of a field of this shape, without a history.
-
-        `others` are further creep functions that act on the same field, which a `team` shares out.
-        """
+        """Hereditary integral of a field of this shape; `others` act on it as well."""
         if isinstance(self.compliance, SeriesCompliance):
             return InternalVariables(self.compliance, shape, others, team)
         is_adaptive = not self.instants.size
@@ -65,19 +62,11 @@ class HereditaryPlan:
 def plan_hereditary_integral(
     compliance: ContactCompliance, instants: Floats, numbers: int
 ) -> HereditaryPlan:
-    """Choose the method for the hereditary integral of a run.
-
-    A recursion for a series law, which is exact. For any other law the sum over all earlier steps,
-    as long as they fit into 256 MiB and are at most 2000; else a Prony series, whose deviation from
-    the law is part of the plan. `instants` are the ends of the steps in order, a jump's twice [s];
-    `numbers` are to be stored at each step.
-
-    Examples
-    --------
-    >>> series = SeriesCompliance(1.0, [1.0], [2.0])
-    >>> plan_hereditary_integral(series, np.array([0.0, 1.0]), 4096).error
-    0.0
-    """
+    """Choose the method for the hereditary integral of a run."""
+    # A recursion for a series law, which is exact. For any other law the sum over all earlier
+    # steps, as long as they fit into 256 MiB and are at most 2000; else a Prony series, whose
+    # deviation from the law is part of the plan. `instants` are the ends of the steps in order, a
+    # jump's twice [s]; `numbers` are to be stored at each step.
     if isinstance(compliance, SeriesCompliance):
         exact = "recursion, exact for a series law"
         return HereditaryPlan(compliance, instants, len(instants), exact, 0.0, compliance)

@@ -32,22 +32,12 @@ def as_exponentials(
     The series has the same J(0), and no negative amplitude. The error is the largest deviation from
     J between `first` and `last` [s], and from its means from 0 to these times. The hereditary
     integral of a field that is linear over each step, none shorter than `first`, has no larger
-    error relative to itself.
+    relative error.
 
-    Notes
-    -----
     Non-negative least squares (Lawson & Hanson 1974) over a dense set of retardation times, with
     weights 1/J. Before `first` only the mean of J matters: it weights the change within a step, and
     a power of time has crept most there. A law without a completely monotone rate, such as a table
-    with scatter, cannot be matched by positive terms any better than its scatter; the error shows
-    it.
-
-    Examples
-    --------
-    >>> law = SeriesCompliance(1.0, [1.0, 2.0], [3.0, 500.0])
-    >>> series, error = as_exponentials(law, 0.1, 1e4)
-    >>> error < 1e-3
-    True
+    with scatter, is matched no better than its scatter.
     """
     best = None
     for density in TIMES_PER_DECADE:

@@ -26,8 +26,6 @@ def run_instants(
 
     `times` and `fields` are as in `march`.
 
-    Examples
-    --------
     >>> from viscontact.materials.compliance import SeriesCompliance
     >>> from viscontact.loads import step
     >>> law = SeriesCompliance(1.0, [1.0], [2.0])
@@ -47,8 +45,6 @@ def run_instants(
 def field_instants(fields: str | Sequence[float], times: Floats) -> Floats:
     """Times of a run whose fields are kept: "all", "none" or some of the run's times [s].
 
-    Examples
-    --------
     >>> field_instants([0.0, 2.0], np.array([0.0, 1.0, 2.0])).tolist()
     [0.0, 2.0]
     """

@@ -68,13 +68,12 @@ class StepError:
 
 
 class TimeErrors:
-    """Accumulated relative error of the pressure from the time steps of a run.
+    """Accumulated relative error of the pressure from the time steps of a run."""
 
-    A first touch is alike at every scale, so its error relative to the current pressure would never
-    be small. A step is therefore measured against the pressure still to come under the largest
-    level, estimated by the fourth root of the level: a sphere's pressure grows as the third root of
-    the force, a cone's not at all.
-    """
+    # A first touch is alike at every scale, so its error relative to the current pressure would
+    # never be small. A step is therefore measured against the pressure still to come under the
+    # largest level, estimated by the fourth root of the level: a sphere's pressure grows as the
+    # third root of the force, a cone's not at all.
 
     def __init__(self, plan: HereditaryPlan, load: LoadHistory, team: Team | None = None) -> None:
         self._load, self._team = load, team or Team()
@@ -122,10 +121,7 @@ class TimeErrors:
         return StepError(interpolation_error, relative, size, level, travel, rate)
 
     def after(self, step: Step, values: Floats, error: StepError) -> float:
-        """Accept a step, and return the estimated error of the pressure after it.
-
-        It is relative to the largest unit displacement of the run so far [-].
-        """
+        """Accept a step, and return the error of pressure after it over the largest [-]."""
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
             self._settle(alone=True)

@@ -94,13 +94,6 @@ def step_shape(
     """Shape of a step of a duration [s], continued from a trend if that is recent enough.
 
     With `others`, further creep functions that act on the same field, it is short enough for all.
-
-    Examples
-    --------
-    >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> fluid = SeriesCompliance(1.0, (), (), 1.0)
-    >>> step_shape(fluid, 9.0, trend=Trend(np.ones(1), age=3.5))
-    StepShape(duration=9.0, rise=2.0, turn_weight=0.44)
     """
     laws = (compliance, *others)
     rise = min(longest_smooth_rise(law, duration, after_jump=after_jump) for law in laws)
