@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 
-from viscontact.runs.ending import CommandError, refuse, stop
+from viscontact.runs.command_error import CommandError, refuse, stop
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED
 
 __all__ = ["DONE", "INTERRUPTED", "REFUSED", "STOPPED", "CommandError", "refuse", "say", "stop"]

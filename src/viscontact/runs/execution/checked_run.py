@@ -9,11 +9,11 @@ from typing import Any
 
 from viscontact.case.filing import case_attributes
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorded_curve import RecordedCurve
 from viscontact.runs.directory.recorded_run import RecordedRun
-from viscontact.runs.ending import refuse
 from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory

@@ -10,12 +10,12 @@ from pathlib import Path
 
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.command_error import refuse, stop
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock import DirectoryInUse, awaited_lease, locked
 from viscontact.runs.directory.lock_check import LockLost
 from viscontact.runs.directory.recorded import ChangedCaseError, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder, Undisturbed
-from viscontact.runs.ending import refuse, stop
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.resuming import refuse_changed
 from viscontact.runs.execution.run_directory import reserved, write_case

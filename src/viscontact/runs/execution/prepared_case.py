@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from viscontact.case import CaseError, read_case
-from viscontact.runs.ending import refuse
+from viscontact.runs.command_error import refuse
 from viscontact.runs.preparation import PreparedRun, prepared
 
 

@@ -11,10 +11,10 @@ from viscontact.case import Case, CaseError
 from viscontact.case.document import read_document
 from viscontact.case.yaml_source import parse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.stored_result import StoredRun, stored_run
-from viscontact.runs.ending import refuse
 from viscontact.runs.execution.run_directory import (
     is_of_a_run,
     refuse_no_directory,

@@ -13,13 +13,13 @@ from viscontact.case.document import read_document
 from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.checkpoint import is_checkpoint
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.progress_log import is_course
 from viscontact.runs.directory.stored_result import stored_run
-from viscontact.runs.ending import refuse
 
 #: Files that a run overwrites, and functions that recognize those written by a run.
 _WRITTEN = {STATE_NAME: is_checkpoint, PROGRESS_NAME: is_course}

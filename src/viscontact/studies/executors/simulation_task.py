@@ -15,6 +15,7 @@ from viscontact.grid import Grid
 from viscontact.loads import MixedHistory
 from viscontact.problem.problem import Problem
 from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.command_error import CommandError, refuse
 from viscontact.runs.directory.differences import NOTHING, differences
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock_check import LockCheck
@@ -22,7 +23,6 @@ from viscontact.runs.directory.recorded import remove_restart_files
 from viscontact.runs.directory.recorded_run import RecordedRun, plain_case
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.directory.stored_result import stored_run
-from viscontact.runs.ending import CommandError, refuse
 from viscontact.runs.execution.run_directory import refuse_no_directory, reserved
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.request import DONE, INTERRUPTED, STOPPED

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Protocol, Self
 
 from viscontact.run_files import ATTEMPT_NAME
+from viscontact.runs.command_error import CommandError
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.ending import CommandError
 from viscontact.runs.execution.case_digests import Digests, changed_parts
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.execution import Monitor, execute_checked

@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.case import CaseError, read_case
-from viscontact.runs.ending import CommandError
+from viscontact.runs.command_error import CommandError
 from viscontact.runs.single import simulate
 from viscontact.studies.sweep.common_cells import (
     KEY,
