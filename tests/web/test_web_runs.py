@@ -197,6 +197,26 @@ def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_pa
         until(lambda: [path.name for path in (tmp_path / "page" / "runs").iterdir()] == [first])
 
 
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="there, sizes of files have no such limit")
+def test_a_run_that_met_a_full_disk_goes_on_once_there_is_room(client: TestClient) -> None:
+    import resource
+
+    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (250_000, usual[1]))  # of the process of the run, too
+    try:
+        run = begun(client, LONG_CASE.replace("4000", "700"))
+        reply = followed(client, run)[-1]
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, usual)
+        signal.signal(signal.SIGXFSZ, before)
+    assert (reply["state"], reply["resumable"]) == ("failed", True)
+    assert 0 < reply["step"] < 700
+    client.post(f"/api/runs/{run}/resume")
+    assert followed(client, run)[-1]["state"] == "done"
+
+
 def test_runs_whose_cases_have_one_title_are_distinguished(tmp_path: Path) -> None:
     with asking(tmp_path / "page", at_once=0) as client:  # all wait
         stronger = CASE.replace("4 N", "8.5 N")

@@ -18,7 +18,8 @@ from typing import NoReturn
 
 from viscontact.cli.entry import has_memory, limit_libraries, main
 from viscontact.cli.terminal.interruption import watched_interruption
-from viscontact.cli.terminal.messages import INTERRUPTED
+from viscontact.cli.terminal.messages import INTERRUPTED, STOPPED, CommandError
+from viscontact.runs.processes.request import RESUMABLE
 
 
 def run_of_parent() -> int:
@@ -34,7 +35,7 @@ def run_of_parent() -> int:
             return INTERRUPTED
         threading.Thread(target=_stop_at_end_of_input, daemon=True).start()
         sys.argv[1:] = words
-        return main()
+        return main(code_of=_code_for_parent)
 
 
 def _import_run() -> None:
@@ -43,6 +44,11 @@ def _import_run() -> None:
     if has_memory():
         with suppress(Exception):
             pass
+
+
+def _code_for_parent(end: CommandError) -> int:
+    """Exit code that tells a stopped run that can go on from one that cannot."""
+    return RESUMABLE if end.resumable and end.code == STOPPED else end.code
 
 
 def _received() -> list[str]:

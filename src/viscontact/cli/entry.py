@@ -5,8 +5,9 @@ from __future__ import annotations
 import gc
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from operator import attrgetter
 
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
@@ -21,8 +22,11 @@ LEAST_MEMORY = 3e8
 _NO_ROOM = ("failed to map segment", "cannot allocate memory", "Cannot allocate memory")
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line, and return its exit code.
+def main(
+    arguments: Sequence[str] | None = None,
+    code_of: Callable[[CommandError], int] = attrgetter("code"),
+) -> int:
+    """Run the command line, and return its exit code, that of a failure by `code_of`.
 
     Examples
     --------
@@ -34,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:
         remember_output()
     try:
-        return _watched(arguments)
+        return _watched(arguments, code_of)
     except KeyboardInterrupt:  # before or after the command
         say("interrupted")
         return INTERRUPTED
@@ -43,10 +47,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             gc.unfreeze()
 
 
-def _watched(arguments: Sequence[str] | None) -> int:
+def _watched(arguments: Sequence[str] | None, code_of: Callable[[CommandError], int]) -> int:
     with watched_interruption(until_exit=arguments is None) as interruption:
         limit_libraries()
-        code = _exit_code(None if arguments is None else list(arguments), interruption)
+        typed = None if arguments is None else list(arguments)
+        code = _exit_code(typed, interruption, code_of)
         interruption.over = True
         return _flushed(code)
 
@@ -61,7 +66,9 @@ def limit_libraries() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
 
 
-def _exit_code(typed: list[str] | None, interruption: Interruption) -> int:
+def _exit_code(
+    typed: list[str] | None, interruption: Interruption, code_of: Callable[[CommandError], int]
+) -> int:
     if not has_memory():
         return _lacks_memory()
     try:
@@ -76,7 +83,7 @@ def _exit_code(typed: list[str] | None, interruption: Interruption) -> int:
     except CommandError as end:
         for line in end.lines:
             say(line)
-        return end.code
+        return code_of(end)
     except SystemExit:  # rich and Typer, when the reader of a pipe has closed it
         return STOPPED
     except Exception as error:

@@ -8,11 +8,14 @@ from viscontact.runs.processes.request import REFUSED, STOPPED
 
 
 class CommandError(Exception):
-    """End of a command with an exit code, and the lines that `main` prints on stderr."""
+    """End of a command with an exit code, and the lines that `main` prints on stderr.
 
-    def __init__(self, code: int, lines: tuple[str, ...]) -> None:
+    `resumable`: its run goes on from where it stopped, once the cause is corrected.
+    """
+
+    def __init__(self, code: int, lines: tuple[str, ...], *, resumable: bool = False) -> None:
         super().__init__("; ".join(lines))
-        self.code, self.lines = code, lines
+        self.code, self.lines, self.resumable = code, lines, resumable
 
 
 def refuse(*lines: str) -> NoReturn:
@@ -20,6 +23,6 @@ def refuse(*lines: str) -> NoReturn:
     raise CommandError(REFUSED, lines)
 
 
-def stop(*lines: str, code: int = STOPPED) -> NoReturn:
+def stop(*lines: str, code: int = STOPPED, resumable: bool = False) -> NoReturn:
     """End the command during its work, with exit code 1 or another one and the reasons."""
-    raise CommandError(code, lines)
+    raise CommandError(code, lines, resumable=resumable)

@@ -99,6 +99,7 @@ def _resumed_record(checked: CheckedRun, monitor: Monitor) -> Recorder:
         stop(
             f"{recorded.directory}: the run cannot be continued: {error}",
             f"what it keeps is unchanged; after correcting that: {checked.request.resuming}",
+            resumable=True,
         )
     monitor.say(f"{recorded.directory}: continuing after {recorded.continued(*record.resumed)}")
     return record
@@ -130,13 +131,14 @@ def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
     except (OSError, MemoryError) as error:
         _publish(record)
         why = f"{checked.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
-        stop(why, _resumable(checked, record), f"after correcting that: {_remedy(checked, record)}")
+        remedy = f"after correcting that: {_remedy(checked, record)}"
+        stop(why, _resumable(checked, record), remedy, resumable=True)
     except KeyboardInterrupt:
         _publish(record)
         is_complete = False
     if not is_complete:
-        kept = _resumable(checked, record)
-        stop("interrupted", kept, f"continue with: {_remedy(checked, record)}", code=INTERRUPTED)
+        lines = _resumable(checked, record), f"continue with: {_remedy(checked, record)}"
+        stop("interrupted", *lines, code=INTERRUPTED, resumable=True)
 
 
 def _complete_march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> bool:

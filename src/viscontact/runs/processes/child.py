@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.progress import Course
-from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED
+from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, RESUMABLE, STOPPED
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,7 @@ class Ended:
     outcome: str  # one word
     code: int  # 0 done, 1 stopped, 130 interrupted, also before it began
     said: tuple[str, ...] = ()  # lines of its error output
+    resumable: bool = False  # it stopped for a reason that can be corrected
 
 
 class RunProcess:
@@ -122,6 +123,7 @@ class Child:
         if code < 0:
             why = f"{self.job.directory}: the run was killed by signal {-code}"
             way_on = f"continue with: {replace(self.job.request, quiet=False).resuming}"
-            return Ended(self.job, "killed", STOPPED, (*lines, why, way_on))
+            return Ended(self.job, "killed", STOPPED, (*lines, why, way_on), resumable=True)
         # Not the exit code of a refusal: other runs of the command have begun.
-        return Ended(self.job, "refused" if code == REFUSED else "stopped", STOPPED, lines)
+        word = "refused" if code == REFUSED else "stopped"
+        return Ended(self.job, word, STOPPED, lines, resumable=code == RESUMABLE)

@@ -11,6 +11,8 @@ from pathlib import Path
 
 #: Exit codes: finished, stopped during the run, refused before it, interrupted.
 DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130
+#: Exit code of the process of a run, for its parent: stopped, and goes on once resumed.
+RESUMABLE = 75
 
 
 @dataclass(frozen=True)

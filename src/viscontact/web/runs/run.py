@@ -71,7 +71,7 @@ class ManagedRun:
 
     @property
     def stage(self) -> str:
-        """Where it is on its way: it waits, marches, estimates errors, or is over."""
+        """State of the run: waiting, running, estimating errors, or over."""
         return "errors" if self.is_estimating else self.entry.state
 
     @property
@@ -79,13 +79,8 @@ class ManagedRun:
         """True if the run stopped early and can be continued."""
         if self.entry.state in ("cancelled", "interrupted"):
             return True
-        # After a failure that can be corrected, such as a full disk, the message names --resume.
-        names_remedy = any("--resume" in line for line in self.entry.said)
-        return (
-            self.entry.state == "failed"
-            and names_remedy
-            and (self.directory / STATE_NAME).is_file()
-        )
+        is_left = self.entry.state == "failed" and self.entry.resumable
+        return is_left and (self.directory / STATE_NAME).is_file()
 
     def start(self, spare: RunProcess | None) -> None:
         """Start the run in a process that waits for one, or note why that failed."""
@@ -162,9 +157,9 @@ class ManagedRun:
         ahead = 1 - self.course.part + (ERRORS_PART if self.entry.errors else 0.0)
         return each * ahead
 
-    def set_state(self, state: str, *said: str) -> None:
+    def set_state(self, state: str, *said: str, resumable: bool = False) -> None:
         """Change the state, here and in the folder."""
-        self.entry = replace(self.entry, state=state, said=said)
+        self.entry = replace(self.entry, state=state, said=said, resumable=resumable)
         with suppress(OSError):  # a full disk; the state is kept in memory
             self._folder.keep(self.name, self.entry)
 
@@ -184,7 +179,8 @@ class ManagedRun:
         self.course.look()
         by_request = self._stop_state or "interrupted"
         states = {DONE: "done", INTERRUPTED: by_request}
-        self.set_state(states.get(ended.code, "failed"), *ended.said)
+        state = states.get(ended.code, "failed")
+        self.set_state(state, *ended.said, resumable=ended.resumable)
 
     def _poll_lock(self) -> None:
         """Update a run of an earlier server, which ends when its lock is free."""

@@ -54,6 +54,7 @@ class RunEntry:
     label: str = ""
     over: Literal["time", "speed"] = "time"
     begin: float = 0.0
+    resumable: bool = True  # after a failure; entries of earlier versions do not say
 
 
 _ENTRY = TypeAdapter(RunEntry)
