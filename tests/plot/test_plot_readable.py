@@ -18,9 +18,10 @@ import viscontact as vc
 from synthetic_results import maxwell_sphere
 from viscontact import plot
 from viscontact.cli import main
-from viscontact.plot.histories.time_axis import label_log_time, set_log_time
+from viscontact.drawing.content.ordered_names import ordered_values
 from viscontact.plot.layout import style
-from viscontact.plot.layout.ordered_names import ordered_values, styles_of
+from viscontact.plot.layout.log_time import label_log_time, set_log_time
+from viscontact.plot.layout.style import styles_of
 from viscontact.units.formatting import readable_unit
 
 PEAK = 3e6

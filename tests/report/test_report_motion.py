@@ -10,9 +10,10 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact import plot
+from viscontact.drawing.content.loop import loops_of
 from viscontact.figures.histories import history, panel_names
 from viscontact.figures.look import LIGHT
-from viscontact.figures.loops import loops, loops_of
+from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import pressure_map
 from viscontact.figures.sections import section, section_place
 from viscontact.figures.shown_fields import shown_fields

@@ -198,7 +198,7 @@ def test_margin_grows_as_the_pressure_of_a_creeping_body_falls(
 ) -> None:
     with vc.open_results(directory) as ds:
         found = vc.margins(ds)
-        _, line, _ = margin_history(ds).axes[0].lines  # the limit, and both scalars
+        line, _, _ = margin_history(ds).axes[0].lines  # both scalars, and the limit
         np.testing.assert_allclose(line.get_ydata(), 100 * found.margin_peak_pressure)
         assert set(found.data_vars) == {"margin_peak_pressure", "margin_approach"}
         # Lee and Radok (1960): the contact grows, so that p0 follows the modulus^(2/3) of the time;

@@ -6,33 +6,17 @@ import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
 
-from viscontact.backend.arrays import Floats, Singles
-from viscontact.drawing.content.history import is_idle
+from viscontact.backend.arrays import Singles
+from viscontact.drawing.content.history import history_panel, load_names, response_names
+from viscontact.drawing.content.panel import Curve, Panel
 from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers, words
-from viscontact.figures.run_scale import RunScale, run_scale
-from viscontact.results.recorded_case import prescribes_approach
-from viscontact.results.recorded_events import recorded_events
-from viscontact.results.recorded_motion import motion_axis
-from viscontact.results.run_axis import SPEED, RunAxis, run_axis
-from viscontact.results.shown_scalars import shown_scalars
-from viscontact.results.stated_errors import (
-    NOT_DRAWN,
-    drawn_values,
-    errors_of,
-    lacks_curve,
-)
-from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
-from viscontact.units.formatting import ReadableUnit
+from viscontact.figures.run_scale import part_along, places_along
+from viscontact.results.run_axis import run_axis
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import SCALARS
 
 #: Names of the frames of a linear and a logarithmic axis.
 LINEAR, LOGARITHMIC = "linear", "log"
-#: Remark on a scalar without any error.
-UNKNOWN = "error not known"
-#: A curve with a smaller relative variation is drawn as a constant.
-_CONSTANT = 1e-6
-#: Margin of an axis beyond its curve, in spans of the curve or, if more, in its largest value, so
-#: that a single very large error does not flatten the curve.
-_SPAN, _SIZE = 1.0, 0.5
 
 
 def history(
@@ -65,40 +49,35 @@ def history(
     >>> history(ds, "approach").layout.meta["title"]
     'Approach [µm]'
     """
-    compared = [ds, reference] if reference is not None and name in reference else [ds]
-    unit = look.unit(SCALARS[name].units, *(each[name].values for each in compared))
-    scale = run_scale(ds, look, reference)
-    errors, values = errors_of(ds, name), np.asarray(ds[name].values, dtype=np.float64)
-    styles = _styles(ds, name, look, unit, compared)
+    panel = history_panel({"": ds}, name, look.unit, reference)
     frames: list[Part] = [
         {
             "name": LOGARITHMIC if log else LINEAR,
-            "traces": list(range(len(styles))),
-            "data": _positions(ds, name, scale, compared, log=log),
+            "traces": list(range(len(panel.curves) + 1)),
+            "data": _positions(panel, log=log),
             # A part that was enlarged on one scale is elsewhere on the other.
             "layout": {
-                "xaxis": scale.part(log=log),
+                "xaxis": part_along(panel.x, log=log),
                 "uirevision": LOGARITHMIC if log else LINEAR,
-                "shapes": _event_lines(ds, scale, look, log=log),
+                "shapes": _event_lines(panel, look, log=log),
             },
         }
-        for log in ((False, True) if scale.has_log else (False,))
+        for log in ((False, True) if panel.x.has_choice else (False,))
     ]
-    shown = frames[scale.starts_log]
-    is_drawn = not lacks_curve(ds, name)
+    shown = frames[panel.x.scale != "linear"]
+    limits = panel.y.limits
     return drawn(
-        [style | part for style, part in zip(styles, shown["data"], strict=True)],
+        [style | part for style, part in zip(_styles(ds, panel, look), shown["data"], strict=True)],
         look,
-        {
-            "name": f"history-{name}",
-            "title": unit.label(SCALARS[name].label),
-            "note": _note(errors, values, run_axis(ds)) if SCALARS[name].has_error else "",
-        },
+        {"name": f"history-{name}", "title": panel.y.label, "note": panel.note},
         frames=frames if len(frames) > 1 else (),
         **shown["layout"],
-        yaxis={"range": _range(compared, name, unit), "showticklabels": is_drawn},
+        yaxis={
+            "range": [0.0, 1.0] if limits is None else panel.y.unit(limits).tolist(),
+            "showticklabels": not panel.in_place,
+        },
         hovermode="x",
-        annotations=[] if is_drawn else [words(NOT_DRAWN, look)],
+        annotations=[words(panel.in_place, look)] if panel.in_place else [],
     )
 
 
@@ -115,73 +94,43 @@ def histories(
 
 def panel_names(ds: xr.Dataset) -> tuple[list[str], list[str]]:
     """Names of the scalars that are prescribed, and of those that answer."""
-    return _prescribed(ds), _response(ds)
+    return load_names(ds), response_names(ds)
 
 
-def _prescribed(ds: xr.Dataset) -> list[str]:
-    names = [name for name in shown_in(Place.LOAD, ds) if name == "force" or _varies(ds, name)]
-    if run_axis(ds) is SPEED:
-        names = ["force"]  # a constant load
-    if not prescribes_approach(ds):
-        return names
-    return ["approach", *(name for name in names if SCALARS[name].moving)]
-
-
-def _response(ds: xr.Dataset) -> list[str]:
-    answer = {"approach": "force"} if prescribes_approach(ds) else {}
-    shown = shown_scalars(ds, Place.RESPONSE)
-    if run_axis(ds) is SPEED:
-        shown.append(f"eccentricity_{motion_axis(ds)}")  # the contact lies ahead of the axis
-    return [answer.get(name, name) for name in shown if not is_idle(ds, name)]
-
-
-def _varies(ds: xr.Dataset, name: str) -> bool:
-    values = ds[name].values[np.isfinite(ds[name].values)]
-    least = 0.0 if SCALARS[name].moving else max(1e-9, _CONSTANT * np.abs(values).max(initial=0.0))
-    return bool(values.size and np.ptp(values) > least)
-
-
-def _styles(
-    ds: xr.Dataset, name: str, look: Look, unit: ReadableUnit, compared: list[xr.Dataset]
-) -> list[Part]:
+def _styles(ds: xr.Dataset, panel: Panel, look: Look) -> list[Part]:
     """Curves and band without their positions: the reference first, the result on top."""
-    band = {"mode": "lines", "fill": "toself", "fillcolor": look.band, "line": {"width": 0}}
-    curves = [
-        _curve(each, name, look, unit, line)
-        for each, line in zip(
-            compared,
-            ({"color": look.blue, "width": 2}, {"color": look.warm, "width": 2, "dash": "dash"}),
-            strict=False,
-        )
+    shade = {"mode": "lines", "fill": "toself", "fillcolor": look.band, "line": {"width": 0}}
+    curve, *others = panel.curves
+    line = {"color": look.blue, "width": 2}
+    dashed = {"color": look.warm, "width": 2, "dash": "dash"}
+    hover = _hover(ds, panel.name, look)
+    return [
+        *(_line(panel, other, dashed) | {"hoverinfo": "skip"} for other in others),
+        shade | {"y": _band(panel, curve), "hoverinfo": "skip"},
+        _line(panel, curve, line) | {"text": hover, "hovertemplate": "%{text}<extra></extra>"},
     ]
-    return [*curves[1:], band | {"y": _band(ds, name, unit), "hoverinfo": "skip"}, curves[0]]
 
 
-def _curve(ds: xr.Dataset, name: str, look: Look, unit: ReadableUnit, line: Part) -> Part:
-    values = drawn_values(ds, name)
-    marked = "lines+markers" if run_axis(ds) is SPEED else "lines"
+def _line(panel: Panel, curve: Curve, line: Part) -> Part:
+    marked = "lines+markers" if curve.look == "joined" else "lines"
     return {
-        "y": numbers(unit(values)),
-        "mode": "markers" if values.size < 2 else marked,
+        "y": numbers(panel.y.unit(curve.y)),
+        "mode": "markers" if curve.y.size < 2 else marked,
         "line": line,
         "marker": {"color": line["color"], "size": 5},
-        "text": _hover(ds, name, look),
-        "hovertemplate": "%{text}<extra></extra>",
     }
 
 
-def _positions(
-    ds: xr.Dataset, name: str, scale: RunScale, compared: list[xr.Dataset], *, log: bool
-) -> list[Part]:
+def _positions(panel: Panel, *, log: bool) -> list[Part]:
     """Positions along the axis of what `_styles` returns."""
-    places = [scale.at(run_axis(each).values(each), log=log) for each in compared]
-    band = np.concatenate(
-        [[*places[0][part], *places[0][part][::-1], np.nan] for part in _parts(ds, name)] or [[]]
-    )
+    places = [places_along(panel.x, curve.x, log=log) for curve in panel.curves]
+    parts = _parts(panel.curves[0])
+    edges = [[*places[0][part], *places[0][part][::-1], np.nan] for part in parts]
+    band = np.concatenate(edges or [[]])
     return [{"x": numbers(each)} for each in (*places[1:], band, places[0])]
 
 
-def _event_lines(ds: xr.Dataset, scale: RunScale, look: Look, *, log: bool) -> list[Part]:
+def _event_lines(panel: Panel, look: Look, *, log: bool) -> list[Part]:
     """Dotted lines at the events of a load program, with their numbers from 1."""
     line = {"color": look.faint, "width": 1, "dash": "dot"}
     label = {"textangle": 0, "textposition": "end", "xanchor": "right", "yanchor": "top"}
@@ -191,22 +140,24 @@ def _event_lines(ds: xr.Dataset, scale: RunScale, look: Look, *, log: bool) -> l
             **{"type": "line", "yref": "paper", "y0": 0, "y1": 1, "layer": "below", "line": line},
             **{"x0": place, "x1": place, "label": label | {"text": str(number)}},
         }
-        for number, event in enumerate(recorded_events(ds), start=1)
-        for place in scale.at(np.array([event.time]), log=log).tolist()
+        for number, mark in enumerate(panel.marks, start=1)
+        for place in places_along(panel.x, np.array([mark.place]), log=log).tolist()
     ]
 
 
-def _band(ds: xr.Dataset, name: str, unit: ReadableUnit) -> Singles:
+def _band(panel: Panel, curve: Curve) -> Singles:
     """Edges of the band: a closed polygon for each run of instants whose error is known."""
-    values, errors = drawn_values(ds, name), errors_of(ds, name)
-    low, high = unit(values - errors), unit(values + errors)
-    edges = [[*high[part], *low[part][::-1], np.nan] for part in _parts(ds, name)]
+    error = np.nan if curve.error is None else curve.error
+    low, high = (panel.y.unit(curve.y + sign * error) for sign in (-1, 1))
+    edges = [[*high[part], *low[part][::-1], np.nan] for part in _parts(curve)]
     return numbers(np.concatenate(edges or [[]]))
 
 
-def _parts(ds: xr.Dataset, name: str) -> list[slice]:
+def _parts(curve: Curve) -> list[slice]:
     """Runs of two instants or more whose error is known."""
-    known = np.isfinite(drawn_values(ds, name)) & np.isfinite(errors_of(ds, name))
+    if curve.error is None:
+        return []
+    known = np.isfinite(curve.y) & np.isfinite(curve.error)
     changes = np.flatnonzero(np.diff([False, *known, False]))
     return [slice(a, b) for a, b in changes.reshape(-1, 2).tolist() if b - a > 1]
 
@@ -218,32 +169,3 @@ def _hover(ds: xr.Dataset, name: str, look: Look) -> list[str]:
         f"{axis.place(place)}: {look.text(value, error, units)}"
         for place, value, error in zip(axis.values(ds).tolist(), values, errors, strict=True)
     ]
-
-
-def _note(errors: Floats, values: Floats, axis: RunAxis) -> str:
-    """Remark on errors that the band does not show."""
-    given = np.isfinite(values)
-    marked, unknown = int(np.isposinf(errors).sum()), int(np.isnan(errors[given]).sum())
-    if marked:
-        return MESH_DEPENDENT
-    if unknown == int(given.sum()):
-        return UNKNOWN
-    return f"error not known at {unknown} of {given.size} {axis.row}s" if unknown else ""
-
-
-def _range(compared: list[xr.Dataset], name: str, unit: ReadableUnit) -> list[float]:
-    """Limits of the vertical axis."""
-    values, errors = unit(drawn_values(compared[0], name)), unit(errors_of(compared[0], name))
-    given = np.concatenate([unit(drawn_values(each, name)) for each in compared])
-    given = given[np.isfinite(given)]
-    if not given.size:
-        return [0.0, 1.0]
-    low, high = float(given.min()), float(given.max())
-    if high - low <= _CONSTANT * max(abs(low), abs(high)):
-        return sorted((0.0, 1.15 * high or 1.0))
-    bars = np.where(np.isfinite(errors) & np.isfinite(values), errors, 0.0)
-    room = max(_SPAN * (high - low), _SIZE * max(abs(low), abs(high)))
-    least = max(float(np.nanmin([low, *(values - bars)])), low - room)
-    most = min(float(np.nanmax([high, *(values + bars)])), high + room)
-    margin = 0.05 * (most - least)
-    return [0.0 if least == 0 else least - margin, most + margin]

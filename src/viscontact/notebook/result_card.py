@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.history import is_idle
 from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
@@ -67,16 +68,15 @@ def _history(ds: xr.Dataset, area: Floats) -> Element:
     marks = [Mark(instants, area)]
     if np.isfinite(errors).all():
         marks += [Mark(instants, area + s * errors, dashed=True) for s in (-1.0, 1.0)]
-    return panel("contact area", _time(instants), y, marks)
+    return panel("contact area", _time(ds), y, marks)
 
 
-def _time(instants: Floats) -> Scale:
-    """Logarithmic where the steps grow over decades."""
-    positive = instants[instants > 0]
-    if positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1]):
-        first, last = float(positive[0]), float(positive[-1])
-        return logarithmic("time", "s", first, last, each_with_unit=True)
-    return linear("time", "s", float(instants[0]), float(instants[-1]))
+def _time(ds: xr.Dataset) -> Scale:
+    axis = along_run([ds])
+    start, end = axis.limits or (0.0, 1.0)
+    if axis.scale == "time":
+        return logarithmic("time", "s", axis.first, end, each_with_unit=True)
+    return linear("time", "s", start, end)
 
 
 def _section(ds: xr.Dataset) -> list[Element]:

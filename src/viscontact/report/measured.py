@@ -11,8 +11,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.notebook.html import element
-from viscontact.plot.histories.time_axis import label_log_time
 from viscontact.plot.layout import style
+from viscontact.plot.layout.log_time import label_log_time
 from viscontact.report.drawings import BODIES, drawn
 from viscontact.results.filed_case import measured_tables
 from viscontact.units.formatting import readable_unit

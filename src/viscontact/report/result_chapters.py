@@ -13,10 +13,9 @@ import numpy as np
 import xarray as xr
 from plotly.graph_objects import Figure
 
+from viscontact.drawing.content.along_run import along_run
 from viscontact.figures.histories import LINEAR, LOGARITHMIC
-from viscontact.figures.look import LIGHT
 from viscontact.figures.pressure_map import map_remarks
-from viscontact.figures.run_scale import run_scale
 from viscontact.figures.sections import section_place
 from viscontact.figures.shown_fields import ShownFields
 from viscontact.notebook.html import element
@@ -225,15 +224,15 @@ def _line_load(fields: ShownFields) -> Element:
 
 def _scale_button(ds: xr.Dataset) -> Element | None:
     """Button that shows the other scale of time or speed, where there is one."""
-    scale = run_scale(ds, LIGHT)
-    if not scale.has_log:
+    axis = along_run([ds])
+    if not axis.has_choice:
         return None
-    shown = LOGARITHMIC if scale.starts_log else LINEAR
+    shown, name = LINEAR if axis.scale == "linear" else LOGARITHMIC, axis.quantity.lower()
     words = {
-        "data_linear": f"Show linear {scale.axis.name}",
-        "data_log": f"Show logarithmic {scale.axis.name}",
+        "data_linear": f"Show linear {name}",
+        "data_log": f"Show logarithmic {name}",
     }
-    text = words["data_linear" if scale.starts_log else "data_log"]
+    text = words["data_log" if shown == LINEAR else "data_linear"]
     return element("button", text, type="button", id="time-scale", data_shown=shown, **words)
 
 

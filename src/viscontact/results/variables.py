@@ -112,6 +112,7 @@ _MOTION = _EXTENT | Place.FIGURE
 _RESULT = _MOTION | Place.KEY | Place.FACTS | Place.LIVE
 _LINE_LOAD = Place.KEY | Place.CARD | Place.FACTS | Place.RESPONSE | Place.FIGURE
 _RESISTANCE = Place.CARD | Place.RESPONSE | Place.FIGURE
+_LOST = Place.RESPONSE | Place.FIGURE
 _FORCE = Place.TABLE | Place.KEY | Place.CARD | Place.LOAD | Place.FIGURE
 
 SCALARS = {
@@ -175,14 +176,12 @@ SCALARS = {
         "work of the motion against the resistance since the start",
         "Motion work",
         18,
-        Place.RESPONSE,
+        _LOST,
         moving=True,
     ),
-    "dissipation": _scalar(
-        "W", "power lost in the bodies", "Dissipation", 19, Place.RESPONSE, moving=True
-    ),
+    "dissipation": _scalar("W", "power lost in the bodies", "Dissipation", 19, _LOST, moving=True),
     "heat": _scalar(
-        "J", "energy lost in the bodies since the start", "Heat", 20, Place.RESPONSE, moving=True
+        "J", "energy lost in the bodies since the start", "Heat", 20, _LOST, moving=True
     ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),

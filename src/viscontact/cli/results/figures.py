@@ -14,6 +14,7 @@ from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.drawing.choice import FigureChoice, require_one_axis
+from viscontact.drawing.content.ordered_names import in_order
 from viscontact.drawing.figures import TABLE, FigureEntry, compared_names
 from viscontact.studies.sweep.open_many import open_many
 from viscontact.studies.sweep.states import State
@@ -100,7 +101,7 @@ def draw_comparison(
             plot,
             file,
             plot.COMPARISONS[figure],
-            plot.layout.ordered_names.in_order(labelled),
+            in_order(labelled),
             counts="progress" in entry.takes,
             **given,
         )

@@ -17,6 +17,16 @@ def require_runs(runs: Mapping[str, xr.Dataset], figure: str) -> None:
         raise ValueError(f"{figure}: needs at least one run to compare, got none")
 
 
+def runs_of(
+    results: xr.Dataset | Mapping[str, xr.Dataset], figure: str
+) -> Mapping[str, xr.Dataset]:
+    """Runs by the names to print; a single result has the name ""."""
+    if isinstance(results, xr.Dataset):
+        return {"": results}
+    require_runs(results, figure)
+    return results
+
+
 def headed_snapshots(
     runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str, *, count: int = 1
 ) -> tuple[list[Snapshot], list[str]]:

@@ -45,6 +45,8 @@ class Axis:
     limits: tuple[float, float] | None = None  # [SI]; None: around what is drawn
     #: "time" is logarithmic from the first step on, with the instant 0 at its beginning.
     scale: Literal["linear", "log", "time"] = "linear"
+    first: float = 0.0  # instant [s] or speed [m/s] from which a logarithmic scale goes
+    has_choice: bool = False  # a reader may choose between a linear and a logarithmic scale
     texts: tuple[str, ...] = ()  # at 0, 1, 2, ... in place of numbers
 
     @classmethod

@@ -15,12 +15,14 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
+from viscontact.drawing.content.history import drawn_scalars, history_panel, needed_variables
+from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.window import Window, window_over
 from viscontact.plot.animations.sheet import Sheet, new_sheet
-from viscontact.plot.histories.history import draw_scalars, drawn_scalars, needed_variables
-from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time, within_span
+from viscontact.plot.histories.history import draw_histories
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.log_time import BEFORE_FIRST
 from viscontact.plot.layout.map_axes import show_window
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.motion.body_mark import BODY_COLOUR, mark_body
@@ -253,7 +255,8 @@ def _stage(
     """Draw the fixed parts; return a function that draws the rest at an instant."""
     curve, edges = _set_up_fields(sheet, scene)
     body: list[Artist] = []
-    time_unit, _ = draw_scalars(sheet.histories, names, {"": run})
+    draw_histories(sheet.histories, [history_panel({"": run}, name) for name in names])
+    time_unit = along_run([run]).unit
     markers = []
     for axes in sheet.histories:
         # Time as a bar behind the curve and a dot on it.

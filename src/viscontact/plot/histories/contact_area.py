@@ -11,10 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.plot.histories.time_axis import scale_time, within_span
+from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import band_key, draw_band, limit_axis_to_curves
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.panels import scale_along
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.stated_errors import stated_error
 from viscontact.units.formatting import readable_unit
@@ -78,12 +79,12 @@ def contact_area(
         axes = style.new_figure(wide, min(3.4, 0.85 * wide)).add_subplot()
     style.dress(axes)
     area = run["contact_area"].values
-    unit, time_unit = readable_unit("m2", area, counted), readable_unit("s", run["time"].values)
-    instants, error = time_unit(run["time"].values), stated_error(run, "contact_area")
+    unit, time = readable_unit("m2", area, counted), along_run([run])
+    instants, error = time.unit(run["time"].values), stated_error(run, "contact_area")
     look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
     # Above the dots, of which there may be many.
     smooth = axes.plot(instants, unit(area), zorder=3, **look)[0]
-    dots = axes.plot(time_unit(stored[shown]), unit(counted), "o", color=_COUNTED)[0]
+    dots = axes.plot(time.unit(stored[shown]), unit(counted), "o", color=_COUNTED)[0]
     dots.set_clip_on(False)  # the first and last dot are on the frame
     dots.set(markersize=3.5 if len(counted) <= _APART else 2.0)
     bar = None if error is None else unit(error)
@@ -93,7 +94,7 @@ def contact_area(
     if band is not None:
         limit_axis_to_curves(axes, unit(area), unit(counted))
     axes.set_ylabel(unit.label("Contact area"))
-    scale_time([axes], {"": run}, time_unit)
+    scale_along(axes, time)
     for handle, words in band_key([band] if band else [], style.LINE):
         handles, labels = [*handles, handle], [*labels, words]
     if shares_axes:

@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.loads import ApproachHistory
 from viscontact.plot.histories.exact_history import ExactHistory, exact_history, exact_label
-from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.plot.layout.panels import scale_along
 from viscontact.results.recorded_case import recorded_object
 from viscontact.results.run_axis import require_time
 from viscontact.units.formatting import readable_unit
@@ -76,8 +77,8 @@ def exact(
     within = np.isin(results["time"].values, run["time"].values)
     curves = _curves(results, run, theory, within)
     figure, panels, below = _panels(page_width(width, style.TWO_COLUMNS))
-    time_unit = readable_unit("s", run["time"].values)
-    instants = time_unit(run["time"].values)
+    time = along_run([run])
+    instants = time.unit(run["time"].values)
     every = max(1, -(-instants.size // _MARKERS_AT_MOST))
     looks = style.run_styles(len(curves))
     markers = zip(curves, panels, looks, style.MARKERS, strict=False)
@@ -94,7 +95,8 @@ def exact(
         below.plot(instants, part, markevery=every, **points | {"linestyle": "-", "linewidth": 0.6})
     below.axhline(0.0, color=style.INK, linewidth=style.THIN_LINE)
     below.set_ylabel("Difference\n[% of the largest]")
-    scale_time([*panels, below], {"": run}, time_unit)
+    for axes in (*panels, below):
+        scale_along(axes, time)
     _add_key(figure, panels, below, [curve[0] for curve in curves], results, theory)
     return figure
 

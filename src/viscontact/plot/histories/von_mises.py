@@ -3,34 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
-import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Floats
-from viscontact.drawing.content.compared_runs import require_runs
-from viscontact.drawing.content.stress_planes import stress_sections
-from viscontact.halfspace.stress_lines import Progress, part_of
-from viscontact.plot.histories.time_axis import scale_time
+from viscontact.drawing.content.compared_runs import runs_of
+from viscontact.drawing.content.von_mises import von_mises_panels
+from viscontact.halfspace.stress_lines import Progress
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import peak_note
-from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.results.run_axis import require_time
-from viscontact.results.snapshots import field_times, take_snapshots
-from viscontact.results.stress_source import stress_source
-from viscontact.units.formatting import readable_unit
+from viscontact.plot.layout.panels import draw_panel
 
 _NAME = "von-mises"
-#: Largest number of separate markers.
-_MARKED = 40
 
 
 def von_mises_history(
-    results: xr.Dataset,
+    results: xr.Dataset | Mapping[str, xr.Dataset],
     *,
     times: ArrayLike | None = None,
     width: Width | None = None,
@@ -40,8 +29,9 @@ def von_mises_history(
 
     Parameters
     ----------
-    results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
+    results : xarray.Dataset, or mapping of str to xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored; several
+        results by the names to print.
     times : array_like, optional
         Instants [s]; by default all that are stored.
     width : {"single", "double"} or float, optional
@@ -69,7 +59,20 @@ def von_mises_history(
     >>> [axes.get_ylabel() for axes in von_mises_history(ds).axes]
     ['Von Mises stress [kPa]', 'Depth [µm]']
     """
-    return compare_von_mises({"": results}, times=times, width=width, progress=progress)
+    runs = runs_of(results, _NAME)
+    panels = von_mises_panels(runs, times, progress)
+    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
+    axes = list(figure.subplots(2, 1, sharex=True))
+    axes[-1].tick_params(labelbottom=True)
+    for each, panel in zip(axes, panels, strict=True):
+        draw_panel(each, panel)
+        for line in each.get_lines():
+            line.set(clip_on=False, zorder=3)
+    if len(runs) > 1:
+        style.add_legend_below(figure, axes[0].get_lines(), list(runs), columns=2)
+    figure.draw_without_rendering()
+    style.arrange_headings(figure)
+    return figure
 
 
 def compare_von_mises(
@@ -116,55 +119,4 @@ def compare_von_mises(
     >>> [axes.get_ylabel() for axes in compare_von_mises(runs).axes]
     ['Von Mises stress [kPa]', 'Depth [µm]']
     """
-    require_runs(runs, _NAME)
-    stresses = [
-        _curve(run, times, part_of(progress, index, len(runs)))
-        for index, run in enumerate(runs.values())
-    ]
-    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
-    panels = list(figure.subplots(2, 1, sharex=True))
-    time = readable_unit("s", *(history.instants for history in stresses))
-    looks = styles_of(list(runs))
-    for axes, (part, si_unit, name) in zip(panels, _DRAWN, strict=True):
-        curves = [getattr(history, part) for history in stresses]
-        unit = readable_unit(si_unit, *curves)
-        for history, curve, look in zip(stresses, curves, looks, strict=True):
-            dots = {"marker": "o", "markersize": 3.5} if curve.size <= _MARKED else {}
-            axes.plot(time(history.instants), unit(curve), clip_on=False, zorder=3, **look, **dots)
-        axes.set_ylabel(unit.label(name))
-        axes.set_ylim(0.0, 1.1 * max(float(unit(curve.max())) for curve in curves) or 1.0)
-        style.dress(axes)
-    panels[-1].tick_params(labelbottom=True)
-    scale_time(panels, runs, time, [history.instants for history in stresses])
-    style.add_heading(panels[0], "largest below the contact")
-    style.add_heading(panels[1], "where it is the largest")
-    shown = np.concatenate([history.instants for history in stresses])
-    style.add_heading(panels[0], peak_note(runs.values(), shown), aside=True)
-    if len(runs) > 1:
-        style.add_legend_below(figure, panels[0].get_lines(), list(runs), columns=2)
-    figure.draw_without_rendering()
-    style.arrange_headings(figure)
-    return figure
-
-
-@dataclass(frozen=True, eq=False)
-class _StressHistory:
-    """Largest stress [Pa] and its depth [m] over time [s]."""
-
-    instants: Floats
-    stress: Floats
-    depth: Floats
-
-
-_DRAWN = (("stress", "Pa", "Von Mises stress"), ("depth", "m", "Depth"))
-
-
-def _curve(
-    results: xr.Dataset, times: ArrayLike | None, progress: Progress | None
-) -> _StressHistory:
-    require_time(results, _NAME)
-    chosen = field_times(results, _NAME) if times is None else times
-    snapshots = take_snapshots(results, chosen, _NAME)
-    sections = stress_sections(stress_source(results), snapshots, progress)
-    stress, depth, _ = np.array([section.largest for section in sections]).T
-    return _StressHistory(np.array([section.time for section in sections]), stress, depth)
+    return von_mises_history(runs, times=times, width=width, progress=progress)

@@ -1,12 +1,11 @@
-"""Error bands along curves, and notes on peaks that depend on the mesh."""
+"""Error bands along curves, and their legend."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -15,9 +14,6 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.plot.layout import style
-from viscontact.results.run_axis import run_axis
-from viscontact.results.stated_errors import mesh_dependent
-from viscontact.results.variables import MESH_DEPENDENT
 
 #: Legend texts: all bands are visible, some are, none is.
 BAND = "band: error estimate"
@@ -129,19 +125,3 @@ def limit_axis_to_curves(axes: Axes, *curves: ArrayLike) -> None:
     room = max(_SPAN * np.ptp(values), _SIZE * np.abs(values).max())
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, values.min() - room), min(high, values.max() + room))
-
-
-def peak_note(runs: Iterable[xr.Dataset], times: ArrayLike | None = None) -> str:
-    """Note on peak pressures that depend on the mesh at the drawn instants [s]; empty if none does.
-
-    >>> peak = ("time", [np.inf, 1.0])
-    >>> run = xr.Dataset({"peak_pressure_error": peak}, coords={"time": [0.0, 1.0]})
-    >>> peak_note([run]), peak_note([run], [0.9])
-    ('peak depends on the mesh', '')
-    """
-    for run in runs:
-        marked, instants = mesh_dependent(run, "peak_pressure"), run_axis(run).values(run)
-        wanted = instants if times is None else np.atleast_1d(np.asarray(times, dtype=float))
-        if any(marked[np.abs(instants - instant).argmin()] for instant in wanted):
-            return f"peak {MESH_DEPENDENT}"
-    return ""

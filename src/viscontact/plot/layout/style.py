@@ -17,6 +17,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, ListedColormap, to_hex
 from matplotlib.figure import Figure
 
+from viscontact.drawing.content.ordered_names import inks_of
+from viscontact.drawing.content.panel import Ink
+
 # Widths of one and of two columns of a journal page, in inches.
 ONE_COLUMN = 4.6
 TWO_COLUMNS = 7.2
@@ -34,6 +37,9 @@ _Entry = TypeVar("_Entry")
 INK = "#262626"
 FAINT = "#7a7a7a"
 LINE = "#0072B2"
+FAULT = "#b00020"
+# Beyond this place viridis turns to a yellow that is too pale for thin lines on white.
+_PALEST = 0.85
 
 # Okabe and Ito's palette without its yellow, which is too pale on white: distinguishable with any
 # common kind of colour blindness.
@@ -164,20 +170,29 @@ def figure_of(axes: Axes) -> Figure:
 
 def time_colours(count: int) -> list[str]:
     """Colours of instants, from early (dark) to late (light)."""
-    # Beyond 0.85 viridis turns to a yellow that is too pale for thin lines on white.
-    return [to_hex(colour) for colour in colormaps["viridis"](np.linspace(0.0, 0.85, count))]
+    return [to_hex(colour) for colour in colormaps["viridis"](np.linspace(0.0, _PALEST, count))]
 
 
 def run_styles(count: int) -> list[dict[str, Any]]:
     """Colour and dashes for each of several runs, distinct also in grey print."""
-    return [
-        {
-            "color": _RUN_COLOURS[i % len(_RUN_COLOURS)],
-            "linestyle": _RUN_DASHES[i % len(_RUN_DASHES)],
-            "linewidth": LINE_WIDTH,
-        }
-        for i in range(count)
-    ]
+    return [look_of(Ink(place=number)) for number in range(count)]
+
+
+def look_of(ink: Ink) -> dict[str, Any]:
+    """Colour, dashes and width of a line."""
+    line: dict[str, Any] = {"linestyle": "-", "linewidth": LINE_WIDTH}
+    if ink.kind == "run":
+        number = int(ink.place)
+        colour = _RUN_COLOURS[number % len(_RUN_COLOURS)]
+        return line | {"color": colour, "linestyle": _RUN_DASHES[number % len(_RUN_DASHES)]}
+    if ink.kind == "ordered":
+        return line | {"color": to_hex(colormaps["viridis"](_PALEST * ink.place))}
+    return line | {"color": {"faint": FAINT, "text": INK, "fault": FAULT}[ink.kind]}
+
+
+def styles_of(names: Sequence[str]) -> list[dict[str, Any]]:
+    """Looks of the lines of runs by their names."""
+    return [look_of(ink) for ink in inks_of(names)]
 
 
 def pressure_colours(count: int) -> Colormap:

@@ -14,8 +14,8 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.compared_runs import require_runs
 from viscontact.laws import Law
 from viscontact.materials.layers import creeping_laws
-from viscontact.plot.histories.time_axis import label_log_time
 from viscontact.plot.layout import style
+from viscontact.plot.layout.log_time import label_log_time
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_object
 from viscontact.results.run_axis import law_times

@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.compared_runs import require_runs
+from viscontact.drawing.content.notes import peak_note
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import peak_note
-from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.style import styles_of
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
 from viscontact.units.formatting import ReadableUnit, readable_unit

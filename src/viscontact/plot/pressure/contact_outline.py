@@ -17,8 +17,8 @@ from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.plot.layout import style
 from viscontact.plot.layout.map_axes import rim_path, show_window
-from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.style import styles_of
 from viscontact.results.snapshots import headings_of, labels_of, take_snapshots
 
 _NAME = "contact-outline"

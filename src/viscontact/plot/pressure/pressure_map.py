@@ -22,12 +22,12 @@ from scipy.ndimage import label
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.compared_runs import headed_snapshots
+from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.rim import beyond_period, rim_curves
 from viscontact.drawing.content.squared_pressure import squared_pressure
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.plot.layout import style
 from viscontact.plot.layout.contour_labels import label_contours
-from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.map_axes import rim_path, show_window
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.motion.body_mark import mark_body

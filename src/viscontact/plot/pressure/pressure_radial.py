@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.exact_sphere import exact_sphere
+from viscontact.drawing.content.notes import peak_note
 from viscontact.indenters import Indenter, Sphere
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.reference import LeeRadokContact
 from viscontact.results.recorded_case import recorded_object

@@ -13,11 +13,11 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.compared_runs import headed_snapshots
+from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.pressure_relief import pressure_relief
 from viscontact.drawing.content.rim import rim_polygons
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.lit_surface import draw_relief
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.solid_axes import add_note, add_side_bar, add_title, solid_panels

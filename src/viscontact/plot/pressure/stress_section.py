@@ -11,11 +11,11 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.stress_planes import Section, grouped_sections
 from viscontact.halfspace.stress_lines import Progress
 from viscontact.plot.layout import style
 from viscontact.plot.layout.contour_labels import label_contours
-from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.snapshots import headings_of, take_snapshots
 from viscontact.results.stress_source import stress_source

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.plot.layout import style
-from viscontact.plot.layout.ordered_names import styles_of
 from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.plot.layout.style import styles_of
 from viscontact.plot.sweeps.key_axis import KeyAxis, is_number, key_labels, place_log_ticks
 from viscontact.results.largest_values import (
     compared_scalars,

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from viscontact.backend.arrays import Floats
-from viscontact.plot.histories.time_axis import set_log_time
 from viscontact.plot.layout import style
+from viscontact.plot.layout.log_time import set_log_time
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import readable_unit

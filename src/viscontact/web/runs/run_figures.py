@@ -8,12 +8,12 @@ from typing import Any
 import xarray as xr
 from plotly.graph_objects import Figure
 
+from viscontact.drawing.content.along_run import along_run
 from viscontact.figures.friction import friction, has_friction
-from viscontact.figures.histories import LINEAR, LOGARITHMIC, UNKNOWN, history, panel_names
+from viscontact.figures.histories import LINEAR, LOGARITHMIC, history, panel_names
 from viscontact.figures.look import DARK, LIGHT, Look, plain
 from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import map_remarks, pressure_map
-from viscontact.figures.run_scale import run_scale
 from viscontact.figures.sections import sections
 from viscontact.figures.shown_fields import ShownFields, shown_fields
 from viscontact.results.run_axis import in_order, run_axis
@@ -67,17 +67,12 @@ def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list
     load, response = panel_names(ds)
     left_out = "friction_coefficient" if has_friction(ds) else ""
     names = [name for name in (*load, *response) if name != left_out]
-    figures = [history(ds, name, look, reference) for name in names]
-    for figure in figures:
-        # The page says once that an answer is coarse, and has no error bars.
-        if figure.layout.meta["note"] == UNKNOWN:
-            figure.layout.meta = figure.layout.meta | {"note": ""}
-    return figures
+    return [history(ds, name, look, reference) for name in names]
 
 
 def _scale(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> str | None:
     """Frame of the histories that is shown first; None if they have no other."""
-    scale = run_scale(ds, look, reference)
-    if not scale.has_log:
+    axis = along_run([ds] if reference is None else [ds, reference], look.unit)
+    if not axis.has_choice:
         return None
-    return LOGARITHMIC if scale.starts_log else LINEAR
+    return LINEAR if axis.scale == "linear" else LOGARITHMIC

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from matplotlib import colormaps
-from matplotlib.colors import to_hex
-
-from viscontact.plot.layout import style
+from viscontact.drawing.content.panel import Ink
 from viscontact.units.parsing import parse_any_quantity
 
 _Run = TypeVar("_Run")
@@ -51,20 +48,11 @@ def in_order(runs: Mapping[str, _Run]) -> dict[str, _Run]:
     return {name: runs[name] for _, name in sorted(zip(values, runs, strict=True))}
 
 
-def styles_of(names: Sequence[str]) -> list[dict[str, Any]]:
-    """Colours of a scale for three or more runs that differ in a number, else distinct styles."""
+def inks_of(names: Sequence[str]) -> list[Ink]:
+    """Colours of a scale for three or more runs that differ in a number, else distinct ones."""
     values = ordered_values(names)
     if values is None or len(names) < _FEW:
-        return style.run_styles(len(names))
+        return [Ink(place=number) for number in range(len(names))]
     ranks = {value: rank for rank, value in enumerate(sorted(set(values)))}
-    # Beyond 0.85 viridis is too pale for thin lines on white.
-    scale = colormaps["viridis"]
     last = max(1, *ranks.values())
-    return [
-        {
-            "color": to_hex(scale(0.85 * ranks[value] / last)),
-            "linestyle": "-",
-            "linewidth": style.LINE_WIDTH,
-        }
-        for value in values
-    ]
+    return [Ink("ordered", ranks[value] / last) for value in values]
