@@ -26,7 +26,8 @@ NUMBERS = [name for name in NAMES if name not in ("outcome", "iterations", "cell
 def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> ContactState:
     """The state of a row: reproducible numbers with all their bits, NaN and warnings among them."""
     random = np.random.default_rng(row)
-    fields = {name: random.standard_normal(grid.shape) for name in FIELDS}
+    fields: dict[str, Any] = {name: random.standard_normal(grid.shape) for name in FIELDS}
+    fields["in_contact"] = fields["pressure"] > 0
     fields["gap"][0, 0] = np.inf
     fields |= {name: random.standard_normal(grid.shape[0]) for name in LINES}
     scalars = {name: float(value) for name, value in zip(NUMBERS, random.random(99), strict=False)}
@@ -35,7 +36,6 @@ def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> Co
     return ContactState(
         time=float(times[row]),
         **fields,
-        in_contact=fields["pressure"] > 0,
         grid=grid,
         **scalars,
         iterations=int(random.integers(99)),

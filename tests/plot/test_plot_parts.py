@@ -110,7 +110,9 @@ def test_rim_that_is_not_smooth_stays_a_polygon(rim: str) -> None:
         "square": np.maximum(np.abs(x[:, None]), np.abs(x)) - 18.3,
         "frayed": r - 20.3 - 2.0 * np.sign(np.sin(24 * angle)),
     }[rim]
-    snapshot = Snapshot(0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0.0) ** 1.5)
+    snapshot = Snapshot(
+        0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0.0) ** 1.5, outside < 0
+    )
     for polygon, curve in zip(rim_polygons(snapshot), rim_curves(snapshot), strict=True):
         assert np.array_equal(polygon, curve)
 
@@ -119,7 +121,7 @@ def test_outline_of_a_contact_with_a_hole_has_two_polygons() -> None:
     x = np.arange(-10.0, 11.0)
     r = np.hypot(x[:, None], x)
     outside = np.maximum(r - 8.2, 3.1 - r)
-    snapshot = Snapshot(0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0) ** 1.5)
+    snapshot = Snapshot(0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0) ** 1.5, outside < 0)
     radii = sorted(float(np.hypot(*polygon.T).mean()) for polygon in rim_polygons(snapshot))
     assert radii == pytest.approx([3.1, 8.2], abs=0.1)
 
@@ -127,7 +129,7 @@ def test_outline_of_a_contact_with_a_hole_has_two_polygons() -> None:
 def test_outline_where_the_body_ends_stays_between_the_cells() -> None:
     x = np.arange(-5.5, 6.0)
     pressed = np.hypot(x[:, None], x) < 4
-    snapshot = Snapshot(0.0, x, x, 1.0 * pressed, np.where(pressed, 0.0, np.inf))
+    snapshot = Snapshot(0.0, x, x, 1.0 * pressed, np.where(pressed, 0.0, np.inf), pressed)
     (outline,) = rim_polygons(snapshot)
     assert np.all(np.isfinite(outline))
     assert np.abs(np.hypot(*outline.T) - 4).max() < 1.0

@@ -332,9 +332,9 @@ ERRORS = {
     for name, unit in SCALARS.items()
     if name not in ("time_error", "iterations", "residual", "cells_across", "outcome")
 }
-FIELDS = {"pressure": "Pa", "gap": "m", "displacement": "m", "line_load": "N/m"}
+FIELDS = {"pressure": "Pa", "gap": "m", "displacement": "m", "line_load": "N/m", "in_contact": "1"}
 COORDINATES = {"time": "s", "x": "m", "y": "m"}
-KINDS = {"iterations": "i", "cells_across": "i", "outcome": "i"}
+KINDS = {"iterations": "i", "cells_across": "i", "outcome": "i", "in_contact": "i"}
 
 
 def _check_variables(ds: xr.Dataset, fields: type[np.floating] = np.float64) -> None:
@@ -351,7 +351,10 @@ def _check_variables(ds: xr.Dataset, fields: type[np.floating] = np.float64) -> 
     axes = dict.fromkeys(FIELDS, ("time", "x", "y")) | {"line_load": ("time", "x")}
     assert all(ds[name].dims == axes[name] for name in FIELDS)
     assert all(ds[name].dtype == np.float64 for name in COORDINATES)
-    assert all(ds[name].dtype == fields for name in FIELDS)
+    assert all(ds[name].dtype == fields for name in FIELDS if name not in KINDS)
+    assert ds.in_contact.attrs["flag_values"].tolist() == [0, 1]
+    assert ds.in_contact.attrs["flag_meanings"] == "open in_contact"
+    np.testing.assert_array_equal(ds.in_contact, ds.pressure > 0)  # without adhesion
     assert ds.outcome.attrs["flag_values"].tolist() == [0, 1, 2]
     assert ds.outcome.attrs["flag_meanings"] == "converged no_contact not_converged"
 

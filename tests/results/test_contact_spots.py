@@ -28,7 +28,7 @@ def bearing_map(
         if periodic:
             dx, dy = np.minimum(dx, cells - dx), np.minimum(dy, cells - dy)
         contact |= np.hypot(dx, dy) < radius
-    fields = contact.astype(float), (~contact).astype(float)
+    fields = contact.astype(float), (~contact).astype(float), contact
     return Snapshot(1.0, CELL * at, CELL * at, *fields, periodic=periodic)
 
 
@@ -53,9 +53,8 @@ def test_spots_that_meet_at_a_corner_are_two_and_at_an_edge_one() -> None:
         for cell in cells:
             pressure[cell] = 1.0
         at = CELL * (np.arange(8) + 0.5)
-        assert spots_of(result(2e-12), Snapshot(1.0, at, at, pressure, 1 - pressure)).number == (
-            expected
-        )
+        touching = Snapshot(1.0, at, at, pressure, 1 - pressure, pressure > 0)
+        assert spots_of(result(2e-12), touching).number == expected
 
 
 def test_a_spot_across_borders_of_a_period_is_one_and_the_period_is_the_nominal_area() -> None:
@@ -67,7 +66,7 @@ def test_a_spot_across_borders_of_a_period_is_one_and_the_period_is_the_nominal_
     assert found.nominal_area == pytest.approx((64 * CELL) ** 2, rel=1e-12)
     assert found.fraction == pytest.approx(3 * np.pi * 36 / 64**2, rel=1e-12)
     # Without the period the same cells are eight pieces.
-    plain = Snapshot(1.0, shown.x, shown.y, shown.pressure, shown.gap)
+    plain = Snapshot(1.0, shown.x, shown.y, shown.pressure, shown.gap, shown.in_contact)
     assert spots_of(result(1e-12), plain).number == 4 + 2 + 2
 
 

@@ -63,7 +63,7 @@ def section(
     others = [] if reference is None else section_lines(reference, along)
     titles = [f"Along {along}, {place}" for place in _places(fields, along, look)]
     drawn_lines = _Lines(f"section-{along}", ("Pressure", "Pa"), along, lines, others, titles)
-    return _curves(fields, look, drawn_lines, reference, _edges(fields, along, lines))
+    return _curves(fields, look, drawn_lines, reference, _edges(fields, along))
 
 
 def line_load(
@@ -190,10 +190,10 @@ def _edge_style(look: Look, along: str, length: ReadableUnit) -> Part:
     }
 
 
-def _edges(
-    fields: ShownFields, along: Literal["x", "y"], lines: list[Curve]
-) -> list[Floats | None]:
+def _edges(fields: ShownFields, along: Literal["x", "y"]) -> list[Floats | None]:
     """Leading and trailing edge of a moving contact at each instant [m], None without them."""
+    pairs = zip(fields.snapshots, crossings(fields, along), strict=True)
+    lines = [each.contact_section(along, at) for each, at in pairs]
     ways = [place.way(along) for place in fields.body] or [0.0] * len(lines)
     found = [contact_edges(*line, way) for line, way in zip(lines, ways, strict=True)]
     return [None if edges is None else np.asarray(edges) for edges in found]

@@ -99,7 +99,7 @@ def _middle_of(shown: Snapshot) -> tuple[float, float]:
     # To a hundredth of a cell: the rest is rounding, and zero reads better.
     x = round(float(shown.x @ pressure.sum(axis=1) / force) / dx, 2) * dx + 0.0
     y = round(float(pressure.sum(axis=0) @ shown.y / force) / dy, 2) * dy + 0.0
-    if pressure[np.abs(shown.x - x).argmin(), np.abs(shown.y - y).argmin()] > 0:
+    if shown.in_contact[np.abs(shown.x - x).argmin(), np.abs(shown.y - y).argmin()]:
         return x, y
     i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
     return float(shown.x[i]), float(shown.y[j])

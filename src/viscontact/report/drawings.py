@@ -23,6 +23,7 @@ from viscontact.plot.materials.creep import curve_times
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times
+from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import format_quantity
 
 #: Bodies by the section of their material.
@@ -120,8 +121,9 @@ def _middle(ds: xr.Dataset) -> tuple[float, float]:
     if "pressure" not in ds:
         return 0.0, 0.0
     over = ds["pressure"].dims[0]
-    areas = (ds["pressure"] > 0).sum(["x", "y"])
-    touched = ds["pressure"].isel({over: int(areas.values.argmax())}).transpose("x", "y").values > 0
+    in_contact = cells_in_contact(ds)
+    largest = int(in_contact.sum(["x", "y"]).values.argmax())
+    touched = in_contact.isel({over: largest}).transpose("x", "y").values
     if not touched.any():
         return 0.0, 0.0
     x, y = ds["x"].values[touched.any(axis=1)], ds["y"].values[touched.any(axis=0)]

@@ -59,7 +59,7 @@ def spots_of(ds: xr.Dataset, snapshot: Snapshot) -> ContactSpots:
     row = int(np.argmin(np.abs(axis.values(ds) - snapshot.time)))
     real = float(ds["contact_area"].values[row])
     cell = snapshot.cell_size[0] * snapshot.cell_size[1]
-    numbers = label_spots(snapshot.pressure > 0, snapshot.periodic)
+    numbers = label_spots(snapshot.in_contact, snapshot.periodic)
     counts = np.sort(np.bincount(numbers[numbers > 0])[1:])[::-1]
     areas = np.asarray(cell * counts, dtype=np.float64)
     if not areas.size:
@@ -83,7 +83,7 @@ def last_spots(ds: xr.Dataset) -> ContactSpots | None:
     for index in reversed(range(stored.size)):
         snapshot = read(index)
         if snapshot.touching:
-            is_single = label_spots(snapshot.pressure > 0, snapshot.periodic).max() == 1
+            is_single = label_spots(snapshot.in_contact, snapshot.periodic).max() == 1
             return None if is_single else spots_of(ds, snapshot)
     return None
 
@@ -182,7 +182,7 @@ def _nominal_area(snapshot: Snapshot) -> float:
     (lx, ly), (along_x, along_y) = snapshot.grid.size, snapshot.periodic
     if along_x or along_y:
         return (lx if along_x else x_high - x_low) * (ly if along_y else y_high - y_low)
-    contact = snapshot.pressure > 0
+    contact = snapshot.in_contact
     rows = np.flatnonzero(contact.any(axis=1))
     first = contact[rows].argmax(axis=1)
     last = contact.shape[1] - 1 - contact[rows, ::-1].argmax(axis=1)

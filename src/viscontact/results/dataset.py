@@ -18,7 +18,6 @@ from viscontact.results.variables import (
     ERRORS,
     FIELDS,
     LINES,
-    OUTCOME_FLAGS,
     error_name,
     field_axis,
     field_axis_attributes,
@@ -51,7 +50,6 @@ def to_dataset(
     }
     grid = states[-1].grid  # the widest: a grid is enlarged only
     dataset = xr.Dataset(scalars, coords=_coordinates(grid, over, values))
-    dataset["outcome"].attrs.update(OUTCOME_FLAGS)
     kept = [state for state in states if state.pressure.size]
     if kept:
         dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields, over)))
@@ -68,7 +66,9 @@ def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict
     arrays: dict[str, Any] = {
         name: (
             (axis, "x", "y"),
-            np.stack([on_wider(name, getattr(s, name), s.grid, grid) for s in states]),
+            np.stack([on_wider(name, getattr(s, name), s.grid, grid) for s in states]).astype(
+                variable.kind, copy=False
+            ),
             variable.attributes,
         )
         for name, variable in FIELDS.items()

@@ -6,17 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Field, Floats
 from viscontact.grid import Grid
+from viscontact.results.variables import FIELDS
 from viscontact.state import ContactState
 from viscontact.units.formatting import format_quantity
 
 
-def on_wider(name: str, field: Floats, grid: Grid, wider: Grid) -> Floats:
+def on_wider(name: str, field: Field, grid: Grid, wider: Grid) -> Field:
     """A field on the widest grid of a result, from the grid of its instant.
 
     The shape of the field is (..., nx, ny). Beyond its grid pressure is 0, gap and displacement
-    are NaN.
+    are NaN, and no cell is in contact.
 
     >>> small = Grid((4, 4), (1.0, 1.0))
     >>> on_wider("gap", np.ones((4, 4)), small, small.widened((6, 4)))[:, 0].tolist()
@@ -24,7 +25,7 @@ def on_wider(name: str, field: Floats, grid: Grid, wider: Grid) -> Floats:
     """
     if grid == wider:
         return field
-    return grid.embed(field, wider, beyond=0.0 if name == "pressure" else np.nan)
+    return grid.embed(field, wider, beyond=FIELDS[name].beyond)
 
 
 def line_on_wider(line: Floats, grid: Grid, wider: Grid) -> Floats:

@@ -89,7 +89,7 @@ def _field_at(ds: xr.Dataset, place: float) -> xr.Dataset:
 
 def _loaded(field: xr.Dataset) -> xr.Dataset:
     """Smallest part of the grid that contains all pressure; a period is kept."""
-    pressed = (field["pressure"] > 0).any(str(field["pressure"].dims[0]))
+    pressed = (field["pressure"] != 0).any(str(field["pressure"].dims[0]))
     grid = recorded_grid(field)
     for axis, periodic in zip("xy", grid.periodic, strict=True):
         cells = np.flatnonzero(pressed.any("yx"["xy".index(axis)]).values)

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.results.run_axis import run_axis
 
 
@@ -68,19 +68,19 @@ def body_axis_at(results: xr.Dataset, time: float) -> tuple[float, float]:
     return x, y
 
 
-def contact_edges(positions: Floats, pressure: Floats, way: float) -> tuple[float, float] | None:
+def contact_edges(positions: Floats, touched: Bools, way: float) -> tuple[float, float] | None:
     """Leading and trailing edge of a contact [m] on a line through it; None without.
 
     The sign of `way` is that of the velocity along the line; there are no edges if it is 0.
 
     >>> at = np.array([0.0, 1.0, 2.0, 3.0])
-    >>> contact_edges(at, np.array([0.0, 5.0, 5.0, 0.0]), -0.1)
+    >>> contact_edges(at, np.array([False, True, True, False]), -0.1)
     (0.5, 2.5)
     """
-    pressed = np.flatnonzero(pressure > 0)
-    if way == 0 or pressed.size == 0:
+    inside = np.flatnonzero(touched)
+    if way == 0 or inside.size == 0:
         return None
-    first, last = pressed[[0, -1]]
+    first, last = inside[[0, -1]]
     low = float(positions[max(first - 1, 0)] + positions[first]) / 2
     high = float(positions[last] + positions[min(last + 1, len(positions) - 1)]) / 2
     return (high, low) if way > 0 else (low, high)

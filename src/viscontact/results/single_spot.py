@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Bools
+from viscontact.results.stored_contact import cells_in_contact
 from viscontact.results.stored_result import StoredResult
 
 
@@ -12,9 +13,8 @@ def ends_in_one_spot(stored: StoredResult) -> bool:
     """True if the last stored contact is obviously one spot, or if there is no stored contact."""
     if "pressure" not in stored or "gap" not in stored:
         return True
-    pressure = stored["pressure"]
-    for row in reversed(range(stored.sizes[pressure.dims[0]])):
-        contact = pressure[row] > 0
+    for row in reversed(range(stored.sizes[stored["pressure"].dims[0]])):
+        contact: Bools = cells_in_contact(stored, row)
         if contact.any():
             return is_one_spot(contact)
     return True

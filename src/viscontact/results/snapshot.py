@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Field, Floats
 from viscontact.contact.body_edge import Outline
 from viscontact.grid import Grid
 from viscontact.results.run_axis import TIME, RunAxis
@@ -24,6 +24,7 @@ class Snapshot:
     y: Floats  # cell centres, shape (ny,) [m]
     pressure: Floats  # shape (nx, ny), positive in compression [Pa]
     gap: Floats  # shape (nx, ny), positive when open [m]
+    in_contact: Bools  # cells where the bodies touch, shape (nx, ny)
     body_end: Outline | None = None  # where the indenter ends between the cells, if known
     periodic: AxisFlags = NEITHER  # axes along which the fields are one period
     axis: RunAxis = TIME  # quantity in which the snapshots of a result differ
@@ -40,7 +41,7 @@ class Snapshot:
     @property
     def touching(self) -> bool:
         """True if the bodies are in contact at this instant."""
-        return bool(np.any(self.pressure > 0))
+        return bool(self.in_contact.any())
 
     @property
     def cell_size(self) -> tuple[float, float]:
@@ -49,8 +50,8 @@ class Snapshot:
 
     def extent(self) -> tuple[float, float, float, float]:
         """Box (x_min, x_max, y_min, y_max) around the cells in contact [m]."""
-        inside = self.pressure > 0
-        return self._box(self.x[inside.any(axis=1)], self.y[inside.any(axis=0)])
+        rows, columns = (self.in_contact.any(axis=axis) for axis in (1, 0))
+        return self._box(self.x[rows], self.y[columns])
 
     def borders(self) -> tuple[float, float, float, float]:
         """Box (x_min, x_max, y_min, y_max) around all cells [m]."""
@@ -72,7 +73,7 @@ class Snapshot:
         --------
         >>> at = np.array([-1.5, -0.5, 0.5, 1.5])
         >>> pressure = np.arange(16.0).reshape(4, 4)
-        >>> period = Snapshot(0.0, at, at, pressure, 0 * pressure, periodic=True)
+        >>> period = Snapshot(0.0, at, at, pressure, 0 * pressure, pressure != 0, periodic=True)
         >>> period.with_border(1).pressure[0].tolist()  # the last row again
         [15.0, 12.0, 13.0, 14.0, 15.0, 12.0]
         """
@@ -83,9 +84,10 @@ class Snapshot:
         )
         pressure = _padded(self.pressure, cells, self.periodic, 0.0)
         gap = _padded(self.gap, cells, self.periodic, np.inf)
+        touched = _padded(self.in_contact, cells, self.periodic, False)
         end = self.body_end
         body_end = None if end is None else _with_border(end, cells, self.periodic)
-        return Snapshot(self.time, x, y, pressure, gap, body_end, axis=self.axis)
+        return Snapshot(self.time, x, y, pressure, gap, touched, body_end, axis=self.axis)
 
     @property
     def middle(self) -> tuple[float, float]:
@@ -101,10 +103,23 @@ class Snapshot:
         rows of cells the pressure is interpolated linearly: on an even grid the line through the
         middle takes the mean of the two middle rows.
         """
+        return self._line(self.pressure, along, at)
+
+    def contact_section(
+        self, along: Literal["x", "y"] = "x", at: float | None = None
+    ) -> tuple[Floats, Bools]:
+        """Cell centres [m] of `section`, and whether the bodies touch there."""
+        positions, share = self._line(self.in_contact.astype(np.float64), along, at)
+        return positions, share > 0
+
+    def _line(
+        self, field: Floats, along: Literal["x", "y"], at: float | None
+    ) -> tuple[Floats, Floats]:
+        """Cell centres [m] and a field on a line parallel to an axis."""
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', got {along!r}")
         positions, across = (self.x, self.y) if along == "x" else (self.y, self.x)
-        rows = self.pressure.T if along == "x" else self.pressure
+        rows = field.T if along == "x" else field
         at = self.middle[1 if along == "x" else 0] if at is None else at
         if not across[0] <= at <= across[-1]:
             raise ValueError(
@@ -120,7 +135,7 @@ class Snapshot:
         return self.x, self.pressure.sum(axis=1) * self.cell_size[1]
 
 
-def _padded(field: Floats, cells: int, periodic: AxisFlags, beyond: float) -> Floats:
+def _padded(field: Field, cells: int, periodic: AxisFlags, beyond: float) -> Field:
     """Field with more cells at each border: those of the next period, or a value."""
     for axis in (0, 1):
         width = [(cells, cells) if axis == each else (0, 0) for each in (0, 1)]

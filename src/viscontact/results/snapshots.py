@@ -15,6 +15,7 @@ from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot
+from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import time_labels
 
 #: Relative change of the contact area below which it is final, and share of the time at which it is
@@ -56,7 +57,7 @@ def take_snapshots(
         chosen = _ranked(stored, count)
     else:
         # From the scalars: all fields of a long run need not fit in memory.
-        scalars = results[["peak_pressure", "contact_area"]].sel(time=stored, method="nearest")
+        scalars = results[["contact_area"]].sel(time=stored, method="nearest")
         chosen = _spread(stored, scalars, count)
     snapshot_of = snapshot_reader(results)
     snapshots = [snapshot_of(index) for index in chosen]
@@ -99,7 +100,8 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
             for name, cells, lines in zip("xy", single, (shown.x, shown.y), strict=True)
         )
         place, axis = float(fields[dimension]), run_axis(results)
-        return Snapshot(place, x, y, pressure, gap, body_end, grid.periodic, axis)
+        touched = _as_shown(cells_in_contact(results, index)) > 0
+        return Snapshot(place, x, y, pressure, gap, touched, body_end, grid.periodic, axis)
 
     return read
 
@@ -161,7 +163,7 @@ def _ranked(stored: Floats, count: int) -> Sequence[int]:
 
 
 def _spread(stored: Floats, scalars: xr.Dataset, count: int) -> Sequence[int]:
-    candidates = np.flatnonzero(scalars["peak_pressure"].values > 0)
+    candidates = np.flatnonzero(scalars["contact_area"].values > 0)
     if candidates.size <= count:
         return [int(index) for index in candidates]
     instants = stored[candidates]

@@ -7,6 +7,7 @@ the netCDF and CSV files, the tables, cards, pages and figures read the table.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Container, Hashable, Sequence
 from dataclasses import dataclass
 from enum import Flag, auto
@@ -51,12 +52,19 @@ class Variable:
     places: Place = Place.NOWHERE
     rank: int = 0  # on pages, cards and figures; tables keep the order of `SCALARS`
     moving: bool = False  # only results of moving contacts have it
+    flags: tuple[str, ...] = ()  # meanings of the values 0, 1, ... of an enumeration
+    beyond: float = math.nan  # value of a field where a grid that was enlarged had no cells yet
 
     @property
     def attributes(self) -> dict[str, Any]:
         """Attributes the variable carries."""
-        attributes = {"units": self.units, "long_name": self.long_name}
-        return attributes | ({"comment": self.comment} if self.comment else {})
+        attributes: dict[str, Any] = {"units": self.units, "long_name": self.long_name}
+        if self.comment:
+            attributes["comment"] = self.comment
+        if self.flags:  # CF's way to write an enumeration
+            attributes["flag_values"] = np.arange(len(self.flags), dtype=self.kind)
+            attributes["flag_meanings"] = " ".join(self.flags)
+        return attributes
 
 
 #: Quantities in which the states of a run differ: time, or speed in steady motion.
@@ -75,10 +83,13 @@ COORDINATES = {
 _BEYOND = "NaN beyond the grid of an instant before the grid was enlarged (see grid_enlarged)"
 
 FIELDS = {
-    "pressure": Variable("Pa", "contact pressure, positive in compression"),
+    "pressure": Variable("Pa", "contact pressure, positive in compression", beyond=0.0),
     "gap": Variable("m", "gap, positive when open", comment=_BEYOND),
     "displacement": Variable(
         "m", "surface displacement, positive into the half-space", comment=_BEYOND
+    ),
+    "in_contact": Variable(
+        "1", "cells where the bodies touch", "i1", flags=("open", "in_contact"), beyond=False
     ),
 }
 
@@ -187,7 +198,10 @@ SCALARS = {
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
     "cells_across": Variable("1", "cells across the contact, along its shorter direction", "i4"),
-    "outcome": Variable("1", "how the instant ended", "i1"),
+    "outcome": Variable(
+        *("1", "how the instant ended", "i1"),
+        flags=tuple(outcome.name.lower() for outcome in Outcome),
+    ),
 }
 
 
@@ -251,12 +265,6 @@ def scalars_with_error(*, moving: bool = True, over: str = "time") -> list[str]:
     found = scalars_of(moving=moving, over=over)
     return [name for name, variable in found.items() if variable.has_error]
 
-
-#: CF's way to write an enumeration.
-OUTCOME_FLAGS = {
-    "flag_values": np.array([outcome.value for outcome in Outcome], dtype="i1"),
-    "flag_meanings": " ".join(outcome.name.lower() for outcome in Outcome),
-}
 
 #: Said of a value whose stated error is infinite.
 MESH_DEPENDENT = "depends on the mesh"

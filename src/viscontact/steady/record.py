@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from viscontact import __version__
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Field, Floats
 from viscontact.grid import Grid
 from viscontact.results.descriptions import describe
-from viscontact.results.variables import scalars_with_error
+from viscontact.results.variables import FIELDS, scalars_with_error
 from viscontact.state import ContactState
 from viscontact.steady.preparation import SteadySetup
 from viscontact.steady.problem import SteadyProblem
@@ -29,19 +29,17 @@ def on_grid(state: ContactState, grid: Grid) -> ContactState:
     """A state on the grid of all speeds: beyond its own, gap and displacement are NaN."""
     if state.grid == grid or not state.pressure.size:
         return replace(state, grid=grid)
-    return replace(
-        state,
-        grid=grid,
-        pressure=_embedded(state.pressure, state.grid, grid, 0.0),
-        gap=_embedded(state.gap, state.grid, grid, np.nan),
-        displacement=_embedded(state.displacement, state.grid, grid, np.nan),
-        line_load=_embedded(state.line_load, state.grid, grid, 0.0),
-    )
+    fields: dict[str, Any] = {
+        name: _embedded(getattr(state, name), state.grid, grid, variable.beyond)
+        for name, variable in FIELDS.items()
+    }
+    line_load = _embedded(state.line_load, state.grid, grid, 0.0)
+    return replace(state, grid=grid, line_load=line_load, **fields)
 
 
-def _embedded(field: Floats, grid: Grid, wider: Grid, beyond: float) -> Floats:
+def _embedded(field: Field, grid: Grid, wider: Grid, beyond: float) -> Field:
     """A field on the grid of all speeds, with a value beyond its own."""
-    whole = np.full(wider.shape[: field.ndim], beyond)
+    whole = np.full(wider.shape[: field.ndim], beyond, dtype=field.dtype)
     first = [
         round((own[0] - all_[0]) / cell)
         for own, all_, cell in zip(

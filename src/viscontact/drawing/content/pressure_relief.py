@@ -98,7 +98,7 @@ def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
 
     >>> at = np.arange(5.0)
     >>> pressure = np.arange(25.0).reshape(5, 5)
-    >>> thin = thinned(Snapshot(0.0, at, at, pressure, 0 * pressure), (2, 1))
+    >>> thin = thinned(Snapshot(0.0, at, at, pressure, 0 * pressure, pressure != 0), (2, 1))
     >>> thin.x.tolist(), thin.pressure[0].tolist()
     ([0.5, 2.5], [5.0, 6.0, 7.0, 8.0, 9.0])
     """
@@ -106,11 +106,14 @@ def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
         return snapshot
     (i, j), (nx, ny) = count, (n // c for n, c in zip(snapshot.pressure.shape, count, strict=True))
     x, y = snapshot.x[: nx * i].reshape(nx, i).mean(1), snapshot.y[: ny * j].reshape(ny, j).mean(1)
-    pressure, gap = (
+    blocks = (
         field[: nx * i, : ny * j].reshape(nx, i, ny, j)
-        for field in (snapshot.pressure, snapshot.gap)
+        for field in (snapshot.pressure, snapshot.gap, snapshot.in_contact)
     )
-    return Snapshot(snapshot.time, x, y, pressure.max((1, 3)), gap.min((1, 3)))
+    pressure, gap, touched = blocks
+    return Snapshot(
+        snapshot.time, x, y, pressure.max((1, 3)), gap.min((1, 3)), np.any(touched, axis=(1, 3))
+    )
 
 
 def _neighbouring(contact: Bools) -> Bools:

@@ -54,7 +54,7 @@ def rim_curves(snapshot: Snapshot) -> list[Floats]:
     >>> x = np.arange(-12.5, 13.0)
     >>> outside = np.hypot(x[:, None], x) - 9.3
     >>> gap = np.maximum(outside, 0.0) ** 1.5
-    >>> curve, = rim_curves(Snapshot(0.0, x, x, 1.0 * (outside < 0), gap))
+    >>> curve, = rim_curves(Snapshot(0.0, x, x, 1.0 * (outside < 0), gap, outside < 0))
     >>> len(curve) > 300, float(np.abs(np.hypot(*curve.T) - 9.3).max().round(2))
     (True, 0.05)
     """
@@ -68,7 +68,7 @@ def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corner
     """Corners of each polygon [cells], whether the gap gives all, and the mesh's place [m]."""
     # A border of open cells closes every polygon of a grid that is not periodic.
     snapshot = beyond_period(snapshot).with_border(1)
-    contact = snapshot.pressure > 0
+    contact = snapshot.in_contact
     offsets = offsets_from_rim(contact, snapshot.gap)
     first = np.array([snapshot.x[0], snapshot.y[0]])
     cell = np.array([snapshot.x[1], snapshot.y[1]]) - first

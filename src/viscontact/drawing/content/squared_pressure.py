@@ -21,7 +21,7 @@ def squared_pressure(snapshot: Snapshot) -> Floats:
     would follow the steps of the grid.
     """
     squared = np.square(snapshot.pressure)
-    contact = snapshot.pressure > 0
+    contact = snapshot.in_contact
     offsets = offsets_from_rim(contact, snapshot.gap)
     distance = np.linalg.norm(offsets, axis=-1)
     normal = offsets / np.where(distance > 0, distance, np.nan)[..., None]

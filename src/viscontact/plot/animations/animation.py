@@ -198,7 +198,7 @@ def _scene(results: xr.Dataset, stored: Floats, shown: Floats) -> _Scene:
         snapshot = read(int(index))
         if snapshot.touching:
             boxes.append(snapshot.extent())
-            pressed = snapshot.pressure[snapshot.pressure > 0]
+            pressed = snapshot.pressure[snapshot.in_contact]
             highest = max(highest, float(np.quantile(pressed, part)))
             for way in tops:
                 tops[way] = max(tops[way], float(snapshot.section(way)[1].max()))
@@ -218,7 +218,7 @@ def _scene(results: xr.Dataset, stored: Floats, shown: Floats) -> _Scene:
 
     def edges(snapshot: Snapshot) -> tuple[float, float] | None:
         direction = direction_at(results, snapshot.time) or (0.0, 0.0)
-        return contact_edges(*snapshot.section(along), direction["xy".index(along)])
+        return contact_edges(*snapshot.contact_section(along), direction["xy".index(along)])
 
     return _Scene(stored, read, window, levels, unit, along, note, tops[along], mark, edges)
 

@@ -108,4 +108,4 @@ def contact_area(
 def _counted(snapshot: Snapshot) -> float:
     """Area of the cells in contact [m²]."""
     dx, dy = snapshot.cell_size
-    return int((snapshot.pressure > 0).sum()) * dx * dy
+    return int(snapshot.in_contact.sum()) * dx * dy

@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Most speeds that are drawn by default, and digits of a speed.
@@ -72,6 +73,7 @@ def motion_profile(
     stored = results["pressure"].sel({across: at}, method="nearest").sortby(dimension)
     chosen = _chosen(stored[dimension].values, speeds)
     lines, places = stored.values[chosen], stored[along].values
+    touched = cells_in_contact(results).sel({across: at}, method="nearest").sortby(dimension)
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS)
         axes = style.new_figure(wide, 0.45 * wide).subplots()
@@ -81,7 +83,7 @@ def motion_profile(
     for index, (number, pressure) in enumerate(zip(chosen.tolist(), lines, strict=True)):
         colour = colours[index]
         curves += axes.plot(x_unit(places), y_unit(pressure), color=colour, lw=style.LINE_WIDTH)
-        _mark_edges(axes, x_unit(places), pressure, colour)
+        _mark_edges(axes, x_unit(places), touched.values[number], colour)
         label = format_quantity(float(stored[dimension].values[number]), "m/s", _DIGITS)
         curves[-1].set_label(label)
     axes.axvline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
@@ -102,14 +104,14 @@ def _chosen(stored: Floats, speeds: ArrayLike | None) -> Integers:
     return np.unique(np.abs(np.log(stored / wanted[:, None])).argmin(axis=1))
 
 
-def _mark_edges(axes: Axes, places: Floats, pressure: Floats, colour: str) -> None:
+def _mark_edges(axes: Axes, places: Floats, touched: Bools, colour: str) -> None:
     """Mark the trailing edge (hollow) and the leading edge (full) of a contact."""
-    touched = np.flatnonzero(pressure > 0)
-    if not touched.size:
+    inside = np.flatnonzero(touched)
+    if not inside.size:
         return
     half = (places[1] - places[0]) / 2
-    for place, inside in (
-        (places[touched[0]] - half, "white"),
-        (places[touched[-1]] + half, colour),
+    for place, fill in (
+        (places[inside[0]] - half, "white"),
+        (places[inside[-1]] + half, colour),
     ):
-        axes.plot(place, 0.0, "o", color=colour, mfc=inside, ms=4, clip_on=False, zorder=3)
+        axes.plot(place, 0.0, "o", color=colour, mfc=fill, ms=4, clip_on=False, zorder=3)

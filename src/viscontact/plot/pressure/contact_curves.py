@@ -131,9 +131,9 @@ def compare_curves(
     return figure
 
 
-def in_contact(values: Floats) -> Floats:
-    """Values with NaN outside the contact but for the zeros at its ends."""
-    pressed = values > 0
+def under_pressure(values: Floats) -> Floats:
+    """Values with NaN where they are zero, but for the zeros next to others."""
+    pressed = values != 0
     near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])
     return np.where(near, values, np.nan)
 
@@ -146,7 +146,7 @@ class _Units:
 
 def _plot(axes: Axes, snapshot: Snapshot, curve: ContactCurve, units: _Units, **look: Any) -> None:
     positions, values = curve.values(snapshot)
-    axes.plot(units.length(positions), units.values(in_contact(values)), **look)
+    axes.plot(units.length(positions), units.values(under_pressure(values)), **look)
 
 
 def _mark_edges(
@@ -160,7 +160,8 @@ def _mark_edges(
     """Mark the edges of a moving contact on its curve; none at rest."""
     direction = direction_at(results, snapshot.time)
     way = 0.0 if direction is None else direction["xy".index(curve.along)]
-    edges = contact_edges(*curve.values(snapshot), way)
+    positions, values = curve.values(snapshot)
+    edges = contact_edges(positions, values != 0, way)
     for edge, fill in zip(edges or (), (colour, "white"), strict=False):  # the leading one first
         axes.scatter(
             units.length(edge), 0.0, s=16, color=fill, edgecolors=[colour], zorder=3, clip_on=False

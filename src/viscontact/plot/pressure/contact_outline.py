@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -82,7 +81,7 @@ def contact_outline(
     style.add_heading(axes, window.note, aside=True)
     lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
     labels = labels_of(snapshots)
-    whole = [bool(np.all(snapshot.pressure > 0)) for snapshot in snapshots]
+    whole = [bool(snapshot.in_contact.all()) for snapshot in snapshots]
     style.add_legend(
         axes,
         lines,

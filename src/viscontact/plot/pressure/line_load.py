@@ -106,12 +106,12 @@ def _values(snapshot: Snapshot) -> tuple[Floats, Floats]:
     cell, _ = snapshot.cell_size
     if snapshot.periodic[0]:
         return np.concatenate([x[:1] - cell, x, x[-1:] + cell]), np.pad(load, 1, mode="wrap")
-    pressed = np.flatnonzero(load > 0)
-    if not pressed.size:
+    touched = np.flatnonzero(snapshot.in_contact.any(axis=1))
+    if not touched.size:
         return x, load
     # The contact ends within half a cell of the border of its last cells.
-    rows = slice(int(pressed[0]), int(pressed[-1]) + 1)
-    ends = x[pressed[0]] - cell / 2, x[pressed[-1]] + cell / 2
+    rows = slice(int(touched[0]), int(touched[-1]) + 1)
+    ends = x[touched[0]] - cell / 2, x[touched[-1]] + cell / 2
     return np.concatenate([ends[:1], x[rows], ends[1:]]), np.pad(load[rows], 1)
 
 

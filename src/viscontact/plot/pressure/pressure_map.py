@@ -165,7 +165,7 @@ def _draw(
         for axes, snapshot in drawn:
             _draw_cells(axes, snapshot, top, window)
     else:
-        pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
+        pressed = (s.pressure[s.in_contact] for s in snapshots if s.touching)
         part = ORDINARY if note else 1.0
         levels, unit = pressure_levels(max(float(np.quantile(each, part)) for each in pressed))
         lines = [draw_contours(axes, snapshot, levels, window) for axes, snapshot in drawn]
@@ -192,14 +192,14 @@ def _draw(
 
 def has_many_spots(snapshot: Snapshot) -> bool:
     """True for a contact of so many spots that lines around them would cover the pressure."""
-    return bool(label(snapshot.pressure > 0)[1] > _MOST_SPOTS)
+    return bool(label(snapshot.in_contact)[1] > _MOST_SPOTS)
 
 
 def _draw_cells(axes: Axes, snapshot: Snapshot, top: float, window: Window) -> None:
     """Draw the pressure of each cell in contact in a colour, from 0 to a largest one [Pa]."""
     # With what lies beyond the border of a period.
     wide = beyond_period(snapshot)
-    pressure = np.ma.masked_less_equal(wide.pressure.T, 0.0)
+    pressure = np.ma.masked_array(wide.pressure.T, ~wide.in_contact.T)
     axes.pcolormesh(
         window.unit(wide.x),
         window.unit(wide.y),
@@ -280,8 +280,7 @@ def _label_contours(
     axes: Axes, lines: QuadContourSet, snapshot: Snapshot, unit: ReadableUnit, window: Window
 ) -> None:
     """Label the contours where there is room."""
-    pressure = snapshot.pressure
-    lowest, highest = np.percentile(pressure[pressure > 0], _LABELLED) ** 2
+    lowest, highest = np.percentile(snapshot.pressure[snapshot.in_contact], _LABELLED) ** 2
     texts = {
         square: format_compact(float(unit(math.sqrt(square))))
         for square in lines.levels
@@ -289,17 +288,17 @@ def _label_contours(
     }
 
     def fits(corners: Floats) -> bool:
-        return bool(np.all(_pressed(snapshot, corners * window.unit.factor)))
+        return bool(np.all(_touched(snapshot, corners * window.unit.factor)))
 
     label_contours(axes, lines, texts, fits)
 
 
-def _pressed(snapshot: Snapshot, points: Floats) -> Bools:
+def _touched(snapshot: Snapshot, points: Floats) -> Bools:
     """Mask of points, shape (n, 2) [m], whose cells are in contact."""
     first = np.array([snapshot.x[0], snapshot.y[0]])
     i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T
     i, j = np.clip(i, 0, snapshot.x.size - 1), np.clip(j, 0, snapshot.y.size - 1)
-    return np.asarray(snapshot.pressure[i, j] > 0, dtype=np.bool_)
+    return np.asarray(snapshot.in_contact[i, j])
 
 
 def _add_colour_bar(

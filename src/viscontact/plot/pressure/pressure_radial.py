@@ -127,7 +127,7 @@ def _is_round(indenter: Indenter, radius: float) -> bool:
 def _near_x_axis(snapshot: Snapshot) -> tuple[Floats, Floats]:
     """Distance and pressure of the cells in contact next to the positive x axis."""
     row = int(np.argmin(np.abs(snapshot.y)))
-    chosen = (snapshot.x >= 0) & (snapshot.pressure[:, row] > 0)
+    chosen = (snapshot.x >= 0) & snapshot.in_contact[:, row]
     r = np.hypot(snapshot.x[chosen], snapshot.y[row])
     return r, snapshot.pressure[chosen, row]
 

@@ -20,7 +20,6 @@ from viscontact.results.variables import (
     ERRORS,
     FIELDS,
     LINES,
-    OUTCOME_FLAGS,
     SCALARS,
     Variable,
     error_name,
@@ -80,7 +79,10 @@ class Layout:
             found[self.axis] = (Variable(about["units"], about["long_name"]), (self.axis,))
         axes = dict.fromkeys(FIELDS, ("x", "y")) | dict.fromkeys(LINES, ("x",))
         return found | {
-            name: (replace(variable, kind=self.kind), (self.axis, *axes[name]))
+            name: (
+                replace(variable, kind=self.kind) if variable.kind == "f8" else variable,
+                (self.axis, *axes[name]),
+            )
             for name, variable in (FIELDS | LINES).items()
         }
 
@@ -140,7 +142,6 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
     file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
     for name in layout.scalars:
         file[name].setncatts(scalar_attributes(name, errors=layout.errors))
-    file["outcome"].setncatts(OUTCOME_FLAGS)
     _keep_little(file)
     return file
 
@@ -162,8 +163,8 @@ def _create(
     options: dict[str, Any] = {"fill_value": np.nan} if variable.kind in ("f4", "f8") else {}
     if name in FIELDS | LINES:
         options["chunksizes"] = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
-    if name == "pressure":
-        # Most of it is 0. Gap and displacement hardly shrink, at many times the cost of writing.
+    if name in ("pressure", "in_contact"):
+        # Mostly 0. Gap and displacement hardly shrink, at many times the cost of writing.
         options |= {"zlib": True, "complevel": 1, "shuffle": True}
     file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
 

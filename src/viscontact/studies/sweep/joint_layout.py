@@ -15,7 +15,6 @@ from viscontact.backend.arrays import Floats
 from viscontact.results.variables import (
     AXES,
     ERRORS,
-    OUTCOME_FLAGS,
     scalar_attributes,
 )
 from viscontact.run_files import MANIFEST_NAME
@@ -101,7 +100,6 @@ class JointLayout:
             return ERRORS[name].attributes
         found = scalar_attributes(name, errors=any(each in ERRORS for each in self.columns))
         if name == "outcome":  # a float here, NaN without a result
-            found |= OUTCOME_FLAGS
             found["flag_values"] = np.asarray(found["flag_values"], dtype=np.float64)
         return found
 
