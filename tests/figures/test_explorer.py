@@ -11,9 +11,9 @@ import pytest
 import xarray as xr
 
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
-from viscontact.figures.look import DARK, LIGHT
+from viscontact.drawing.content.look import DARK, LIGHT
+from viscontact.drawing.content.map import maps_over
 from viscontact.figures.pressure_map import pressure_map
-from viscontact.figures.shown_fields import shown_fields
 from viscontact.units.formatting import readable_unit
 from viscontact.units.systems import SYSTEMS, unit_in
 
@@ -67,7 +67,7 @@ def test_in_a_narrow_cell_every_panel_has_the_whole_width() -> None:
 
 
 def test_the_map_contains_the_outline_of_the_reference() -> None:
-    small, large = (shown_fields(roller(times=times)) for times in ((0.0, 0.1), (100.0, 1000.0)))
+    small, large = (maps_over(roller(times=times)) for times in ((0.0, 0.1), (100.0, 1000.0)))
     for one, other in ((small, large), (large, small)):
         figure = pressure_map(one, LIGHT, other)
         for frame in figure.frames:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from viscontact.drawing.content.look import LIGHT
 from viscontact.figures.growing import growing
-from viscontact.figures.look import LIGHT
 from viscontact.results.run_axis import SPEED, TIME
 
 

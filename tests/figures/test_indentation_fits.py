@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.drawing.content.look import LIGHT
 from viscontact.figures.indentation_fits import contact_point, fit_over_time, force_over_approach
-from viscontact.figures.look import LIGHT
 
 # Hertz: F = 4/3 E* sqrt(R) d^1.5, on a cantilever whose base has moved by d + F/k since contact.
 MODULUS, RADIUS, STIFFNESS, AT = 20e3, 5e-6, 0.1, 3e-6

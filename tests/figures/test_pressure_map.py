@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from synthetic_results import maxwell_sphere, roller
+from viscontact.drawing.content.map import Maps, maps_over
 from viscontact.figures.pressure_map import map_remarks, outlines, pressure_map
-from viscontact.figures.shown_fields import ShownFields, shown_fields
 
 TIMES = (0.0, 1.0, 10.0, 100.0)
 
 
-def with_spots(count: int) -> ShownFields:
+def with_spots(count: int) -> Maps:
     """A contact of count² spots of one cell each, at all instants."""
     ds = maxwell_sphere(TIMES, cells=64)
     pressure = np.zeros(ds["pressure"].shape)
@@ -20,7 +20,7 @@ def with_spots(count: int) -> ShownFields:
     pressure[:, place[:, None], place[None, :]] = 1e6
     ds["pressure"][:] = pressure
     ds["gap"][:] = np.where(pressure > 0, 0.0, 1e-6)
-    return shown_fields(ds)
+    return maps_over(ds)
 
 
 @pytest.mark.parametrize(("count", "has_lines"), [(2, True), (5, False)])
@@ -41,4 +41,4 @@ def test_a_high_map_is_not_widened_to_the_page() -> None:
     high = high.assign(pressure=high["pressure"].transpose(..., "x", "y"))
     high["gap"] = high["gap"].transpose(..., "x", "y")
     for ds, constrained in ((roller(times=TIMES), "range"), (high, "domain")):
-        assert pressure_map(shown_fields(ds)).layout.xaxis.constrain == constrained
+        assert pressure_map(maps_over(ds)).layout.xaxis.constrain == constrained

@@ -375,7 +375,8 @@ def test_a_result_shows_its_key_numbers() -> None:
     root = _parsed(ds.viscontact)
     assert "After 300 s the contact covers 57.63 ± 0.15 mm² under 50 N" in _text(root)
     assert "57.63 ± 0.15 mm²" in str(ds.viscontact)
-    pressure, area = root.iter("svg")
+    pressure, area, surface = root.iter("svg")
+    assert _text(surface).startswith("pressure [MPa]")
     assert _text(area).startswith("contact area")
     at, text = _ticks(pressure, "y")
     drawn = [p for p in pressure.iter("path") if p.get("class") == "curve"]

@@ -20,11 +20,12 @@ import viscontact as vc
 from figures.figure_data import Data, array_of, shown_at, title_of
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
+from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.rim import rim_curves
+from viscontact.drawing.content.section import section
 from viscontact.figures.histories import history, panel_names
-from viscontact.figures.look import plain
-from viscontact.figures.pressure_map import pressure_map, strides_of
-from viscontact.figures.shown_fields import shown_fields
+from viscontact.figures.parts import plain
+from viscontact.figures.pressure_map import MOST_CELLS, pressure_map
 from viscontact.notebook.html import as_script
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
@@ -32,7 +33,7 @@ from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
 from viscontact.report.recorded_surface import recorded_surface
 from viscontact.report.run_data import run_data
-from viscontact.report.section_csv import section_csv
+from viscontact.report.section_csv import lines_csv
 from viscontact.results.snapshots import take_snapshots
 from viscontact.results.summary import headline
 
@@ -160,9 +161,9 @@ def test_outlines_are_the_smooth_rims_of_the_figures(page: _Page) -> None:
 
 def test_a_fine_map_shows_means_that_keep_the_force() -> None:
     ds = _described(roller(times=(1000.0,), shape=(900, 32)))
-    fields = shown_fields(ds)
+    fields = maps_over(ds)
     heat = pressure_map(fields).data[0]
-    assert (len(heat.x) <= 256, strides_of(fields)) == (True, (4, 1))
+    assert (len(heat.x) <= 256, fields.strides(MOST_CELLS)) == (True, (4, 1))
     cell = (heat.x[1] - heat.x[0]) * (heat.y[1] - heat.y[0]) * 1e-6
     force = np.nansum(heat.z) * 1e6 * cell
     exact = ds["pressure"].values.sum() * float((ds.x[1] - ds.x[0]) * (ds.y[1] - ds.y[0]))
@@ -275,7 +276,7 @@ def test_a_lost_contact_is_reported_where_it_was_largest() -> None:
         ds[name][-1] = 0.0
     assert headline(ds).startswith("At t = 100 s, when it is largest, the contact covers")
     assert "from t = 300 s to the end, t = 300 s, they do not touch" in headline(ds)
-    fields = shown_fields(ds)
+    fields = maps_over(ds)
     drawn = pressure_map(fields)
     assert (fields.start, drawn.layout.meta["title"]) == (3, "t = 100 s")
     assert drawn.frames[-1].layout["meta"]["note"] == "No contact"
@@ -290,11 +291,11 @@ def test_a_run_that_ended_early_says_so() -> None:
 
 def test_sections_run_through_the_resultant_or_else_the_largest_pressure() -> None:
     ds = _run(times=(300.0,))
-    assert shown_fields(ds).through == ((0.0, 0.0),)  # late, a Maxwell body's peak is at the rim
+    assert maps_over(ds).through == ((0.0, 0.0),)  # late, a Maxwell body's peak is at the rim
     two = ds.copy(deep=True)
     two["pressure"][0, 8:-8] = 0.0  # two spots
     assert two["pressure"].values[0, 31].max() == 0
-    ((x, _),) = shown_fields(two).through
+    ((x, _),) = maps_over(two).through
     assert abs(x) >= float(ds.x[-8])
 
 
@@ -339,10 +340,10 @@ def test_a_measured_surface_is_drawn_from_the_fields() -> None:
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
     times = np.linspace(0.0, 300.0, 60)
     ds = _described(roller(times=(0.0, 300.0), shape=(512, 256)))
-    fields = shown_fields(ds.isel(time=np.arange(60) % 2).assign_coords(time=times))
+    fields = maps_over(ds.isel(time=np.arange(60) % 2).assign_coords(time=times))
     assert (len(fields.snapshots), fields.stored) == (24, 60)
     rest = sum(map(len, page.scripts[1:])) + sum(len(value) for *_, value in page.attributes)
-    sections = sum(len(quote(section_csv(fields, way))) for way in ("x", "y"))
+    sections = sum(len(quote(lines_csv(fields, section(fields, way)))) for way in ("x", "y"))
     assert len(as_script(plain(pressure_map(fields)))) + sections + rest < 13e6
 
 

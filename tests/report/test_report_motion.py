@@ -10,17 +10,18 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact import plot
+from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import loops_of
+from viscontact.drawing.content.map import maps_over
+from viscontact.drawing.content.section import section
 from viscontact.figures.histories import history, panel_names
-from viscontact.figures.look import LIGHT
 from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import pressure_map
-from viscontact.figures.sections import section, section_place
-from viscontact.figures.shown_fields import shown_fields
+from viscontact.figures.sections import draw_section
 from viscontact.loads.motion import Motion
 from viscontact.notebook.result_card import result_card
 from viscontact.report.page import report_page
-from viscontact.report.section_csv import section_csv
+from viscontact.report.section_csv import lines_csv
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
@@ -44,7 +45,7 @@ def moved() -> xr.Dataset:
 
 
 def test_map_has_axis_and_direction_of_the_body(moved: xr.Dataset) -> None:
-    figure = pressure_map(shown_fields(moved))
+    figure = pressure_map(maps_over(moved))
     assert figure.layout.yaxis.title.text == "y [mm]"
     crosses = [frame.data[-1] for frame in figure.frames]
     axes = [(*cross.x, *cross.y) for cross in crosses]
@@ -59,17 +60,18 @@ def test_map_has_axis_and_direction_of_the_body(moved: xr.Dataset) -> None:
 
 
 def test_sections_follow_the_resultant_of_a_moving_contact(moved: xr.Dataset) -> None:
-    fields = shown_fields(moved)
+    fields = maps_over(moved)
     resultant = moved.position_y + moved.eccentricity_y  # which is measured from the body's axis
     # To a hundredth of a cell.
     np.testing.assert_allclose([y for _, y in fields.through], resultant, atol=0.006 * CELL)
-    assert section_place(fields, "x") == "through each resultant"
-    assert section_place(fields, "y") == "at x = 0 mm"
-    assert f"y = {fields.through[1][1]!r} m" in section_csv(fields, "x").splitlines()[0]
+    along_x, along_y = section(fields, "x"), section(fields, "y")
+    assert along_x.place(fields.window.unit) == "through each resultant"
+    assert along_y.place(fields.window.unit) == "at x = 0 mm"
+    assert f"y = {fields.through[1][1]!r} m" in lines_csv(fields, along_x).splitlines()[0]
 
 
 def test_section_along_the_motion_has_leading_and_trailing_edge(moved: xr.Dataset) -> None:
-    along_x, along_y = (section(shown_fields(moved), way) for way in ("x", "y"))
+    along_x, along_y = (draw_section(maps_over(moved), way) for way in ("x", "y"))
     assert "leading edge" not in str(along_x.data)
     edges = [list(frame.data[-1].x) for frame in along_y.frames]
     assert edges[3] == []  # at rest

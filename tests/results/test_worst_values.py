@@ -13,8 +13,8 @@ import xarray as xr
 import viscontact as vc
 from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
+from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import loops_of
-from viscontact.figures.look import LIGHT
 from viscontact.figures.loops import loops
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data

@@ -23,7 +23,7 @@ from fastapi.testclient import TestClient
 
 from figures.figure_data import array_of
 from viscontact.cli import main
-from viscontact.figures.look import LIGHT
+from viscontact.drawing.content.look import LIGHT
 from viscontact.results.run_axis import TIME
 from viscontact.units.formatting import format_quantity
 from viscontact.web.runs.live_scalars import LiveScalars

@@ -8,10 +8,11 @@ from typing import Any
 import plotly.graph_objects as go
 import xarray as xr
 
-from viscontact.figures.look import DARK, LIGHT, Look, Part
+from viscontact.drawing.content.look import DARK, LIGHT, Look
+from viscontact.drawing.content.map import Maps, maps_over
+from viscontact.figures.parts import Part, template_of
 from viscontact.figures.pressure_map import pressure_map
 from viscontact.figures.sections import sections
-from viscontact.figures.shown_fields import ShownFields, shown_fields
 from viscontact.results.run_axis import in_order
 from viscontact.results.snapshots import labels_of
 from viscontact.units.systems import AUTOMATIC, SYSTEMS
@@ -74,29 +75,27 @@ def explore(
         raise ValueError(f"width: wanted {_LEAST_WIDTH} pixels or more, got {width}")
     look = replace(DARK if dark else LIGHT, system=units)
     ds = in_order(result)
-    fields = shown_fields(ds)
-    figures = [pressure_map(fields, look), *sections(ds, fields, look)]
-    return _together(figures, fields, look, width)
+    maps = maps_over(ds)
+    figures = [pressure_map(maps, look), *sections(ds, maps, look)]
+    return _together(figures, maps, look, width)
 
 
-def _together(
-    figures: list[go.Figure], fields: ShownFields, look: Look, width: int | None
-) -> go.Figure:
+def _together(figures: list[go.Figure], maps: Maps, look: Look, width: int | None) -> go.Figure:
     """Place a map above sections, as one figure whose frames change all of them."""
     narrow = width is not None and width < _NARROW
-    map_height = min(max((width or _WIDTH) * fields.window.height_to_width, _LEAST), _MOST)
+    map_height = min(max((width or _WIDTH) * maps.window.height_to_width, _LEAST), _MOST)
     rows = len(figures) - (1 if narrow else 2)  # a row may have two sections side by side
     above = _ABOVE + _BAR if narrow else _ABOVE
     inner = map_height + rows * (_SECTION + _BETWEEN)
     layout: Part = {
-        "template": look.template,
+        "template": template_of(look),
         "width": width,
         "height": inner + above + _BELOW,
         "margin": {"l": 64, "r": 30, "t": above, "b": _BELOW},
         "paper_bgcolor": look.card,
         "plot_bgcolor": look.card,
         "uirevision": "kept",
-        **_controls(fields, look),
+        **_controls(maps, look),
     }
     domains = _domains(rows, narrow, map_height / inner, (_SECTION / inner, _BETWEEN / inner))
     traces: list[Part] = []
@@ -117,8 +116,8 @@ def _together(
     else:
         upright = {"orientation": "v", "x": 1.0, "xanchor": "left", "y": 1.0, "yanchor": "top"}
         traces[0]["colorbar"] |= upright | {"len": map_height / inner}
-    frames = [_frame(figures, offsets, headings, index) for index in range(len(fields.snapshots))]
-    return go.Figure(traces, layout | frames[fields.start]["layout"], frames)
+    frames = [_frame(figures, offsets, headings, index) for index in range(len(maps.snapshots))]
+    return go.Figure(traces, layout | frames[maps.start]["layout"], frames)
 
 
 def _domains(
@@ -161,10 +160,10 @@ def _frame(
     return {"name": str(index), "data": data, "traces": traces, "layout": layout}
 
 
-def _controls(fields: ShownFields, look: Look) -> Part:
+def _controls(maps: Maps, look: Look) -> Part:
     """Slider over the instants, and buttons that play and stop them."""
-    labels = labels_of(fields.snapshots)
-    axis = fields.snapshots[0].axis
+    labels = labels_of(maps.snapshots)
+    axis = maps.snapshots[0].axis
     at_once = {"mode": "immediate", "transition": {"duration": 0}}
     now = at_once | {"frame": {"duration": 0, "redraw": True}}
     played = at_once | {"fromcurrent": True, "frame": {"duration": _PAUSE, "redraw": True}}
@@ -178,7 +177,7 @@ def _controls(fields: ShownFields, look: Look) -> Part:
         "y": 0.0,
         "yanchor": "top",
         "pad": {"t": 52},
-        "active": fields.start,
+        "active": maps.start,
         "steps": steps,
         "currentvalue": {"prefix": f"{axis.name.capitalize()} ", "font": {"size": 12}},
         "font": {"color": look.ink, "size": 11},

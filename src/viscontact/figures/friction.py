@@ -9,7 +9,8 @@ import plotly.graph_objects as go
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
-from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
+from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.figures.parts import Part, drawn, numbers
 from viscontact.plot.motion.friction import friction_limits, limit_speeds
 from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.stated_errors import errors_of

@@ -6,7 +6,8 @@ import numpy as np
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike
 
-from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
+from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.figures.parts import Part, drawn, numbers
 from viscontact.results.run_axis import TIME, RunAxis
 from viscontact.results.variables import SCALARS
 

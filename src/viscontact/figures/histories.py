@@ -8,8 +8,9 @@ import xarray as xr
 
 from viscontact.backend.arrays import Singles
 from viscontact.drawing.content.history import history_panel, load_names, response_names
+from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Curve, Panel
-from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers, words
+from viscontact.figures.parts import Part, drawn, numbers, words
 from viscontact.figures.run_scale import part_along, places_along
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of

@@ -6,7 +6,8 @@ import numpy as np
 import plotly.graph_objects as go
 
 from viscontact.backend.arrays import Floats
-from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
+from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.figures.parts import Part, drawn, numbers
 from viscontact.identification import ContactPoint, IndentationFit
 from viscontact.identification.contact_point import deflection_in_contact
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import plotly.graph_objects as go
 import xarray as xr
 
+from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.loop import Loop, cycle_panel, loops_of
-from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
+from viscontact.figures.parts import Part, drawn, numbers
 from viscontact.results.stated_errors import drawn_values, errors_of
 from viscontact.units.formatting import format_quantity
 

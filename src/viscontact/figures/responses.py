@@ -11,7 +11,8 @@ import plotly.graph_objects as go
 import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.figures.look import LIGHT, Look, Part, drawn, numbers
+from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.figures.parts import Part, drawn, numbers
 from viscontact.plot.sweeps.key_axis import KeyAxis, is_number, key_labels
 from viscontact.results.largest_values import (
     compared_scalars,

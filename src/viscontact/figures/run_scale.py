@@ -8,7 +8,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import Axis
-from viscontact.figures.look import Part
+from viscontact.figures.parts import Part
 from viscontact.units.formatting import clock_ticks, format_compact
 
 #: Decades between the instant 0 and the first step on a logarithmic axis.

@@ -10,10 +10,11 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.look import ORANGE
 from viscontact.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.loads import HarmonicHistory, LoadHistory
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
-from viscontact.notebook.svg_panel import ORANGE, Mark, panel
+from viscontact.notebook.svg_panel import Mark, panel
 
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.

@@ -9,10 +9,11 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.look import BLUE, ORANGE
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
-from viscontact.notebook.svg_panel import BLUE, ORANGE, Mark, panel
+from viscontact.notebook.svg_panel import Mark, panel
 from viscontact.results.argument_table import in_plain_words
 from viscontact.results.formatting import format_percent
 from viscontact.units.formatting import format_number, format_quantity

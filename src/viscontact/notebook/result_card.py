@@ -1,4 +1,4 @@
-"""Card of a result: a headline, a table, and two small drawings."""
+"""Card of a result: a headline, a table, and three small drawings."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.history import is_idle
+from viscontact.drawing.content.look import ORANGE
+from viscontact.drawing.content.map import maps_at
 from viscontact.notebook.card import Card
+from viscontact.notebook.pressure_map import map_drawing
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
-from viscontact.notebook.svg_panel import ORANGE, Mark, panel
+from viscontact.notebook.svg_panel import Mark, panel
 from viscontact.results.formatting import format_scalar
 from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import errors_of
@@ -59,7 +62,15 @@ def _drawings(ds: xr.Dataset) -> list[Element]:
     area = ds["contact_area"].values
     if ds.sizes["time"] > 1 and np.isfinite(area).all() and area.max() > 0:
         drawn.append(_history(ds, area))
-    return drawn
+    return [*drawn, *_map(ds)]
+
+
+def _map(ds: xr.Dataset) -> list[Element]:
+    """Map of the pressure at the last instant stored in contact."""
+    try:
+        return [map_drawing(maps_at(ds, None, "map"))]
+    except ValueError:  # no fields, or no contact in them
+        return []
 
 
 def _history(ds: xr.Dataset, area: Floats) -> Element:

@@ -8,10 +8,11 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.drawing.content.look import BLUE
 from viscontact.notebook.card import Card
 from viscontact.notebook.html import element
 from viscontact.notebook.svg_axes import linear
-from viscontact.notebook.svg_panel import BLUE, WIDTH, Mark, panel
+from viscontact.notebook.svg_panel import WIDTH, Mark, panel
 from viscontact.results.formatting import format_percent
 from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_number, format_quantity

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.scale import round_step
 from viscontact.units.formatting import clock_ticks, format_quantity, readable_unit
 
-#: Steps between ticks, of a decade.
-_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 #: Largest number of decades that all have a tick; of more, every second, third, ... has one.
 _MOST_DECADES = 3
 
@@ -43,7 +42,7 @@ def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> 
     ('x [mm]', ['−10', '−5', '0', '5', '10'])
     """
     shown = readable_unit(unit, low, high)
-    step = _step((high - low) / shown.factor / most)
+    step = round_step((high - low) / shown.factor / most)
     first, last = (math.ceil(low / shown.factor / step - 1e-9), high / shown.factor / step + 1e-9)
     numbers = [step * k for k in range(first, math.floor(last) + 1)]
     ticks = tuple(
@@ -92,11 +91,6 @@ def _clock(low: float, high: float) -> dict[float, str]:
     unit = readable_unit("s", high)
     ticks = clock_ticks(unit, low / unit.factor, high / unit.factor, close=10.0**_MOST_DECADES)
     return {place * unit.factor: text for place, text in ticks.items() if text}
-
-
-def _step(least: float) -> float:
-    decade = 10.0 ** math.floor(math.log10(least))
-    return next(step * decade for step in _STEPS if step * decade >= least * (1 - 1e-9))
 
 
 def _number(value: float) -> str:

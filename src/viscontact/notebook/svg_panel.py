@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 from xml.etree.ElementTree import Element
@@ -11,16 +11,17 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.drawing.content.look import BLUE
 from viscontact.notebook.html import element
 from viscontact.notebook.svg_axes import Scale
 
 _Path = list[tuple[float, float]]
 
-#: Blue and orange that colour-blind readers distinguish, on white and on black.
-BLUE, ORANGE = "#2f80c3", "#d9661f"
 WIDTH, _HEIGHT = 222, 158
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 12, 24, 36
+#: Height of what is above and below the axes [px].
+AROUND = _TOP + _BOTTOM
 #: Inside the axes [px].
 ROOM = WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
 #: Width of a letter, about [px].
@@ -36,10 +37,20 @@ class Mark:
 
     x: ArrayLike  # points [SI]; a gap where one is not finite
     y: ArrayLike
-    #: A body is filled up to the top, the ground down to the bottom.
-    kind: Literal["line", "body", "ground", "dots"] = "line"
+    #: A body is filled up to the top, the ground down to the bottom; a rim is a closed curve.
+    kind: Literal["line", "body", "ground", "dots", "rim"] = "line"
     colour: str = BLUE
     dashed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells over the axes, in colours by their bands."""
+
+    x: Floats  # centres at equal distances [SI], shape (nx,)
+    y: Floats  # shape (ny,)
+    bands: Integers  # numbers of the colours, -1 for none; shape (nx, ny)
+    colours: Sequence[str]
 
 
 def panel(
@@ -48,12 +59,14 @@ def panel(
     y: Scale,
     marks: Iterable[Mark],
     *,
+    cells: Cells | None = None,
     aside: str = "",
     height: int = _HEIGHT,
 ) -> Element:
-    """Drawing of curves over two axes; `height` in pixels."""
+    """Drawing of cells and curves over two axes; `height` in pixels."""
     frame = _Frame(x, y, height)
-    parts = [part for mark in marks for part in frame.drawn(mark)]
+    parts = [] if cells is None else list(frame.areas(cells))
+    parts += [part for mark in marks for part in frame.drawn(mark)]
     head = _text(4, 13, heading, font_weight="600")
     note = _text(WIDTH - _RIGHT, 13, aside, text_anchor="end", fill_opacity=_FAINT)
     return element(
@@ -88,7 +101,27 @@ class _Frame:
     def up(self, places: Floats) -> Floats:
         return self.bottom - places * (self.bottom - _TOP)
 
+    def areas(self, cells: Cells) -> Iterable[Element]:
+        """The cells of each colour, those next to each other in a row as one stroke."""
+        across, up = self.across(self.x.place(cells.x)), self.up(self.y.place(cells.y))
+        wide, high = (abs(float(at[-1] - at[0])) / max(at.size - 1, 1) for at in (across, up))
+        for band, colour in enumerate(cells.colours):
+            strokes = [
+                f"M{across[run.start] - wide / 2:.1f},{at:.1f}h{(run.stop - run.start) * wide:.1f}"
+                for at, row in zip(up, (cells.bands == band).T, strict=True)
+                for run in _runs(row)
+            ]
+            look = {"stroke": colour, "stroke_width": f"{high + 0.1:.2f}", "class_": "cells"}
+            if strokes:
+                path = "".join(strokes)
+                yield element("path", d=path, shape_rendering="crispEdges", **look)
+
     def drawn(self, mark: Mark) -> Iterable[Element]:
+        if mark.kind == "rim":
+            across, up = self.across(self.x.place(mark.x)), self.up(self.y.place(mark.y))
+            path = _path(list(zip(across.tolist(), up.tolist(), strict=True)))
+            yield element("path", d=f"{path}Z", fill="none", stroke=_INK, class_="rim")
+            return
         x, y = np.broadcast_arrays(self.x.place(mark.x), self.y.place(mark.y))
         inside = np.isfinite(x) & np.isfinite(y) & (x > -1e-9) & (x < 1 + 1e-9)
         across, up = self.across(x), self.up(np.clip(y, 0.0, 1.0))

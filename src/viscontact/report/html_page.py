@@ -11,7 +11,7 @@ from plotly.graph_objects import Figure
 from plotly.offline import get_plotlyjs
 
 from viscontact import __version__
-from viscontact.figures.look import plain
+from viscontact.figures.parts import plain
 from viscontact.notebook.html import as_script, element, written
 
 

@@ -10,11 +10,11 @@ from xml.etree.ElementTree import Element
 import xarray as xr
 from plotly.graph_objects import Figure
 
+from viscontact.drawing.content.map import Maps, maps_if_any
 from viscontact.figures.histories import histories
 from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import outlines, pressure_map
 from viscontact.figures.sections import sections
-from viscontact.figures.shown_fields import ShownFields, shown_fields
 from viscontact.notebook.html import element
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.html_page import html_page
@@ -103,27 +103,20 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
             f"a report needs one {axis.row} at least, got a result without any; run it"
         )
     ds = in_order(ds)
-    fields = _fields(ds)
+    maps = maps_if_any(ds)
     over_run = *histories(ds), loops(ds)
-    drawn = [*_over_surface(ds, fields), *chain(*over_run)]
+    drawn = [*_over_surface(ds, maps), *chain(*over_run)]
     name = result_chapters.heading_of(ds, label)
-    return html_page(name, _body(name, ds, fields, over_run), drawn)
+    return html_page(name, _body(name, ds, maps, over_run), drawn)
 
 
-def _fields(ds: xr.Dataset) -> ShownFields | None:
-    try:
-        return shown_fields(ds)
-    except ValueError:  # none are stored, or there is no contact in them
-        return None
-
-
-def _over_surface(ds: xr.Dataset, fields: ShownFields | None) -> list[Figure]:
+def _over_surface(ds: xr.Dataset, maps: Maps | None) -> list[Figure]:
     """Figures of the pressure, from top to bottom; none without fields."""
-    return [] if fields is None else [pressure_map(fields), *sections(ds, fields), outlines(fields)]
+    return [] if maps is None else [pressure_map(maps), *sections(ds, maps), outlines(maps)]
 
 
 def _body(
-    name: str, ds: xr.Dataset, fields: ShownFields | None, over_run: tuple[list[Figure], ...]
+    name: str, ds: xr.Dataset, maps: Maps | None, over_run: tuple[list[Figure], ...]
 ) -> Iterable[Element]:
     histories = result_chapters.history_chapter(ds, *over_run)
     titles = CHAPTERS | {"histories": run_axis(ds).heading}
@@ -131,7 +124,7 @@ def _body(
         histories = chain(input_chapters.speed_table(ds), histories)
     chapters: dict[str, Iterable[Element]] = {
         "allowable": verdict_chapter(ds),
-        "pressure": result_chapters.pressure_chapter(ds, fields),
+        "pressure": result_chapters.pressure_chapter(ds, maps),
         "spots": spots_chapter(ds),
         "stress": stress_chapter(ds),
         "histories": histories,

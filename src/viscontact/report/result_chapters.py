@@ -14,13 +14,13 @@ import xarray as xr
 from plotly.graph_objects import Figure
 
 from viscontact.drawing.content.along_run import along_run
+from viscontact.drawing.content.map import Maps
+from viscontact.drawing.content.section import Lines, line_load, section
 from viscontact.figures.histories import LINEAR, LOGARITHMIC
 from viscontact.figures.pressure_map import map_remarks
-from viscontact.figures.sections import section_place
-from viscontact.figures.shown_fields import ShownFields
 from viscontact.notebook.html import element
 from viscontact.report.limits import notices
-from viscontact.report.section_csv import line_load_csv, section_csv
+from viscontact.report.section_csv import lines_csv
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.recorded_events import recorded_events
@@ -69,25 +69,27 @@ def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
     )
 
 
-def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Element]:
+def pressure_chapter(ds: xr.Dataset, maps: Maps | None) -> Iterator[Element]:
     """Yield map, sections and outlines, or why there are none."""
-    if fields is None:
+    if maps is None:
         yield element("p", _without_fields(ds), class_="faint")
         return
-    yield _map(fields)
+    yield _map(maps)
     yield element("h3", "Sections through the pressure")
     moved = motion_axis(ds)
     titles = {
         along: _OVER_MOTION.format(along) if along == moved else title for along, title in _WAYS
     }
-    sections = (_section(fields, along, title) for along, title in titles.items())
+    lines = {section(maps, along): title for along, title in titles.items()}
+    unit = maps.window.unit
+    sections = (_lines(maps, each, f"{title}, {each.place(unit)}") for each, title in lines.items())
     yield element("div", *sections, class_="pair")
     if is_long(ds):
-        yield _line_load(fields)
+        yield _lines(maps, line_load(maps), "Line load along x: the pressure integrated over y")
     yield element(
         "p",
-        f"Bold: the {fields.snapshots[0].axis.row} of the slider.",
-        " Full marker: leading edge, hollow: trailing edge." if fields.body else None,
+        f"Bold: the {maps.snapshots[0].axis.row} of the slider.",
+        " Full marker: leading edge, hollow: trailing edge." if maps.moves else None,
         element(
             "span",
             " Drag over a figure to enlarge a part of it, double-click to go back.",
@@ -178,8 +180,8 @@ def _without_fields(ds: xr.Dataset) -> str:
     )
 
 
-def _map(fields: ShownFields) -> Element:
-    count = len(fields.snapshots)
+def _map(maps: Maps) -> Element:
+    count = len(maps.snapshots)
     slider = element(
         "input",
         type="range",
@@ -187,7 +189,7 @@ def _map(fields: ShownFields) -> Element:
         min="0",
         max=str(count - 1),
         step="1",
-        value=str(fields.start),
+        value=str(maps.start),
         aria_label="Place of the pressure map in the run",
     )
     controls = element(
@@ -198,27 +200,18 @@ def _map(fields: ShownFields) -> Element:
         class_="controls",
     )
     account = element("span", "", data_note="map")
-    caption = element("figcaption", account, f". {map_remarks(fields)}")
+    caption = element("figcaption", account, f". {map_remarks(maps)}")
     return element(
         "figure", controls, element("div", "", id="map", class_="plot"), caption, class_="map"
     )
 
 
-def _section(fields: ShownFields, along: Literal["x", "y"], title: str) -> Element:
+def _lines(maps: Maps, lines: Lines, title: str) -> Element:
     return element(
         "figure",
-        element("p", f"{title}, {section_place(fields, along)}", class_="panel-title"),
-        element("div", "", id=f"section-{along}", class_="plot"),
-        _download("Download (CSV)", f"section-{along}.csv", section_csv(fields, along)),
-    )
-
-
-def _line_load(fields: ShownFields) -> Element:
-    return element(
-        "figure",
-        element("p", "Line load along x: the pressure integrated over y", class_="panel-title"),
-        element("div", "", id="line-load", class_="plot"),
-        _download("Download (CSV)", "line-load.csv", line_load_csv(fields)),
+        element("p", title, class_="panel-title"),
+        element("div", "", id=lines.name, class_="plot"),
+        _download("Download (CSV)", f"{lines.name}.csv", lines_csv(maps, lines)),
     )
 
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
+import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import Snapshot, headings_of, take_snapshots
+from viscontact.results.stated_errors import mesh_dependent
+
+#: Result of a run, or several by the names to print.
+Runs = xr.Dataset | Mapping[str, xr.Dataset]
 
 
 def require_runs(runs: Mapping[str, xr.Dataset], figure: str) -> None:
@@ -17,9 +22,7 @@ def require_runs(runs: Mapping[str, xr.Dataset], figure: str) -> None:
         raise ValueError(f"{figure}: needs at least one run to compare, got none")
 
 
-def runs_of(
-    results: xr.Dataset | Mapping[str, xr.Dataset], figure: str
-) -> Mapping[str, xr.Dataset]:
+def runs_of(results: Runs, figure: str) -> Mapping[str, xr.Dataset]:
     """Runs by the names to print; a single result has the name ""."""
     if isinstance(results, xr.Dataset):
         return {"": results}
@@ -28,20 +31,26 @@ def runs_of(
 
 
 def headed_snapshots(
-    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str, *, count: int = 1
-) -> tuple[list[Snapshot], list[str]]:
-    """Fields of runs at requested instants [s], and their headings; a single run is named "".
+    results: Runs, times: ArrayLike | None, figure: str, *, count: int
+) -> list[tuple[str, Snapshot, bool]]:
+    """Headings and fields at requested instants [s], and whether the peak depends on the mesh.
 
-    By default the last instant or speed of each run, or `count` > 1 as `take_snapshots` chooses.
+    By default some of a single run, as `take_snapshots` chooses them, and the last of each of
+    several.
     """
-    require_runs(runs, figure)
-    snapshots: list[Snapshot] = []
-    headings: list[str] = []
-    for name, run in runs.items():
+    found = []
+    for name, run in runs_of(results, figure).items():
         last = float(run_axis(run).values(run)[-1])
-        wanted = last if times is None and count == 1 else times
+        wanted = last if times is None and name else times
         taken = take_snapshots(run, wanted, figure, count=count)
-        snapshots += taken
         prefix = f"{name}, " if name else ""
-        headings += [f"{prefix}{heading}" for heading in headings_of(taken)]
-    return snapshots, headings
+        headings = [f"{prefix}{heading}" for heading in headings_of(taken)]
+        marked = depends_on_mesh(run, [each.time for each in taken])
+        found += list(zip(headings, taken, marked, strict=True))
+    return found
+
+
+def depends_on_mesh(run: xr.Dataset, places: Iterable[float]) -> list[bool]:
+    """Test at instants [s] or speeds [m/s] whether the peak pressure depends on the mesh."""
+    marked, known = mesh_dependent(run, "peak_pressure"), run_axis(run).values(run)
+    return [bool(marked[np.abs(known - each).argmin()]) for each in places]

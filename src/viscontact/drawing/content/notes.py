@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact.drawing.content.compared_runs import depends_on_mesh
 from viscontact.results.run_axis import run_axis
-from viscontact.results.stated_errors import mesh_dependent
 from viscontact.results.variables import MESH_DEPENDENT
 
 
@@ -22,8 +22,7 @@ def peak_note(runs: Iterable[xr.Dataset], times: ArrayLike | None = None) -> str
     ('peak depends on the mesh', '')
     """
     for run in runs:
-        marked, instants = mesh_dependent(run, "peak_pressure"), run_axis(run).values(run)
-        wanted = instants if times is None else np.atleast_1d(np.asarray(times, dtype=float))
-        if any(marked[np.abs(instants - instant).argmin()] for instant in wanted):
+        shown = run_axis(run).values(run) if times is None else np.atleast_1d(np.asarray(times))
+        if any(depends_on_mesh(run, shown)):
             return f"peak {MESH_DEPENDENT}"
     return ""

@@ -9,7 +9,6 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
@@ -17,27 +16,23 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
 from viscontact.drawing.content.history import drawn_scalars, history_panel, needed_variables
+from viscontact.drawing.content.map import BodyPlace, Map, body_of
 from viscontact.drawing.content.notes import peak_note
+from viscontact.drawing.content.scale import Scale, pressure_scale
 from viscontact.drawing.content.window import Window, window_over
 from viscontact.plot.animations.sheet import Sheet, new_sheet
 from viscontact.plot.histories.history import draw_histories
 from viscontact.plot.layout import style
 from viscontact.plot.layout.log_time import BEFORE_FIRST
-from viscontact.plot.layout.map_axes import show_window
+from viscontact.plot.layout.map_axes import mark_body, show_window
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.motion.body_mark import BODY_COLOUR, mark_body
-from viscontact.plot.pressure.pressure_map import (
-    ORDINARY,
-    draw_contours,
-    fill_colour_bar,
-    pressure_levels,
-)
+from viscontact.plot.pressure.pressure_map import draw_contours, fill_colour_bar
 from viscontact.results.recorded_case import across_period
-from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
+from viscontact.results.recorded_motion import contact_edges, motion_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.stated_errors import lacks_curve
 from viscontact.results.variables import Place, shown_in
-from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
+from viscontact.units.formatting import format_quantity, time_labels
 
 _NAME = "animation"
 
@@ -89,18 +84,22 @@ class _Scene:
 
     stored: Floats
     read: Callable[[int], Snapshot]
+    place: Callable[[float], BodyPlace] | None  # of a moving body at an instant [s]
     window: Window
-    levels: Floats
-    unit: ReadableUnit
+    scale: Scale
     along: Literal["x", "y"]
     note: str
     top: float  # of the section, the largest pressure of all instants [Pa]
-    mark: Callable[[Axes, float], list[Artist]]  # draws the moving body at an instant [s]
-    edges: Callable[[Snapshot], tuple[float, float] | None]  # leading and trailing [m]
 
-    def at(self, instant: float) -> Snapshot:
-        """Fields at a stored instant [s]."""
-        return self.read(int(np.abs(self.stored - instant).argmin()))
+    def at(self, instant: float) -> Map:
+        """Map at a stored instant [s]."""
+        snapshot = self.read(int(np.abs(self.stored - instant).argmin()))
+        return Map("", snapshot, body=self.place and self.place(snapshot.time))
+
+    def edges(self, shown: Map) -> tuple[float, float] | None:
+        """Leading and trailing edge of a moving contact on the section [m]."""
+        way = 0.0 if shown.body is None else shown.body.way(self.along)
+        return contact_edges(*shown.snapshot.contact_section(self.along), way)
 
 
 def animation(
@@ -192,14 +191,14 @@ def _frames(seconds: float, fps: float) -> int:
 def _scene(results: xr.Dataset, stored: Floats, shown: Floats) -> _Scene:
     """Find the limits of all instants to be shown."""
     note, read = peak_note([results], shown), snapshot_reader(results)
-    part, boxes, highest = ORDINARY if note else 1.0, [], 0.0
+    boxes, peak, ordinary = [], 0.0, 0.0
     tops: dict[Literal["x", "y"], float] = {"x": 0.0, "y": 0.0}
     for index in np.flatnonzero(np.isin(stored, shown)):
         snapshot = read(int(index))
         if snapshot.touching:
             boxes.append(snapshot.extent())
-            pressed = snapshot.pressure[snapshot.in_contact]
-            highest = max(highest, float(np.quantile(pressed, part)))
+            peak = max(peak, float(snapshot.pressure.max()))
+            ordinary = max(ordinary, Map("", snapshot).ordinary)
             for way in tops:
                 tops[way] = max(tops[way], float(snapshot.section(way)[1].max()))
     if not boxes:
@@ -209,18 +208,10 @@ def _scene(results: xr.Dataset, stored: Floats, shown: Floats) -> _Scene:
             "times"
         )
     window = window_over(boxes, snapshot.borders() if any(snapshot.periodic) else None)
-    levels, unit = pressure_levels(highest)
+    scale = pressure_scale(0.0, peak, ordinary if note else None)
     is_long = window.x[1] - window.x[0] >= window.y[1] - window.y[0]
     along = motion_axis(results) or across_period(results) or ("x" if is_long else "y")
-
-    def mark(axes: Axes, instant: float) -> list[Artist]:
-        return mark_body(axes, results, instant, window)
-
-    def edges(snapshot: Snapshot) -> tuple[float, float] | None:
-        direction = direction_at(results, snapshot.time) or (0.0, 0.0)
-        return contact_edges(*snapshot.contact_section(along), direction["xy".index(along)])
-
-    return _Scene(stored, read, window, levels, unit, along, note, tops[along], mark, edges)
+    return _Scene(stored, read, body_of(results), window, scale, along, note, tops[along])
 
 
 def _histories(run: xr.Dataset, width: float) -> list[str]:
@@ -260,22 +251,23 @@ def _stage(
     markers = []
     for axes in sheet.histories:
         # Time as a bar behind the curve and a dot on it.
-        axes.axvline(0.0, color=BODY_COLOUR, linewidth=0.8, alpha=0.6, zorder=1)
-        axes.plot([], [], "o", color=BODY_COLOUR, markersize=4.5, clip_on=False, zorder=5)
+        axes.axvline(0.0, color=style.BODY, linewidth=0.8, alpha=0.6, zorder=1)
+        axes.plot([], [], "o", color=style.BODY, markersize=4.5, clip_on=False, zorder=5)
         markers.append(axes.get_lines()[-2:])
     labels = dict(zip(scene.stored.tolist(), time_labels(scene.stored), strict=True))
     times = run["time"].values
 
     def show(instant: float) -> None:
-        snapshot = scene.at(instant)
+        shown = scene.at(instant)
+        snapshot = shown.snapshot
         for artist in [*sheet.surface.collections, *sheet.surface.patches, *body]:
             artist.remove()
-        draw_contours(sheet.surface, snapshot, scene.levels, scene.window)
+        draw_contours(sheet.surface, shown, scene.window, scene.scale)
         apart = "" if snapshot.touching else ", no contact"
         style.add_heading(sheet.surface, f"t = {labels[snapshot.time]}{apart}")
-        body[:] = scene.mark(sheet.surface, snapshot.time)
+        body[:] = mark_body(sheet.surface, shown.body, scene.window)
         curve.set_data(*_section(snapshot, scene))
-        found = scene.edges(snapshot) or (np.nan, np.nan)
+        found = scene.edges(shown) or (np.nan, np.nan)
         for dot, edge in zip(edges, found, strict=True):
             dot.set_data([float(scene.window.unit(edge))], [0.0])
         at = float(time_unit(snapshot.time))
@@ -290,7 +282,7 @@ def _stage(
 
 def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
     """Prepare map and section; return its empty curve, and markers of leading and trailing edge."""
-    window, unit = scene.window, scene.unit
+    window, unit = scene.window, scene.scale.unit
     show_window(sheet.surface, window)
     sheet.surface.set_ylabel(window.unit.label("y"))
     if sheet.is_long and scene.along == "x":  # the section below shares the axis
@@ -298,10 +290,10 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
     else:
         sheet.surface.set_xlabel(window.unit.label("x"))
     style.add_heading(sheet.surface, "; ".join(filter(None, (window.note, scene.note))), aside=True)
-    fill_colour_bar(sheet.bar, scene.levels, unit, "max" if scene.note else "neither")
+    fill_colour_bar(sheet.bar, scene.scale)
     limits = window.x if scene.along == "x" else window.y
     sheet.section.set(xlim=window.unit(limits), xlabel=window.unit.label(scene.along))
-    sheet.section.set(ylim=(0.0, float(unit(1.05 * scene.top))), ylabel=unit.label("Pressure"))
+    sheet.section.set(ylim=(0.0, float(unit(1.05 * scene.top))), ylabel=scene.scale.label)
     across = "y" if scene.along == "x" else "x"
     middle = scene.read(0).middle[1 if scene.along == "x" else 0]
     style.add_heading(
@@ -321,4 +313,4 @@ def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Floats, Floats]:
     """Pressure along the middle line, as drawn."""
     wide = snapshot.with_border(1) if any(snapshot.periodic) else snapshot
     positions, pressure = wide.section(scene.along)
-    return scene.window.unit(positions), scene.unit(pressure)
+    return scene.window.unit(positions), scene.scale.unit(pressure)

@@ -13,20 +13,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.indenter_facts import facts, in_lines, length
+from viscontact.drawing.content.shape import Shape, shape_of, stretch_note
 from viscontact.indenters import Indenter
-from viscontact.indenters.cross_section import SHOWN_PART, Section, cut, lines_through
-from viscontact.plot.geometry.indenter_facts import facts, in_lines, length
+from viscontact.indenters.cross_section import Section
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.units.formatting import ReadableUnit, format_compact, format_quantity, readable_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _PLAN_POINTS = 601
 _BODY, _BODY_EDGE = "#dfe5ea", style.INK
 # Largest aspect ratio of a plan that is drawn in true shape.
 _TRUE_SHAPE = 3.0
-# Heights of the contour lines over the shown height.
-_LEVELS = (0.02, 0.1, 0.25, 0.5, 1.0)
 # Shares of the page for texts below and next to the drawing, and the width of a letter [inch].
 _WHOLE, _BESIDE, _LETTER = 0.8, 0.36, 0.065
 
@@ -76,24 +74,15 @@ def draw_indenter(
     """
     if not all(math.isfinite(extent) and extent > 0 for extent in size):
         raise ValueError(f"size must hold positive extents in m, got {size}")
-    x, y = (np.linspace(-extent / 2, extent / 2, _PLAN_POINTS) for extent in size)
-    gap = indenter.gap(x[:, None], y)
-    if not np.isfinite(gap).any():
-        raise ValueError(
-            f"nothing of the body lies within {format_quantity(size[0], 'm', 3)} x "
-            f"{format_quantity(size[1], 'm', 3)} around the origin; draw a larger part"
-        )
-    through = lines_through(indenter, x, y, gap)
-    along = cut(indenter, size[0], through[1], axis=0)
-    across = cut(indenter, size[1], through[0], axis=1)
+    shape = shape_of(indenter, size, _PLAN_POINTS)
     figure, panels = _panels(page_width(width, style.TWO_COLUMNS))
     unit = readable_unit("m", *size)
-    _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
-    _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
-    levels = _draw_plan(panels[1, 0], x, y, gap, unit, contact)
-    texts = facts(indenter, (along, across), levels, contact, shaded)
+    for number, axes in enumerate(panels[0]):
+        _draw_section(axes, shape, number, unit, contact)
+    _draw_plan(panels[1, 0], shape, unit, contact)
+    texts = facts(indenter, shape.sections, shape.levels, contact, shaded)
     _add_facts(panels[1, 1], chain([title] if title else [], texts))
-    _add_stretch_notes(figure, panels, (along, across))
+    _add_stretch_notes(figure, panels, shape.sections)
     return figure
 
 
@@ -108,18 +97,19 @@ def _panels(width: float) -> tuple[Figure, NDArray[np.object_]]:
 
 def _draw_section(
     axes: Axes,
-    section: Section,
+    shape: Shape,
+    number: int,
     unit: ReadableUnit,
-    along: str,
-    fixed: str,
-    place: float,
     contact: tuple[float, float, float, float] | None,
 ) -> None:
+    """Draw the section along x or y, by its number."""
+    section, place = shape.sections[number], shape.through[1 - number]
+    along, fixed = "xy"[number], "yx"[number]
     style.dress(axes)
     height = readable_unit("m", section.top)
     position, gap, top = unit(section.position), height(section.gap), float(height(section.top))
     if contact is not None:
-        middle, extent = (contact[0], contact[2]) if along == "x" else (contact[1], contact[3])
+        middle, extent = contact[number], contact[2 + number]
         span = (float(unit(middle - extent / 2)), float(unit(middle + extent / 2)))
         axes.axvspan(*span, color=style.LINE, alpha=0.12, linewidth=0)
     axes.fill_between(position, np.minimum(gap, top), top, color=_BODY, linewidth=0)
@@ -128,7 +118,7 @@ def _draw_section(
     for end in section.ends:
         axes.axvline(
             float(unit(end)),
-            color="#D55E00",
+            color=style.BODY,
             linewidth=style.THIN_LINE * 1.5,
             linestyle=(0, (4, 2)),
         )
@@ -146,15 +136,13 @@ def _draw_section(
 
 def _draw_plan(
     axes: Axes,
-    x: Floats,
-    y: Floats,
-    gap: Floats,
+    shape: Shape,
     unit: ReadableUnit,
     contact: tuple[float, float, float, float] | None,
-) -> list[float]:
-    """Draw the plan; return the gaps of its contour lines [m]."""
+) -> None:
     style.dress(axes)
-    levels = _draw_body(axes, unit(x), unit(y), gap)
+    x, y = shape.x, shape.y
+    _draw_body(axes, shape, unit)
     if contact is not None:
         _shade_contact(axes, unit, contact)
     axes.set(
@@ -166,22 +154,18 @@ def _draw_plan(
     if 1 / _TRUE_SHAPE <= x[-1] / y[-1] <= _TRUE_SHAPE:
         axes.set_aspect("equal")
     style.add_heading(axes, "plan")
-    return levels
 
 
-def _draw_body(axes: Axes, x: Floats, y: Floats, gap: Floats) -> list[float]:
+def _draw_body(axes: Axes, shape: Shape, unit: ReadableUnit) -> None:
     """Fill the area of the body, with contour lines of the gap and the outline of its end."""
-    solid = np.isfinite(gap)
-    highest = float(np.quantile(gap[solid], SHOWN_PART))
-    levels = [part * highest for part in _LEVELS] if highest > 0 else []
+    x, y, solid = unit(shape.x), unit(shape.y), np.isfinite(shape.gap)
     there = solid.T.astype(float)
     axes.contourf(x, y, there, levels=[0.5, 1.5], colors=[_BODY], antialiased=True)
-    if levels:
+    if shape.levels:
         lines: dict[str, Any] = {"colors": [style.FAINT], "linewidths": style.THIN_LINE}
-        axes.contour(x, y, np.where(solid, gap, np.nan).T, levels=levels, **lines)
+        axes.contour(x, y, np.where(solid, shape.gap, np.nan).T, levels=shape.levels, **lines)
     if not solid.all():
-        axes.contour(x, y, there, levels=[0.5], colors=["#D55E00"], linewidths=1.2)
-    return levels
+        axes.contour(x, y, there, levels=[0.5], colors=[style.BODY], linewidths=1.2)
 
 
 def _shade_contact(
@@ -224,15 +208,8 @@ def _add_stretch_notes(
         box = axes.get_window_extent()
         extent = float(section.position[-1] - section.position[0])
         stretch = (box.height / (1.04 * section.top)) / (box.width / extent)
-        style.add_heading(axes, _stretched("heights", stretch), aside=True)
+        style.add_heading(axes, stretch_note("heights", stretch), aside=True)
     box = panels[1, 0].get_window_extent()
     lengths = [float(each.position[-1] - each.position[0]) for each in sections]
     stretch = (box.height / lengths[1]) / (box.width / lengths[0])
-    style.add_heading(panels[1, 0], _stretched("y", stretch), aside=True)
-
-
-def _stretched(what: str, stretch: float) -> str:
-    digits = 1 if stretch > 100 else 2
-    if abs(math.log(stretch)) < math.log(1.05):
-        return "true shape"
-    return f"{what} {format_compact(stretch, digits)}×"
+    style.add_heading(panels[1, 0], stretch_note("y", stretch), aside=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.colors import Colormap, Normalize
+from matplotlib.cm import ScalarMappable
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
@@ -15,9 +15,9 @@ _LIGHT = np.array([-0.55, -0.45, 0.7]) / np.linalg.norm([-0.55, -0.45, 0.7])
 _SHADE = 0.58
 
 
-def draw_relief(axes: Axes3D, surface: Relief, colours: Colormap, norm: Normalize) -> None:
+def draw_relief(axes: Axes3D, surface: Relief, colours: ScalarMappable) -> None:
     """Draw a lit surface into axes whose limits and box are set."""
-    paint = colours(norm(surface.values))
+    paint = np.asarray(colours.to_rgba(surface.values))
     paint[:, :3] *= _brightness(axes, surface.corners)[:, None]
     # Edges of the same colour close the hairlines between neighbours.
     axes.add_collection3d(

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, MaxNLocator
 from matplotlib.transforms import Bbox
@@ -151,20 +150,16 @@ def stretch_of_heights(axes: Axes3D, window: Window, unit: ReadableUnit) -> floa
 
 
 def add_side_bar(
-    figure: Figure, colours: Colormap, norm: Normalize, label: str, *, downwards: bool = False
+    figure: Figure, shown: ScalarMappable, label: str, *, downwards: bool = False
 ) -> None:
     """Add a colour bar at the right; downwards for depths."""
     width = figure.get_figwidth()
     height = min(0.6, 2.4 / figure.get_figheight())
     place = ((width - 0.72) / width, 0.5 - height / 2, 0.12 / width, height)
-    bar = figure.colorbar(
-        ScalarMappable(norm, colours), cax=figure.add_axes(place, label="<colorbar>")
-    )
-    bar.set_label(label, size=style.LABEL_SIZE, color=style.INK)
+    bar = figure.colorbar(shown, cax=figure.add_axes(place, label="<colorbar>"))
+    style.dress_colour_bar(bar, label)
     if downwards:
         bar.ax.invert_yaxis()
-    bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
-    bar.outline.set(linewidth=style.THIN_LINE, edgecolor=style.INK)
 
 
 def add_title(axes: Axes3D, text: str) -> None:

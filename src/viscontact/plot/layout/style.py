@@ -10,13 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, TypeVar
 
-import numpy as np
-from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, ListedColormap, to_hex
+from matplotlib.colorbar import Colorbar
 from matplotlib.figure import Figure
 
+from viscontact.drawing.content.look import INSTANTS, LIGHT, RUNS, shades
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import Ink
 
@@ -34,16 +33,8 @@ _LETTER, _KEY = 0.062, 0.5
 _ROW, _FEW_ROWS = 0.18, 3
 _Entry = TypeVar("_Entry")
 
-INK = "#262626"
-FAINT = "#7a7a7a"
-LINE = "#0072B2"
+INK, FAINT, LINE, BODY = LIGHT.ink, LIGHT.faint, LIGHT.blue, LIGHT.warm
 FAULT = "#b00020"
-# Beyond this place viridis turns to a yellow that is too pale for thin lines on white.
-_PALEST = 0.85
-
-# Okabe and Ito's palette without its yellow, which is too pale on white: distinguishable with any
-# common kind of colour blindness.
-_RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 _RUN_DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)))
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
@@ -170,7 +161,7 @@ def figure_of(axes: Axes) -> Figure:
 
 def time_colours(count: int) -> list[str]:
     """Colours of instants, from early (dark) to late (light)."""
-    return [to_hex(colour) for colour in colormaps["viridis"](np.linspace(0.0, _PALEST, count))]
+    return LIGHT.instants(count)
 
 
 def run_styles(count: int) -> list[dict[str, Any]]:
@@ -183,10 +174,10 @@ def look_of(ink: Ink) -> dict[str, Any]:
     line: dict[str, Any] = {"linestyle": "-", "linewidth": LINE_WIDTH}
     if ink.kind == "run":
         number = int(ink.place)
-        colour = _RUN_COLOURS[number % len(_RUN_COLOURS)]
-        return line | {"color": colour, "linestyle": _RUN_DASHES[number % len(_RUN_DASHES)]}
+        dashes = _RUN_DASHES[number % len(_RUN_DASHES)]
+        return line | {"color": RUNS[number % len(RUNS)], "linestyle": dashes}
     if ink.kind == "ordered":
-        return line | {"color": to_hex(colormaps["viridis"](_PALEST * ink.place))}
+        return line | {"color": shades(INSTANTS, 1, LIGHT.late * ink.place)[0]}
     return line | {"color": {"faint": FAINT, "text": INK, "fault": FAULT}[ink.kind]}
 
 
@@ -195,6 +186,8 @@ def styles_of(names: Sequence[str]) -> list[dict[str, Any]]:
     return [look_of(ink) for ink in inks_of(names)]
 
 
-def pressure_colours(count: int) -> Colormap:
-    """Colour map for pressure, pale enough for dark labels."""
-    return ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, count)))
+def dress_colour_bar(bar: Colorbar, label: str) -> None:
+    """Apply thin lines and the common text sizes to a colour bar."""
+    bar.set_label(label, size=LABEL_SIZE, color=INK)
+    bar.ax.tick_params(labelsize=TICK_SIZE, width=THIN_LINE, length=2.5)
+    bar.outline.set(linewidth=THIN_LINE, edgecolor=INK)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.drawing.content.compared_runs import require_runs
+from viscontact.drawing.content.compared_runs import Runs, runs_of
 from viscontact.drawing.content.notes import peak_note
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
@@ -69,13 +69,17 @@ def cut_at_ends(
 
 
 def draw_curves(
-    results: xr.Dataset,
+    results: Runs,
     curve: ContactCurve,
     times: ArrayLike | None,
     axes: Axes | None,
     width: Width | None,
 ) -> Figure:
-    """Draw a curve for each of several instants."""
+    """Draw a curve for each of several instants; for each of several runs, a panel per instant."""
+    if not isinstance(results, xr.Dataset):
+        if axes is not None:
+            raise ValueError(f"{curve.figure}: axes take a single result, got several")
+        return _compared(runs_of(results, curve.figure), curve, times, width)
     snapshots = take_snapshots(results, times, curve.figure)
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS * 0.8)
@@ -97,14 +101,12 @@ def draw_curves(
     return style.figure_of(axes)
 
 
-def compare_curves(
+def _compared(
     runs: Mapping[str, xr.Dataset],
     curve: ContactCurve,
     times: ArrayLike | None,
     width: Width | None,
 ) -> Figure:
-    """Overlay the curves of several runs, one panel per instant."""
-    require_runs(runs, curve.figure)
     first = take_snapshots(next(iter(runs.values())), times, curve.figure, count=2)
     instants = [snapshot.time for snapshot in first]
     figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(instants) + 0.4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import xarray as xr
 from matplotlib.axes import Axes
@@ -11,20 +12,20 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from numpy.typing import ArrayLike
 
-from viscontact.drawing.content.compared_runs import headed_snapshots
-from viscontact.drawing.content.rim import rim_curves
-from viscontact.drawing.content.window import Window, window_around
+from viscontact.drawing.content.compared_runs import Runs
+from viscontact.drawing.content.map import Maps, maps_at
+from viscontact.drawing.content.window import Window
 from viscontact.plot.layout import style
 from viscontact.plot.layout.map_axes import rim_path, show_window
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.style import styles_of
-from viscontact.results.snapshots import headings_of, labels_of, take_snapshots
+from viscontact.results.snapshots import headings_of, labels_of
 
 _NAME = "contact-outline"
 
 
 def contact_outline(
-    results: xr.Dataset,
+    results: Runs,
     *,
     times: ArrayLike | None = None,
     axes: Axes | None = None,
@@ -34,11 +35,12 @@ def contact_outline(
 
     Parameters
     ----------
-    results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
+    results : xarray.Dataset, or mapping of str to xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored; several by
+        the names to print.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
-        first in contact to the last.
+        first in contact to the last. One for several results, by default the last of each.
     axes : matplotlib.axes.Axes, optional
         Axes to draw in; by default a new figure.
     width : {"single", "double"} or float, optional
@@ -48,12 +50,14 @@ def contact_outline(
     -------
     matplotlib.figure.Figure
         Outlines found between the cells, from the way the gap opens outside the contact. Those
-        of a periodic contact end at the border of the period; full contact has none.
+        of a periodic contact end at the border of the period; full contact has none. Of several
+        results, the instant stands above, or with each where they differ.
 
     Raises
     ------
     ValueError
-        If no fields are stored or the bodies do not touch at these instants.
+        If no fields are stored, the bodies do not touch at these instants, there is no result, or
+        several instants are given for several results.
 
     Examples
     --------
@@ -65,93 +69,57 @@ def contact_outline(
     >>> len(axes.patches), axes.get_xlabel()
     (2, 'x [µm]')
     """
-    snapshots = take_snapshots(results, times, _NAME)
-    window = window_around(snapshots)
-    axes = _new_axes(window, len(snapshots), width) if axes is None else axes
-    colours = style.time_colours(len(snapshots))
-    for snapshot, colour in zip(snapshots, colours, strict=True):
-        if snapshot.touching:
-            path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
-            axes.add_patch(
-                PathPatch(path, fill=False, edgecolor=colour, linewidth=style.LINE_WIDTH)
-            )
-    axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
+    maps = maps_at(results, times, _NAME, count=5)
+    several = [] if isinstance(results, xr.Dataset) else list(results)
+    if several and len(maps.maps) > len(several):
+        raise ValueError(f"{_NAME}: runs are compared at one instant, got {times!r} s")
+    looks = styles_of(several) if several else _styles(len(maps.maps))
+    axes = _new_axes(maps.window, len(looks), width, below=bool(several)) if axes is None else axes
+    for each, look in zip(maps.maps, looks, strict=True):
+        path = rim_path(maps.window.unit(curve) for curve in each.outline)
+        how = {"edgecolor" if key == "color" else key: value for key, value in look.items()}
+        axes.add_patch(PathPatch(path, fill=False, **how))
+    x, y = maps.axes()
+    axes.set(xlabel=x.label, ylabel=y.label)
     style.dress(axes)
-    show_window(axes, window)
-    style.add_heading(axes, window.note, aside=True)
-    lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
-    labels = labels_of(snapshots)
-    whole = [bool(snapshot.in_contact.all()) for snapshot in snapshots]
-    style.add_legend(
-        axes,
-        lines,
-        [f"{a}, full contact" if full else a for a, full in zip(labels, whole, strict=True)],
-    )
+    show_window(axes, maps.window)
+    style.add_heading(axes, maps.window.note, aside=True)
+    lines = [Line2D([], [], **look) for look in looks]
+    if several:
+        heading, labels = _compared(several, maps)
+        style.add_heading(axes, heading)
+        style.add_legend_below(style.figure_of(axes), lines, labels, columns=4)
+    else:
+        style.add_legend(axes, lines, _instants(maps))
     return style.figure_of(axes)
 
 
 def compare_contact_outlines(
     runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Overlay the outlines of the contacts of several runs.
+    """Overlay the outlines of the contacts of several runs: `contact_outline` of a mapping."""
+    return contact_outline(runs, times=times, width=width)
 
-    Parameters
-    ----------
-    runs : mapping of str to xarray.Dataset
-        Results by the name to print, with fields stored.
-    times : array_like, optional
-        An instant [s]; of each run the nearest stored one is drawn. By default the last of each.
-    width : {"single", "double"} or float, optional
-        One or two columns of a journal (89 and 183 mm), or a width [m].
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        One outline per run; the instant stands above, or with each run where they differ.
+def _styles(count: int) -> list[dict[str, Any]]:
+    """Looks of the outlines of one run at some instants."""
+    colours = style.time_colours(count)
+    return [{"color": colour, "linewidth": style.LINE_WIDTH} for colour in colours]
 
-    Raises
-    ------
-    ValueError
-        If there are no runs, one of them cannot be drawn, or several instants are given.
 
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
-    >>> ball = vc.Sphere(0.01)
-    >>> one, two = (
-    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
-    ...     for force in (0.1, 0.2)
-    ... )
-    >>> runs = {"0.1 N": one, "0.2 N": two}
-    >>> figure = compare_contact_outlines(runs)
-    >>> [text.get_text() for text in figure.legends[0].get_texts()]
-    ['0.1 N', '0.2 N']
-    >>> figure.axes[0].get_title(loc="left")
-    't = 1 s'
-    """
-    snapshots, labels = headed_snapshots(runs, times, _NAME)
-    if len(snapshots) > len(runs):
-        raise ValueError(f"{_NAME}: runs are compared at one instant, got {times!r} s")
-    window = window_around(snapshots)
-    axes = _new_axes(window, len(snapshots), width, below=True)
-    looks = styles_of(list(runs))
-    for snapshot, look in zip(snapshots, looks, strict=True):
-        path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
-        how = {"edgecolor" if key == "color" else key: value for key, value in look.items()}
-        axes.add_patch(PathPatch(path, fill=False, **how))
-    axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
-    style.dress(axes)
-    show_window(axes, window)
-    style.add_heading(axes, window.note, aside=True)
-    instants = {heading for snapshot in snapshots for heading in headings_of([snapshot])}
+def _instants(maps: Maps) -> list[str]:
+    """Labels of the instants of one run."""
+    labels = labels_of(maps.snapshots)
+    whole = [bool(snapshot.in_contact.all()) for snapshot in maps.snapshots]
+    return [f"{a}, full contact" if full else a for a, full in zip(labels, whole, strict=True)]
+
+
+def _compared(names: list[str], maps: Maps) -> tuple[str, list[str]]:
+    """Common instant of runs, and their names, or instants with the names if they differ."""
+    instants = {heading for each in maps.snapshots for heading in headings_of([each])}
     if len(instants) == 1:
-        style.add_heading(axes, instants.pop())
-        labels = list(runs)
-    lines = [Line2D([], [], **look) for look in looks]
-    style.add_legend_below(style.figure_of(axes), lines, labels, columns=4)
-    return style.figure_of(axes)
+        return instants.pop(), names
+    return "", [each.heading for each in maps.maps]
 
 
 def _new_axes(window: Window, count: int, wanted: Width | None, *, below: bool = False) -> Axes:

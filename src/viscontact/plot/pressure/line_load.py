@@ -11,14 +11,15 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.compared_runs import Runs
 from viscontact.plot.layout.page import Width
-from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
+from viscontact.plot.pressure.contact_curves import ContactCurve, draw_curves
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.variables import MESH_DEPENDENT
 
 
 def line_load(
-    results: xr.Dataset,
+    results: Runs,
     *,
     times: ArrayLike | None = None,
     axes: Axes | None = None,
@@ -28,25 +29,28 @@ def line_load(
 
     Parameters
     ----------
-    results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
+    results : xarray.Dataset, or mapping of str to xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored; several by
+        the names to print.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
-        first in contact to the last.
+        first in contact to the last; of several results the first in contact and the last of the
+        first one.
     axes : matplotlib.axes.Axes, optional
-        Axes to draw in; by default a new figure.
+        Axes to draw a single result in; by default a new figure.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-        One line per instant: the pressure integrated over y, q(x) = ∫ p dy.
+        One line per instant: the pressure integrated over y, q(x) = ∫ p dy. Of several results a
+        panel per instant, and a line per run.
 
     Raises
     ------
     ValueError
-        If no fields are stored, or the bodies do not touch at these instants.
+        If no fields are stored, the bodies do not touch at these instants, or there is no result.
 
     Examples
     --------
@@ -64,41 +68,8 @@ def line_load(
 def compare_line_loads(
     runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Overlay the line loads of several runs, one panel per instant.
-
-    Parameters
-    ----------
-    runs : mapping of str to xarray.Dataset
-        Results by the name to print, with fields stored.
-    times : array_like, optional
-        Instants [s]; of each run the nearest stored ones are drawn. By default the first in
-        contact and the last of the first run.
-    width : {"single", "double"} or float, optional
-        One or two columns of a journal (89 and 183 mm), or a width [m].
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Panels with common axes, one line per run.
-
-    Raises
-    ------
-    ValueError
-        If there are no runs, or one of them cannot be drawn.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> grid, body = vc.Grid((40, 24), (24e-3, 4e-3)), vc.Paraboloid(radius_x=0.2, radius_y=0.01)
-    >>> one, two = (
-    ...     vc.simulate(body, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
-    ...     for force in (2.0, 4.0)
-    ... )
-    >>> len(compare_line_loads({"2 N": one, "4 N": two}, times=[0.0]).axes[0].get_lines())
-    2
-    """
-    return compare_curves(runs, _CURVE, times, width)
+    """Overlay the line loads of several runs: `line_load` of a mapping."""
+    return line_load(runs, times=times, width=width)
 
 
 def _values(snapshot: Snapshot) -> tuple[Floats, Floats]:

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.compared_runs import Runs, runs_of
 from viscontact.plot.layout.page import Width
 from viscontact.plot.pressure.contact_curves import (
     ContactCurve,
-    compare_curves,
     cut_at_ends,
     draw_curves,
 )
@@ -23,9 +23,11 @@ from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.variables import MESH_DEPENDENT
 
+_NAME = "pressure-profile"
+
 
 def pressure_profile(
-    results: xr.Dataset,
+    results: Runs,
     *,
     times: ArrayLike | None = None,
     along: Literal["x", "y"] | None = None,
@@ -37,33 +39,37 @@ def pressure_profile(
 
     Parameters
     ----------
-    results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
+    results : xarray.Dataset, or mapping of str to xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored; several by
+        the names to print.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
-        first in contact to the last.
+        first in contact to the last; of several results the first in contact and the last of the
+        first one.
     along : {"x", "y"}, optional
         Direction of the line: along a roller, or across it. By default that of a motion, across the
-        period of a grid that is periodic along one axis only, or else x.
+        period of a grid that is periodic along one axis only, or else x; as for the first of
+        several results.
     at : float, optional
         Position of the line on the other axis [m]; by default the middle of the grid. Between two
         rows of cells the pressure is interpolated.
     axes : matplotlib.axes.Axes, optional
-        Axes to draw in; by default a new figure.
+        Axes to draw a single result in; by default a new figure.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-        One line per instant. Along a motion a full marker is at the leading edge of the contact,
-        and a hollow one at the trailing edge.
+        One line per instant; of several results a panel per instant, and a line per run. Along a
+        motion of a single one a full marker is at the leading edge of the contact, and a hollow
+        one at the trailing edge.
 
     Raises
     ------
     ValueError
-        If no fields are stored, the bodies do not touch at these instants, or the line
-        misses the grid.
+        If no fields are stored, the bodies do not touch at these instants, the line misses the
+        grid, or there is no result.
 
     Examples
     --------
@@ -75,7 +81,8 @@ def pressure_profile(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('x [µm]', 'Pressure [kPa]')
     """
-    along = along or motion_axis(results) or across_period(results) or "x"
+    first = next(iter(runs_of(results, _NAME).values()))
+    along = along or motion_axis(first) or across_period(first) or "x"
     return draw_curves(results, _curve(along, at), times, axes, width)
 
 
@@ -87,47 +94,8 @@ def compare_pressure_profiles(
     at: float | None = None,
     width: Width | None = None,
 ) -> Figure:
-    """Overlay the pressure sections of several runs, one panel per instant.
-
-    Parameters
-    ----------
-    runs : mapping of str to xarray.Dataset
-        Results by the name to print, with fields stored.
-    times : array_like, optional
-        Instants [s]; of each run the nearest stored ones are drawn. By default the first in
-        contact and the last of the first run.
-    along, at : optional
-        Direction and position of the line, as for `pressure_profile` of the first run.
-    width : {"single", "double"} or float, optional
-        One or two columns of a journal (89 and 183 mm), or a width [m].
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Panels with common axes, one line per run.
-
-    Raises
-    ------
-    ValueError
-        If there are no runs, or one of them cannot be drawn.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
-    >>> ball = vc.Sphere(0.01)
-    >>> one, two = (
-    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
-    ...     for force in (0.1, 0.2)
-    ... )
-    >>> runs = {"0.1 N": one, "0.2 N": two}
-    >>> axes = compare_pressure_profiles(runs, along="y").axes[-1]
-    >>> axes.get_xlabel(), axes.get_ylabel()
-    ('y [µm]', 'Pressure [kPa]')
-    """
-    ways = [along or motion_axis(run) or across_period(run) or "x" for run in runs.values()]
-    return compare_curves(runs, _curve(ways[0] if ways else "x", at), times, width)
+    """Overlay the pressure sections of several runs: `pressure_profile` of a mapping."""
+    return pressure_profile(runs, times=times, along=along, at=at, width=width)
 
 
 def _beyond_border(snapshot: Snapshot) -> Snapshot:
@@ -144,7 +112,7 @@ def _section(
 
 def _curve(along: Literal["x", "y"], at: float | None) -> ContactCurve:
     return ContactCurve(
-        "pressure-profile",
+        _NAME,
         "Pressure",
         "Pa",
         along,

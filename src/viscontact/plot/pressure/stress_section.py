@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.notes import peak_note
+from viscontact.drawing.content.scale import AREAS, Scale, pressure_scale
 from viscontact.drawing.content.stress_planes import Section, grouped_sections
 from viscontact.halfspace.stress_lines import Progress
 from viscontact.plot.layout import style
@@ -25,6 +25,8 @@ _NAME = "stress-section"
 
 #: Height of a section that is as deep as wide, because the grid ends near the contact [inch].
 _HIGHEST = 2.2
+#: Number of areas between levels, at most.
+_LEVELS = 9
 
 
 def stress_section(
@@ -77,8 +79,8 @@ def stress_section(
     groups = grouped_sections(source, snapshots, progress)
     alike, sections = len(groups) == 1, [section for group in groups for section in group]
     length = readable_unit("m", *(section.depths[-1] for section in sections))
-    stress = readable_unit("Pa", max(section.largest[0] for section in sections))
-    levels = _levels(sections, stress)
+    highest = max(section.largest[0] for section in sections)
+    scale = pressure_scale(0.0, highest, quantity="Von Mises stress", most=_LEVELS)
     wide = page_width(width, style.ONE_COLUMN)
     # Next to a colour bar, below a heading of two lines: one line would be too long.
     heights = [
@@ -93,7 +95,7 @@ def stress_section(
     headings = headings_of([each for each in snapshots if each.touching])
     contours = []
     for axes, section, heading in zip(panels, sections, headings, strict=True):
-        drawn, lines = _draw(axes, section, levels, length, stress)
+        drawn, lines = _draw(axes, section, scale, length)
         contours.append(lines)
         largest, depth, _ = section.largest
         note = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
@@ -103,31 +105,20 @@ def stress_section(
     for axes, section in list(zip(panels, sections, strict=True))[-1 if alike else 0 :]:
         axes.set_xlabel(length.label(section.axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
-    bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
-    bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
+    style.dress_colour_bar(bar, scale.label)
     figure.draw_without_rendering()  # The layout gives the room for labels.
     for axes, lines in zip(panels, contours, strict=True):
         label_contours(axes, lines, {level: f"{level:g}" for level in lines.levels})
     return figure
 
 
-def _levels(sections: list[Section], unit: ReadableUnit) -> Floats:
-    largest = max(section.largest[0] for section in sections)
-    ticks = MaxNLocator(nbins=9, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(unit(largest)))
-    return np.asarray(ticks)
-
-
 def _draw(
-    axes: Axes,
-    section: Section,
-    levels: Floats,
-    length: ReadableUnit,
-    stress: ReadableUnit,
+    axes: Axes, section: Section, scale: Scale, length: ReadableUnit
 ) -> tuple[QuadContourSet, QuadContourSet]:
     """Draw filled contours and their lines."""
     across, depths = length(section.across), length(section.depths)
-    colours = style.pressure_colours(len(levels) - 1)
-    values = stress(section.stress)
+    levels, values = scale.unit(scale.levels), scale.unit(section.stress)
+    colours = ListedColormap(scale.colours(len(levels) - 1, *AREAS))
     filled = axes.contourf(across, depths, values, levels=levels, cmap=colours)
     lines = axes.contour(
         across, depths, values, levels=levels[1:-1], colors=style.INK, linewidths=0.5

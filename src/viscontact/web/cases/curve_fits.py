@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case.data_file import is_plain_name
+from viscontact.drawing.content.look import Look
 from viscontact.errors import AccuracyWarning
 from viscontact.figures.indentation_fits import contact_point, fit_over_time, force_over_approach
-from viscontact.figures.look import Look, plain
+from viscontact.figures.parts import plain
 from viscontact.identification import (
     ContactPoint,
     ForceCurve,

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 
 from viscontact.case import Case, CaseError, Parts
+from viscontact.drawing.content.shape import natural_size
 from viscontact.loads import MixedHistory
 from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
-from viscontact.notebook.shapes import natural_size
 from viscontact.plot import (
     creep_curve,
     draw_indenter,

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from viscontact.drawing.content.look import Look
 from viscontact.figures.growing import growing
-from viscontact.figures.look import Look, plain
+from viscontact.figures.parts import plain
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.results.variables import SCALARS, Place, labels_in
 from viscontact.run_files import PROGRESS_NAME

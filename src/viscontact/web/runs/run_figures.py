@@ -9,13 +9,14 @@ import xarray as xr
 from plotly.graph_objects import Figure
 
 from viscontact.drawing.content.along_run import along_run
+from viscontact.drawing.content.look import DARK, LIGHT, Look
+from viscontact.drawing.content.map import maps_if_any
 from viscontact.figures.friction import friction, has_friction
 from viscontact.figures.histories import LINEAR, LOGARITHMIC, history, panel_names
-from viscontact.figures.look import DARK, LIGHT, Look, plain
 from viscontact.figures.loops import loops
+from viscontact.figures.parts import plain
 from viscontact.figures.pressure_map import map_remarks, pressure_map
 from viscontact.figures.sections import sections
-from viscontact.figures.shown_fields import ShownFields, shown_fields
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.units.systems import SYSTEMS
 from viscontact.web.workspace.problems import RequestError
@@ -38,26 +39,19 @@ def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None)
     other = None if reference is None else in_order(reference)
     if other is not None and run_axis(other) is not run_axis(ds):
         other = None
-    fields, others = _fields(ds), None if other is None else _fields(other)
+    maps, others = maps_if_any(ds), None if other is None else maps_if_any(other)
     surface: list[Figure] = []
-    if fields is not None:
-        surface = [pressure_map(fields, look, others), *sections(ds, fields, look, others)]
+    if maps is not None:
+        surface = [pressure_map(maps, look, others), *sections(ds, maps, look, others)]
     return {
         "surface": list(map(plain, surface)),
-        "start": 0 if fields is None else fields.start,
-        "remarks": "" if fields is None else map_remarks(fields.beside(others)),
+        "start": 0 if maps is None else maps.start,
+        "remarks": "" if maps is None else map_remarks(maps.beside(others)),
         "friction": plain(friction(ds, look, other)) if has_friction(ds) else None,
         "histories": [plain(each) for each in _histories(ds, look, other)],
         "scale": _scale(ds, look, other),
         "loops": [plain(each) for each in loops(ds, look, other)],
     }
-
-
-def _fields(ds: xr.Dataset) -> ShownFields | None:
-    try:
-        return shown_fields(ds)
-    except ValueError:  # none are stored, or there is no contact in them
-        return None
 
 
 def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list[Figure]:

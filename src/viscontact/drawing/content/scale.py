@@ -1,0 +1,91 @@
+"""Scale of a quantity over the surface: range, levels, unit and colours."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.look import PRESSURE, SIGNED, shades
+from viscontact.drawing.content.panel import Units
+from viscontact.units.formatting import ReadableUnit, readable_unit
+
+#: Steps between levels or ticks, of a decade.
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+#: Parts of the colours for cells, whose palest one differs from the white without contact, and for
+#: areas between contours, pale enough for dark labels.
+CELLS, AREAS = (0.18, 1.0), (0.0, 0.62)
+
+
+@dataclass(frozen=True, eq=False)
+class Scale:
+    """Range and levels of a quantity, with their unit, and the colours that show it."""
+
+    quantity: str
+    unit: ReadableUnit
+    limits: tuple[float, float]  # of what is shown [SI]
+    levels: Floats  # round numbers in the unit around what is labelled [SI]
+    is_open: bool = False  # largest values lie above the last level, since they depend on the mesh
+    diverges: bool = False  # from 0, which has the palest colour
+
+    @property
+    def label(self) -> str:
+        """Quantity with its unit."""
+        return self.unit.label(self.quantity)
+
+    def colours(self, count: int, begin: float = 0.0, end: float = 1.0) -> list[str]:
+        """Colours from the lower to the upper limit, or of parts of those if none is negative.
+
+        >>> pressure_scale(0.0, 1e6).colours(2), pressure_scale(-1e6, 1e6).colours(3)[1]
+        (['#ffffd9', '#081d58'], '#f7f7f7')
+        """
+        if not self.diverges:
+            return shades(PRESSURE, count, begin, end)
+        low, high = self.limits
+        return shades(SIGNED, count, *(0.5 + each / max(-low, high) / 2 for each in (low, high)))
+
+
+def pressure_scale(
+    low: float,
+    high: float,
+    ordinary: float | None = None,
+    *,
+    quantity: str = "Pressure",
+    most: int = 10,
+    units: Units = readable_unit,
+) -> Scale:
+    """Scale of a pressure or a stress from the least to the largest [Pa], with 0.
+
+    `ordinary` is the largest pressure that does not depend on the mesh [Pa], if others do: levels
+    up to the peak would concentrate at the edge. Colours of negative values diverge from 0.
+
+    >>> scale = pressure_scale(0.0, 152e6)
+    >>> scale.unit(scale.levels).tolist(), scale.label
+    ([0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0], 'Pressure [MPa]')
+    >>> signed = pressure_scale(-30e3, 90e3)
+    >>> signed.unit(signed.levels)[:4].tolist(), signed.diverges
+    ([-40.0, -20.0, 0.0, 20.0], True)
+    """
+    low, unit = min(low, 0.0), units("Pa", low, high)
+    top = high if ordinary is None else ordinary
+    levels = round_levels(low / unit.factor, top / unit.factor, most) * unit.factor
+    return Scale(quantity, unit, (low, high), levels, ordinary is not None, low < 0)
+
+
+def round_levels(low: float, high: float, most: int) -> Floats:
+    """Round numbers at equal steps from `low` or below to `high` or beyond, `most` + 1 or so."""
+    step = round_step((high - low) / most)
+    first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return np.asarray(step * np.arange(first, last + 1), dtype=np.float64)
+
+
+def round_step(least: float) -> float:
+    """Smallest round number that is not below another one.
+
+    >>> round_step(0.021), round_step(7.0)
+    (0.025, 10.0)
+    """
+    decade = 10.0 ** math.floor(math.log10(least))
+    return next(step * decade for step in _STEPS if step * decade >= least * (1 - 1e-9))

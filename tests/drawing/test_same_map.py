@@ -1,0 +1,102 @@
+"""A run's map is the same in Matplotlib, Plotly and SVG: range, unit, levels and outline."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from synthetic_results import ellipse
+from viscontact import plot
+from viscontact.drawing.content.map import Maps, maps_over
+from viscontact.figures.pressure_map import pressure_map as interactive_map
+from viscontact.notebook.pressure_map import map_drawing
+
+FloatArray = NDArray[np.float64]
+
+
+@cache
+def content() -> Maps:
+    return maps_over(ellipse())
+
+
+def still_map(style: str) -> list[plot.Figure]:
+    """Panels and colour bar of all instants."""
+    return plot.pressure_map(ellipse(), times=ellipse().time.values, style=style).axes
+
+
+@cache
+def small_map() -> Element:
+    return map_drawing(content())
+
+
+def paths(kind: str) -> list[Element]:
+    return [each for each in small_map().iter("path") if each.get("class") == kind]
+
+
+def texts(kind: str = "") -> list[tuple[float, float, str]]:
+    """Places and texts of labels of a kind [px]."""
+    found = (each for each in small_map().iter("text") if each.get("class", "") == kind)
+    return [(float(each.get("x", "")), float(each.get("y", "")), each.text or "") for each in found]
+
+
+def length_unit(label: str) -> float:
+    return {"mm": 1e-3, "µm": 1e-6}[label[-3:-1]]
+
+
+def placed_on(kind: str, pixels: FloatArray) -> FloatArray:
+    """Positions of pixels on an axis of the small map [m]."""
+    side = "xy".index(kind)
+    ticks = [(tick[side], float(tick[2].replace("−", "-"))) for tick in texts(f"{kind}-tick")]
+    at, values = np.array(ticks).T
+    at = at - 3.5 * side  # texts stand below their ticks
+    label = next(text for *_, text in texts() if text.startswith(f"{kind} ["))
+    return np.asarray(np.polyval(np.polyfit(at, values, 1), pixels) * length_unit(label))
+
+
+def test_unit_is_the_same() -> None:
+    still = still_map("contours")[-1].get_ylabel()
+    interactive = interactive_map(content()).data[0].colorbar.title.text
+    assert still == interactive == content().scale().label == "Pressure [MPa]"
+    assert texts()[0][2] == "pressure [MPa]"
+
+
+def test_range_is_the_same() -> None:
+    scale = content().scale()
+    heat, bar = interactive_map(content()).data[0], still_map("colours")[-1]
+    assert (heat.zmin, heat.zmax) == pytest.approx(scale.unit(scale.limits))
+    assert bar.get_ylim() == pytest.approx(scale.unit(scale.limits))
+
+
+def test_levels_are_the_same() -> None:
+    scale = content().scale()
+    levels = scale.unit(scale.levels)
+    bar = still_map("contours")[-1]
+    np.testing.assert_allclose(bar.get_yticks(), levels)
+    assert texts()[1][2].startswith(f"{levels[0]:.0f} to {levels[-1]:.0f}, ")
+    # A band that no cell of the last instant lies in has no cells.
+    bands = np.searchsorted(levels, scale.unit(content().snapshots[-1].pressure), side="right") - 1
+    present = sorted(set(bands[content().snapshots[-1].pressure > 0].tolist()))
+    colours = scale.colours(levels.size - 1, 0.18, 1.0)
+    assert [each.get("stroke") for each in paths("cells")] == [colours[n] for n in present]
+
+
+def test_outline_is_the_same() -> None:
+    [outline] = content().maps[-1].outline
+    panel = still_map("contours")[2]
+    scale = length_unit(panel.get_xlabel())
+    vertices = panel.patches[-1].get_path().vertices
+    np.testing.assert_allclose(vertices[: len(outline)] * scale, outline, atol=1e-12)
+    frame = interactive_map(content()).frames[-1].data[1]
+    drawn = np.column_stack([frame.x, frame.y])[:-1]
+    np.testing.assert_allclose(drawn * scale, outline, atol=1e-9)
+    [rim] = paths("rim")
+    pairs = re.findall(r"([\d.-]+),([\d.-]+)", rim.get("d", ""))
+    x, y = np.array(pairs, dtype=float).T
+    curve = np.column_stack([placed_on("x", x), placed_on("y", y)])
+    distance = np.hypot(*(curve[:, None] - outline[None]).T).min(axis=0)
+    assert distance.max() < 3e-6  # a tenth of a pixel is 1 µm
