@@ -19,7 +19,7 @@ from viscontact.figures.loops import loops
 from viscontact.figures.pressure_map import pressure_map
 from viscontact.figures.sections import draw_section
 from viscontact.loads.motion import Motion
-from viscontact.notebook.result_card import result_card
+from viscontact.notebook.result_overview import result_overview
 from viscontact.report.page import report_page
 from viscontact.report.section_csv import lines_csv
 
@@ -90,7 +90,7 @@ def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) ->
     labels = [axes.get_ylabel() for axes in plot.history(moved).axes]
     assert "Resistance along y [mN]" in labels
     assert not [label for label in labels if label.startswith("Resistance along x")]
-    rows = [words for words, *_ in result_card(moved).rows]
+    rows = [words for words, *_ in result_overview(moved).rows]
     assert "resistance along y" in rows
     assert "resistance along x" not in rows
 

@@ -20,7 +20,7 @@ from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main
 from viscontact.cli.sweep.table import print_table
 from viscontact.figures.histories import histories, panel_names
-from viscontact.notebook.result_card import result_card
+from viscontact.notebook.result_overview import result_overview
 from viscontact.plot import history
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
@@ -130,7 +130,7 @@ def test_new_entry_is_in_summary_card_and_tables(
     extended: xr.Dataset, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert NEW in [row.name for row in summary_rows(extended)]
-    assert LABEL.lower() in [row[0] for row in result_card(extended).rows]
+    assert LABEL.lower() in [row[0] for row in result_overview(extended).rows]
     vc.save(extended, tmp_path / "result.nc")
     assert main(["show", str(tmp_path / "result.nc")]) == 0
     assert "slope" in capsys.readouterr().out
@@ -184,7 +184,7 @@ def test_older_result_is_shown_without_the_new_scalar(
         assert main([command[0], files[0], *command[1:]]) == 0, command
     assert "force" in capsys.readouterr().out
     assert main(["compare", *files, "-o", str(tmp_path / "compare.png")]) == 0
-    assert not [row for row in result_card(older).rows if row[0] == "new"]
+    assert not [row for row in result_overview(older).rows if row[0] == "new"]
     assert "New" not in run_data(older)["facts"].values()
     assert vc.plot.animation(older, seconds=1.0, fps=2.0).instants.size == 2
 
@@ -276,7 +276,7 @@ def test_line_load_is_shown_of_long_contacts_only(ds: xr.Dataset, roller: xr.Dat
     for run, expected in ((roller, True), (ds, False)):
         assert float(run.peak_line_load[0]) > 0  # in the file of any run
         assert ("peak_line_load" in [row.name for row in summary_rows(run)]) == expected
-        assert (label.lower() in [row[0] for row in result_card(run).rows]) == expected
+        assert (label.lower() in [row[0] for row in result_overview(run).rows]) == expected
         assert (label in run_data(run)["facts"].values()) == expected
         assert ("peak_line_load" in panel_names(run)[1]) == expected
         assert (label in report_page(run)) == expected

@@ -4,6 +4,6 @@ Objects call it by themselves (`viscontact.display`). Drawings are SVG written b
 they need no plotting library, take the colours of the page around them, and stay small.
 """
 
-from viscontact.notebook.cards import display_html, display_text
+from viscontact.notebook.display import display_html, display_text
 
 __all__ = ["display_html", "display_text"]

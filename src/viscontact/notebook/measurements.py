@@ -1,4 +1,4 @@
-"""Cards of measurements and fits: data as dots, the identified law as a line."""
+"""Overviews of measurements and fits: data as dots, the identified law as a line."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.look import BLUE, ORANGE
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
-from viscontact.notebook.card import Card
+from viscontact.notebook.overview import Overview
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import Mark, panel
 from viscontact.results.argument_table import in_plain_words
@@ -26,8 +26,8 @@ _DECADES = 20.0
 _UNITS = {"compliance": "1/Pa", "modulus": "Pa", "storage": "Pa", "loss": "Pa"}
 
 
-def record_card(record: IndentationRecord) -> Card:
-    """Make the card of an indentation record."""
+def record_overview(record: IndentationRecord) -> Overview:
+    """Make the overview of an indentation record."""
     rows = [
         ("indenter", in_plain_words(type(record.indenter).__name__)),
         ("rows", str(record.times.size)),
@@ -39,11 +39,11 @@ def record_card(record: IndentationRecord) -> Card:
         _lines("force over approach", record.approach, ("approach", "m"), record.force, "N"),
         _lines("approach over time", record.times, ("time", "s"), record.approach, "m"),
     ]
-    return Card("Indentation record", rows, drawn)
+    return Overview("Indentation record", rows, drawn)
 
 
-def fit_card(fit: Fit) -> Card:
-    """Make the card of a series fitted to measured values."""
+def fit_overview(fit: Fit) -> Overview:
+    """Make the overview of a series fitted to measured values."""
     oscillates = "storage" in fit.measured
     parts = {name: float(np.sqrt(np.mean(each**2))) for name, each in fit.residuals.items()}
     rows = [
@@ -65,7 +65,7 @@ def fit_card(fit: Fit) -> Card:
         _scatter(name, [(fit.points, values)], oscillates, (points, curves[name]))
         for name, values in fit.measured.items()
     ]
-    return Card("Fit", rows, drawn)
+    return Overview("Fit", rows, drawn)
 
 
 def _weights(fit: Fit) -> list[tuple[str, float]]:
@@ -73,8 +73,8 @@ def _weights(fit: Fit) -> list[tuple[str, float]]:
     return list(fit.weights.items()) if len(fit.weights) > 1 else []
 
 
-def indentation_fit_card(fit: IndentationFit) -> Card:
-    """Make the card of a law fitted to an indentation record."""
+def indentation_fit_overview(fit: IndentationFit) -> Overview:
+    """Make the overview of a law fitted to an indentation record."""
     level = f"{fit.confidence:.0%}".replace("%", " %")
     rows = [("law", in_plain_words(type(fit.law).__name__))]
     for (name, value), unit in zip(fit.parameters.items(), fit.units, strict=True):
@@ -90,11 +90,11 @@ def indentation_fit_card(fit: IndentationFit) -> Card:
     marks = [Mark(times[some], fit.measured[some], "dots", ORANGE), Mark(times, fit.fitted)]
     both = np.concatenate([fit.measured, fit.fitted])
     drawn = panel(f"{other} over time", _axis("time", "s", times), _axis(other, unit, both), marks)
-    return Card("Fit of an indentation", rows, [drawn])
+    return Overview("Fit of an indentation", rows, [drawn])
 
 
-def isotherm_card(isotherm: Isotherm) -> Card:
-    """Make the card of a test at one temperature."""
+def isotherm_overview(isotherm: Isotherm) -> Overview:
+    """Make the overview of a test at one temperature."""
     points = isotherm.points
     rows = [
         ("temperature", _celsius(isotherm.temperature)),
@@ -105,11 +105,11 @@ def isotherm_card(isotherm: Isotherm) -> Card:
         _scatter(name, [(points, values)], isotherm.oscillates)
         for name, values in isotherm.measured.items()
     ]
-    return Card("Isotherm", rows, drawn)
+    return Overview("Isotherm", rows, drawn)
 
 
-def master_curve_card(curve: MasterCurve) -> Card:
-    """Make the card of a master curve."""
+def master_curve_overview(curve: MasterCurve) -> Overview:
+    """Make the overview of a master curve."""
     oscillates = curve.isotherms[0].oscillates
     rows = [
         ("reference temperature", _celsius(curve.reference_temperature)),
@@ -131,7 +131,7 @@ def master_curve_card(curve: MasterCurve) -> Card:
         )
         for name in curve.measured
     ]
-    return Card("Master curve", rows, drawn)
+    return Overview("Master curve", rows, drawn)
 
 
 def _point_rows(points: Floats, oscillates: bool) -> Iterator[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""Card of a measured surface: heights as a small map, a section, and its roughness."""
+"""Overview of a measured surface: heights as a small map, a section, and its roughness."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.drawing.content.look import BLUE
-from viscontact.notebook.card import Card
 from viscontact.notebook.html import element
+from viscontact.notebook.overview import Overview
 from viscontact.notebook.svg_axes import linear
 from viscontact.notebook.svg_panel import WIDTH, Mark, panel
 from viscontact.results.formatting import format_percent
@@ -25,12 +25,12 @@ _TONES = (0.12, 0.3, 0.5, 0.7, 0.95)
 _POINTS = 240
 
 
-def surface_card(surface: Surface) -> Card:
-    """Make the card of a measured surface.
+def surface_overview(surface: Surface) -> Overview:
+    """Make the overview of a measured surface.
 
     Examples
     --------
-    >>> print(surface_card(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
+    >>> print(surface_overview(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
     Surface: mine.npz
       points          2 × 2
       size            20 µm × 20 µm
@@ -58,7 +58,7 @@ def surface_card(surface: Surface) -> Card:
         rows.append(("periodic", "yes"))
     if surface.missing_share > 0:
         rows.append(("not measured", f"{format_percent(surface.missing_share)} of the points"))
-    return Card(f"Surface: {surface.name}", rows, [_map(surface), *_section(surface)])
+    return Overview(f"Surface: {surface.name}", rows, [_map(surface), *_section(surface)])
 
 
 def _map(surface: Surface) -> Element:

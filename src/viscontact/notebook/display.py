@@ -1,4 +1,4 @@
-"""Cards of objects: of a part of a case, or of a whole one."""
+"""Overviews of objects: of a part of a case, or of a whole one."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from viscontact.loads import LoadHistory
 from viscontact.materials.cards import Card as MaterialCard
 from viscontact.materials.layers import Layered, creeping_laws
 from viscontact.materials.material import Material
-from viscontact.notebook.card import Card, as_html, as_text
 from viscontact.notebook.curves import law_drawings, load_drawings
 from viscontact.notebook.measurements import (
-    fit_card,
-    indentation_fit_card,
-    isotherm_card,
-    master_curve_card,
-    record_card,
+    fit_overview,
+    indentation_fit_overview,
+    isotherm_overview,
+    master_curve_overview,
+    record_overview,
 )
-from viscontact.notebook.result_card import result_card
+from viscontact.notebook.overview import Overview, as_html, as_text
+from viscontact.notebook.result_overview import result_overview
 from viscontact.notebook.shapes import indenter_drawings
 from viscontact.notebook.stack import stack_drawing
-from viscontact.notebook.surface_map import surface_card
+from viscontact.notebook.surface_map import surface_overview
 from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.descriptions import describe
@@ -49,7 +49,7 @@ def display_html(obj: Displayable) -> str:
     str
         HTML that needs nothing from outside and takes the colours of the page around it.
     """
-    return as_html(_cards(obj))
+    return as_html(_overviews(obj))
 
 
 def display_text(obj: Displayable) -> str:
@@ -68,37 +68,37 @@ def display_text(obj: Displayable) -> str:
     Sphere
       radius  10 mm
     """
-    return as_text(_cards(obj))
+    return as_text(_overviews(obj))
 
 
-def _cards(obj: Displayable) -> Iterator[Card]:
+def _overviews(obj: Displayable) -> Iterator[Overview]:
     if isinstance(obj, ResultAccessor):
-        yield result_card(obj.result)
+        yield result_overview(obj.result)
         return
     measured = next((make for kind, make in _MEASURED.items() if isinstance(obj, kind)), None)
     if measured is not None:
         yield measured(obj)
-        yield from (_card(part) for part in _found(obj))
+        yield from (_overview(part) for part in _found(obj))
         return
     if not isinstance(obj, DisplayableGroup):
-        yield _card(obj)
+        yield _overview(obj)
         return
     parts = obj.display_parts()
     words = [(name, part) for name, part in parts.items() if isinstance(part, str)]
-    yield Card(obj.display_title, words)
+    yield Overview(obj.display_title, words)
     for name, part in parts.items():
         if isinstance(part, Displayable):
             title = f"{name}: {_name_of(part)}" if _name_of(part) not in name else name
-            yield Card(_sentence_case(title), _rows(part), _drawings(part))
+            yield Overview(_sentence_case(title), _rows(part), _drawings(part))
 
 
-def _card(obj: Displayable) -> Card:
-    return Card(_sentence_case(_name_of(obj)), _rows(obj), _drawings(obj))
+def _overview(obj: Displayable) -> Overview:
+    return Overview(_sentence_case(_name_of(obj)), _rows(obj), _drawings(obj))
 
 
-def _material_card(card: MaterialCard) -> Card:
+def _material_overview(card: MaterialCard) -> Overview:
     rows = [("note", note) for note in card.notes]
-    return Card(f"Material card: {card.name}", rows)
+    return Overview(f"Material card: {card.name}", rows)
 
 
 def _found(obj: Displayable) -> Iterator[Displayable]:
@@ -111,15 +111,15 @@ def _found(obj: Displayable) -> Iterator[Displayable]:
         yield from (part for part in (obj.material, obj.shift) if part is not None)
 
 
-#: Objects with thousands of numbers, which need a card of their own.
-_MEASURED: dict[type[Displayable], Callable[[Any], Card]] = {
-    Surface: surface_card,
-    IndentationRecord: record_card,
-    Fit: fit_card,
-    IndentationFit: indentation_fit_card,
-    Isotherm: isotherm_card,
-    MasterCurve: master_curve_card,
-    MaterialCard: _material_card,
+#: Objects with thousands of numbers, which need an overview of their own.
+_MEASURED: dict[type[Displayable], Callable[[Any], Overview]] = {
+    Surface: surface_overview,
+    IndentationRecord: record_overview,
+    Fit: fit_overview,
+    IndentationFit: indentation_fit_overview,
+    Isotherm: isotherm_overview,
+    MasterCurve: master_curve_overview,
+    MaterialCard: _material_overview,
 }
 
 

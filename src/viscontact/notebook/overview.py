@@ -1,4 +1,4 @@
-"""Card of an object: a title, drawings, and a table of names and values."""
+"""Overview of an object: a title, drawings, and a table of names and values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Rows = Sequence[tuple[str, ...]]
 
 
 @dataclass(frozen=True)
-class Card:
+class Overview:
     """Title, table and drawings of one object."""
 
     title: str
@@ -39,7 +39,7 @@ class Card:
         return "\n".join(line.rstrip() for line in filter(None, [self.title, self.lead, *lines]))
 
     def element(self) -> Element:
-        """The card in HTML: drawings, and the table to their right."""
+        """The overview in HTML: drawings, and the table to their right."""
         title = element("div", self.title, style="font-weight:600;margin:2px 0")
         lead = element("div", self.lead, style="margin:0 0 4px;max-width:60em")
         head = (
@@ -53,22 +53,22 @@ class Card:
         return element("div", title, lead if self.lead else None, box)
 
 
-def as_html(cards: Iterable[Card]) -> str:
-    """Write cards, one below the other, as a piece of HTML."""
-    return written(element("div", *(card.element() for card in cards), class_="viscontact"))
+def as_html(overviews: Iterable[Overview]) -> str:
+    """Write overviews, one below the other, as a piece of HTML."""
+    return written(element("div", *(each.element() for each in overviews), class_="viscontact"))
 
 
-def as_text(cards: Iterable[Card]) -> str:
-    """Write the tables of cards for a terminal.
+def as_text(overviews: Iterable[Overview]) -> str:
+    """Write the tables of overviews for a terminal.
 
     Examples
     --------
-    >>> print(as_text([Card("Roller", [("radius", "5 mm"), ("half length", "9 mm")])]))
+    >>> print(as_text([Overview("Roller", [("radius", "5 mm"), ("half length", "9 mm")])]))
     Roller
       radius       5 mm
       half length  9 mm
     """
-    return "\n\n".join(card.text() for card in cards)
+    return "\n\n".join(each.text() for each in overviews)
 
 
 def _row(row: tuple[str, ...]) -> Element:

@@ -1,4 +1,4 @@
-"""Card of a result: a headline, a table, and three small drawings."""
+"""Overview of a result: a headline, a table, and three small drawings."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.history import is_idle
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import maps_at
-from viscontact.notebook.card import Card
+from viscontact.notebook.overview import Overview
 from viscontact.notebook.pressure_map import map_drawing
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import Mark, panel
@@ -27,15 +27,15 @@ from viscontact.units.formatting import format_quantity
 ROUND = 1.05
 
 
-def result_card(ds: xr.Dataset) -> Card:
-    """Make the card of a result."""
+def result_overview(ds: xr.Dataset) -> Overview:
+    """Make the overview of a result."""
     needed = ["time", *(name for name in shown_in(Place.CARD) if name in REQUIRED)]
     missing = [name for name in needed if name not in ds.variables]
     if missing:
         lead = f"It has no {missing[0]}; simulate and open_results make results."
-        return Card("No result of viscontact", [], lead=lead)
+        return Overview("No result of viscontact", [], lead=lead)
     if not ds.sizes["time"]:
-        return Card(_title(ds), [], lead="It holds no instant.")
+        return Overview(_title(ds), [], lead="It holds no instant.")
     last = ds.sizes["time"] - 1
     # The largest contact as well where it is at neither end.
     shown = sorted({0, int(ds["contact_area"].values.argmax()), last})
@@ -45,7 +45,7 @@ def result_card(ds: xr.Dataset) -> Card:
         for name, label in shown_labels(ds, Place.CARD).items()
         if not is_idle(ds, name)
     ]
-    return Card(_title(ds), [*rows, *_warnings(ds)], _drawings(ds), heads, headline(ds))
+    return Overview(_title(ds), [*rows, *_warnings(ds)], _drawings(ds), heads, headline(ds))
 
 
 def _title(ds: xr.Dataset) -> str:
