@@ -36,6 +36,7 @@ def test_default_instants_run_from_first_contact_to_last() -> None:
     results = maxwell_sphere(np.concatenate([[0.0], np.geomspace(0.1, 1000.0, 25)]), cells=16)
     results["pressure"][0] = 0.0
     results["peak_pressure"][0] = 0.0
+    results["contact_area"][0] = 0.0
     times = [snapshot.time for snapshot in take_snapshots(results, None, "figure")]
     assert len(times) == 5
     assert times[0] == pytest.approx(0.1)
