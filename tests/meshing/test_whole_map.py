@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.contact.domain import ContactDomain
 from viscontact.meshing.contact_extent import PointContact
 from viscontact.meshing.elastic_estimate import elastic_contact, estimate_contact, estimate_period
 from viscontact.meshing.whole_map import opening_force, whole_map_warning
@@ -42,7 +43,7 @@ def test_map_opens_just_below_the_named_force(length: float) -> None:
     covered = np.isfinite(open_gap)
     for part, is_whole in ((0.99, False), (1.01, True)):
         load = vc.step(part * force).at(0.0)
-        found = elastic_contact(open_gap, COMPLIANCE, load, grid)
+        found = elastic_contact(open_gap, COMPLIANCE, load, ContactDomain(grid))
         assert (found.pressure[covered] > 0).all() == is_whole
 
 
@@ -66,7 +67,8 @@ def test_short_waves_that_the_coarse_estimate_leaves_out_open_first() -> None:
     named = parse_quantity(said.split("less than about ")[1].split(",")[0], "force")
     for part, is_whole in ((0.9, False), (1.1, True)):
         load = vc.step(part * named).at(0.0)
-        found = elastic_contact(surface.gap(cells.x[:, None], cells.y), COMPLIANCE, load, cells)
+        open_gap = surface.gap(cells.x[:, None], cells.y)
+        found = elastic_contact(open_gap, COMPLIANCE, load, ContactDomain(cells))
         assert (found.pressure > 0).all() == is_whole
 
 

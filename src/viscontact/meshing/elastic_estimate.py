@@ -128,19 +128,17 @@ class ContactEstimate:
         return x + self.length / 2, y + self.width / 2
 
 
-def elastic_contact(  # noqa: PLR0913
+def elastic_contact(
     open_gap: Floats,
     compliance: float,
     point: LoadPoint,
-    grid: Grid,
+    domain: ContactDomain,
     *,
-    response: SurfaceResponse = HALF_SPACE,
     tolerance: float = COARSE_TOLERANCE,
-    mirrored: tuple[bool, bool] = (False, False),
     start: Floats | None = None,
 ) -> ContactEstimate:
-    """Solve an elastic contact on a grid; `compliance` [1/Pa], `start` a pressure or None [Pa]."""
-    domain = ContactDomain(grid, response=response, mirrored=mirrored)
+    """Solve an elastic contact on a domain; `compliance` [1/Pa], `start` a pressure [Pa]."""
+    grid = domain.grid
     problem = ContactProblem(
         domain.reduce_by_symmetry(open_gap),
         compliance,
@@ -188,7 +186,9 @@ def estimate_contact(
             is_small = min(indenter.sample_spacing) > 0 and np.isfinite(indenter.gap(*centre))
             size = (0.5 if is_small else 2.0) * size
             continue
-        found = elastic_contact(open_gap, contact_compliance, point, grid, response=response)
+        found = elastic_contact(
+            open_gap, contact_compliance, point, ContactDomain(grid, response=response)
+        )
         factors = _size_factors(found, follows=around is not None)
         if factors is None:
             return found
@@ -210,7 +210,9 @@ def estimate_period(
     nx, ny = (min(count, MAX_PERIOD_CELLS) for count in grid.shape)
     coarse = replace(grid, shape=(nx, ny))
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
-    found = elastic_contact(open_gap, contact_compliance, point, coarse, response=response)
+    found = elastic_contact(
+        open_gap, contact_compliance, point, ContactDomain(coarse, response=response)
+    )
     if not found.converged:
         raise ValueError("grid: the contact on this period could not be estimated; use more cells")
     return found

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.contact.body_edge import END_DEPTH, end_cells, trace_outline
-from viscontact.contact.domain import mirrored_axes
+from viscontact.contact.domain import ContactDomain, mirrored_axes
 from viscontact.contact.line_load import line_load, peak_line_load
 from viscontact.contact.rim import Rim, mean_chords, trace_rim
 from viscontact.grid import MESH_QUANTITIES, Grid
@@ -201,10 +201,10 @@ def _found(
         open_gap,
         pressing.compliance,
         point,
-        grid,
-        response=pressing.response,
+        ContactDomain(
+            grid, response=pressing.response, mirrored=mirrored_axes(grid, open_gap, even)
+        ),
         tolerance=tolerance,
-        mirrored=mirrored_axes(grid, open_gap, even),
         start=start,
     )
     rim = trace_rim(grid, found.in_contact, found.gap, trace_outline(indenter, grid))

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.rim import trace_rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
@@ -62,4 +63,5 @@ def _pressed(
     found: PointContact, open_gap: Floats, grid: Grid, point: LoadPoint
 ) -> ContactEstimate:
     """Elastic contact under a load on a grid."""
-    return elastic_contact(open_gap, found.compliance, point, grid, response=found.response)
+    domain = ContactDomain(grid, response=found.response)
+    return elastic_contact(open_gap, found.compliance, point, domain)
