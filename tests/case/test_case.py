@@ -18,7 +18,7 @@ from pydantic import ValidationError
 
 import viscontact as vc
 from viscontact.case import CaseError, case_schema, read_case
-from viscontact.case.loads import load_table
+from viscontact.case.loads import history
 from viscontact.case.materials import measured_laws
 from viscontact.case.time_grid_output import Cells
 from viscontact.case.yaml_source import _QUANTITY, parse, parse_value
@@ -500,7 +500,7 @@ def test_every_data_file_of_a_case_is_parsed_once(
         "time: {end: 1 s, steps: 4}\n"
     )
     parsed: list[str] = []
-    for module in (measured_laws, load_table):
+    for module in (measured_laws, history):
         original = module.read_table
 
         def counting(path: Any, *args: Any, read: Any = original, **options: Any) -> Any:

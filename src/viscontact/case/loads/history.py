@@ -12,7 +12,6 @@ from viscontact.case.data_file import DataFile
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
 from viscontact.case.loads.levels import ForceOrApproach, Level
-from viscontact.case.loads.load_table import read_load_table
 from viscontact.case.loads.sentence_history import SentenceError, course_of
 from viscontact.case.loads.sentences import Sentences
 from viscontact.case.quantities import (
@@ -21,7 +20,10 @@ from viscontact.case.quantities import (
 )
 from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.loads.history import Control
+from viscontact.tables import Table, read_table
 from viscontact.units.formatting import format_quantity
+
+_COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 
 class History(Load):
@@ -101,7 +103,7 @@ class History(Load):
         return _history(*course, self._tail)
 
     def _from_file(self, path: Path) -> LoadHistory:
-        columns = read_load_table(path)
+        columns = _read_table(path)
         twice = sorted(columns.keys() & self.model_fields_set)
         if twice:
             raise ValueError(f"{twice[0]} is given in the case and in {path.name}; give it once")
@@ -134,3 +136,47 @@ def _history(
                 "act there, so leave it out, or prescribe the tilt"
             )
     return ApproachHistory(times, levels, **tilts)
+
+
+def _read_table(path: Path) -> dict[str, list[float]]:
+    """Read a load history from a CSV file."""
+    try:
+        table = read_table(path)
+        _require_columns(table)
+        _refuse_decrease(table)
+    except ValueError as error:
+        raise ValueError(f"file: {error}") from error
+    values = {name: column.tolist() for name, column in table.columns.items()}
+    values["times"] = values.pop("time")
+    return values
+
+
+def _require_columns(table: Table) -> None:
+    name = table.source.name
+    # An ignored column could be a load that is not applied.
+    others = [table.headings[column] for column in table.columns if column not in _COLUMNS]
+    for unknown in (*table.left_out, *others):
+        raise ValueError(
+            f"{name}: cannot read the column name {unknown!r}; "
+            f"names are {', '.join(_COLUMNS)}, each with its unit, as 'force [kN]'"
+        )
+    if "time" not in table:
+        raise ValueError(f"{name}: the column time is missing")
+    if "force" in table and "approach" in table:
+        raise ValueError(
+            f"{name}: the columns force and approach exclude each other; only one of them can be "
+            "prescribed"
+        )
+    if "force" not in table and "approach" not in table:
+        raise ValueError(f"{name}: the column force is missing, or approach in its place")
+
+
+def _refuse_decrease(table: Table) -> None:
+    before = 0.0
+    for line, now in zip(table.lines.tolist(), table["time"].tolist(), strict=True):
+        if now < before:
+            raise ValueError(
+                f"{table.source.name}:{line}: time must not decrease, got "
+                f"{format_quantity(before, 's', 6)} followed by {format_quantity(now, 's', 6)}"
+            )
+        before = now
