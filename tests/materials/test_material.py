@@ -25,7 +25,7 @@ from viscontact.laws import (
     Zener,
 )
 from viscontact.materials.compliance import SeriesCompliance
-from viscontact.materials.material import Material
+from viscontact.materials.material import Material, uniaxial_compression
 from viscontact.results.descriptions import describe, rebuild
 
 T = np.array([0.0, 0.01, 0.7, 3.0, 40.0, 1e4])
@@ -288,3 +288,10 @@ def test_results_keep_the_shift_of_a_material_that_has_one(shift):
     assert described["shift"]["type"] == type(shift).__name__
     assert rebuild(described) == dataclasses.replace(plain, shift=shift)
     assert rebuild(describe(plain)) == plain
+
+
+@pytest.mark.parametrize("volume", [{"bulk_modulus": 5e9}, {"poisson_ratio": 0.25}])
+def test_uniaxial_compression_is_that_of_the_longitudinal_modulus(volume):
+    """K + 4G/3 = 9 GPa, of which both are the same elastic body."""
+    material = Material(Elastic(3e9), **volume)
+    assert uniaxial_compression(material)(0.0) == pytest.approx(1 / 9e9, rel=1e-12)

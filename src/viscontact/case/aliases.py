@@ -111,12 +111,7 @@ class Resolution:
 
 
 def resolved(data: dict[str, Any]) -> Resolution:
-    """Replace the aliases in the data of a case.
-
-    >>> ball = {"indenter": {"shape": "sphere", "diameter": "19.13 mm"}}
-    >>> resolved(ball).data
-    {'indenter': {'shape': 'sphere', 'radius': '9.565 mm'}}
-    """
+    """Replace the aliases in the data of a case."""
     if not any(True for _ in _aliases_in(data)):
         return Resolution(data)
     found = Resolution(deepcopy(data))
@@ -150,11 +145,7 @@ def aliases_of(model: type[BaseModel], key: str) -> list[Alias]:
 
 
 def value_at(data: Any, path: KeyPath) -> Any:
-    """Value at a path, None where there is none.
-
-    >>> value_at({"load": {"force": "1 N"}}, ("load", "force")), value_at({}, ("load", "force"))
-    ('1 N', None)
-    """
+    """Value at a path, None where there is none."""
     for step in path:
         try:
             data = data[step]
@@ -252,11 +243,7 @@ def _converted(alias: Alias, given: Any) -> tuple[Any, str]:
 
 
 def _half(text: str, value: float) -> str:
-    """Half of a length [m], in the unit of its text and without rounding.
-
-    >>> _half("19.13 mm", 0.01913)
-    '9.565 mm'
-    """
+    """Half of a length [m], in the unit of its text and without rounding."""
     match = _NUMBER.fullmatch(text)
     if match is not None:
         half = f"{Decimal(match['number']) / 2:f}{match['unit']}"

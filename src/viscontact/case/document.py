@@ -87,11 +87,7 @@ class Document:
 
 
 def as_written(data: Any, path: KeyPath) -> KeyPath:
-    """Path of a value in the data of a file, without the steps that the file leaves out.
-
-    >>> as_written({"layers": [{"file": "law.yaml"}]}, ("layers", 0, "material", "file"))
-    ('layers', 0, 'file')
-    """
+    """Path of a value in the data of a file, without the steps that the file leaves out."""
     found: list[str | int] = []
     for place, step in enumerate(path):
         if isinstance(data, dict) and step in data:

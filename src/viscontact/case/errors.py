@@ -41,10 +41,6 @@ class SourceError(Exception):
 
 
 def dotted(path: Iterable[str | int]) -> str:
-    """Format a key path, with positions in lists in brackets from 1.
-
-    >>> dotted(("material", "times", 0))
-    'material.times[1]'
-    """
+    """Format a key path, with positions in lists in brackets from 1."""
     words = "".join(f"[{key + 1}]" if isinstance(key, int) else f".{key}" for key in path)
     return words.removeprefix(".")

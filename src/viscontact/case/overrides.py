@@ -61,11 +61,7 @@ def _kept(document: Document, data: Any, values: Iterable[KeyPath]) -> dict[KeyP
 
 
 def key_path(name: str) -> KeyPath:
-    """Steps of a dotted key, with entries of lists numbered from 0; empty if it is none.
-
-    >>> key_path("material.amplitudes[1]"), key_path("a..b")
-    (('material', 'amplitudes', 0), ())
-    """
+    """Steps of a dotted key, with entries of lists numbered from 0; empty if it is none."""
     steps = _STEP.findall(name.strip())
     rebuilt = "".join(f"[{index}]" if index else f".{key}" for key, index in steps)
     if rebuilt.removeprefix(".") != name.strip():

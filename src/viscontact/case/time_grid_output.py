@@ -237,13 +237,7 @@ class Output(Section):
 
 
 def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
-    """Return the instants whose fields are kept: the requested ones, and the end of the run.
-
-    >>> kept_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 60.0]))
-    (0.0, 30.0, 60.0)
-    >>> kept_fields(Output(), adaptive_times(10.0, tolerance=1e-3))[:3]
-    (0.0, 0.01, 0.023713737056616554)
-    """
+    """Return the instants whose fields are kept: the requested ones, and the end of the run."""
     if isinstance(output.fields, str):
         return output.fields
     if isinstance(output.fields, Speeds):
@@ -263,11 +257,7 @@ def kept_fields(output: Output, times: Times) -> str | tuple[float, ...]:
 
 
 def early_fields(output: Output, times: Times) -> str | None:
-    """Note on requested fields that end before the run; None if the end is among them.
-
-    >>> early_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 45.0]))
-    'output.fields ends at 30 s, before the run at 45 s; the fields of its end are kept as well'
-    """
+    """Note on requested fields that end before the run; None if the end is among them."""
     if not output.fields or isinstance(output.fields, str | Speeds):
         return None
     latest, end = max(output.fields), end_of(times)
@@ -285,13 +275,7 @@ def end_of(times: Times) -> float:
 
 
 def kept_speeds(output: Output, speeds: Sequence[float]) -> str | tuple[float, ...]:
-    """Return the speeds whose fields are kept [m/s].
-
-    >>> kept_speeds(Output(fields=["100 mm/s"]), (0.01, 0.1, 1.0))
-    (0.1,)
-    >>> kept_speeds(Output(), (0.01, 0.1, 1.0))
-    'all'
-    """
+    """Return the speeds whose fields are kept [m/s]."""
     fields = output.fields
     if isinstance(fields, str):
         return fields
@@ -321,11 +305,7 @@ def _default_fields(times: Times) -> tuple[float, ...]:
 
 
 def with_instants(times: Times, fields: str | tuple[float, ...]) -> Times:
-    """Return the instants of the run together with those of requested fields.
-
-    >>> with_instants(np.array([0.0, 1.0]), (0.0, 0.5)).tolist()
-    [0.0, 0.5, 1.0]
-    """
+    """Return the instants of the run together with those of requested fields."""
     if isinstance(fields, str) or isinstance(times, AdaptiveTimes | CellTimes):
         return times
     # A field requested at 30 s is computed at 30 s, not at a step nearby; it replaces a step that

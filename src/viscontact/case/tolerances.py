@@ -29,13 +29,7 @@ class NominalData:
 
 
 def nominal(data: dict[str, Any]) -> NominalData:
-    """Replace numbers with a tolerance by their nominal values.
-
-    >>> ball = {"indenter": {"shape": "sphere", "radius": "12 mm ± 0.02 mm"}}
-    >>> nominal(ball).data, nominal(ball).tolerances
-    ({'indenter': {'shape': 'sphere', 'radius': '12 mm'}}, \
-{('indenter', 'radius'): '12 mm ± 0.02 mm'})
-    """
+    """Replace numbers with a tolerance by their nominal values."""
     sections = ((name, data[name]) for name in SECTIONS if name in data)
     found = [each for name, section in sections for each in _toleranced(section, (name,))]
     if not found:

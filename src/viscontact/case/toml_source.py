@@ -22,11 +22,7 @@ _ENDLESS_KEY = re.compile(
 
 
 def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
-    r"""Read TOML.
-
-    >>> parse('[load]\nforce = "10 kN"')
-    ({'load': {'force': '10 kN'}}, {('load',): 1, ('load', 'force'): 2})
-    """
+    """Read TOML."""
     if endless := _ENDLESS_KEY.search(text):
         raise SourceError(
             f"a key of more than {_MOST_PARTS} parts does not occur in case files",

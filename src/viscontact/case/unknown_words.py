@@ -122,11 +122,7 @@ _INSTEAD = dict.fromkeys(
 
 
 def unknown_word(what: str, given: object, allowed: list[str]) -> str:
-    """Message about an unknown key or value, with the nearest one and all that are allowed.
-
-    >>> unknown_word("key", "nu", ["law", "poisson_ratio"])
-    "unknown key; did you mean 'poisson_ratio'? Allowed: law, poisson_ratio"
-    """
+    """Message about an unknown key or value, with the nearest one and all that are allowed."""
     word = _spelled(given)
     if what == "key" and word in _NOT_AVAILABLE:
         return f"{_NOT_AVAILABLE[word]}; see 'Limits' in the manual (trust/limits)"
@@ -147,11 +143,7 @@ def _hint(what: str, given: object, allowed: list[str]) -> str:
 
 
 def meanings(given: object) -> dict[str, str]:
-    """Keys that another word for a key may mean, the likeliest first, with a remark on each.
-
-    >>> meanings("Tau"), meanings("radius")
-    ({'times': '', 'time': ''}, {})
-    """
+    """Keys that another word for a key may mean, the likeliest first, with a remark on each."""
     return _MEANINGS.get(_spelled(given), {})
 
 

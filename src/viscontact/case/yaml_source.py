@@ -35,11 +35,7 @@ _ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 
 
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
-    r"""Read YAML.
-
-    >>> parse("load:\n  force: 10 kN")
-    ({'load': {'force': '10 kN'}}, {('load',): 1, ('load', 'force'): 2})
-    """
+    """Read YAML."""
     lines: dict[KeyPath, int] = {}
     return _plain(_load(text), (), lines), lines
 
@@ -52,13 +48,7 @@ def parse_value(text: str) -> Any:
 
 
 def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
-    r"""Write values into the text of a YAML file, keeping its comments.
-
-    >>> print(with_overrides("load:  # a step\n  force: 10 kN", {("load", "force"): "20 kN"}))
-    load:  # a step
-      force: 20 kN
-    <BLANKLINE>
-    """
+    """Write values into the text of a YAML file, keeping its comments."""
     document = _load(text)
     for path, value in values.items():
         target = document
@@ -71,13 +61,7 @@ def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
 
 
 def rewritten(text: str, data: dict[str, Any]) -> str:
-    r"""Write data as YAML with the order and the comments of an earlier text.
-
-    >>> print(rewritten("b: 2 m  # long\na: 1\nc: 0", {"a": 1, "b": "3 m"}))
-    b: 3 m  # long
-    a: 1
-    <BLANKLINE>
-    """
+    """Write data as YAML with the order and the comments of an earlier text."""
     try:
         document = _load(text)
     except SourceError:
@@ -89,12 +73,7 @@ def rewritten(text: str, data: dict[str, Any]) -> str:
 
 
 def renamed(text: str, keys: Mapping[KeyPath, KeyPath], data: dict[str, Any]) -> str:
-    """Write data under new keys, each by its old one, in the text of a YAML file with its comments.
-
-    >>> print(renamed("b: 4 m  # long", {("a",): ("b",)}, {"a": "2 m"}))
-    a: 2 m  # long
-    <BLANKLINE>
-    """
+    """Write data under new keys, each by its old one, in a YAML text with its comments."""
     document = _load(text)
     for new, old in keys.items():
         section = functools.reduce(getitem, old[:-1], document)
@@ -121,11 +100,7 @@ def _bring_up_to_date(old: CommentedMap, new: dict[str, Any]) -> None:
 
 
 def write(data: Any) -> str:
-    r"""Write data as YAML.
-
-    >>> write({"load": {"force": "20 kN"}})
-    'load:\n  force: 20 kN\n'
-    """
+    """Write data as YAML."""
     stream = io.StringIO()
     _yaml().dump(data, stream)
     return stream.getvalue()

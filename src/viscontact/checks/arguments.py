@@ -41,13 +41,7 @@ def check_magnitudes(problem: Problem) -> None:
 
 
 def unusual_radius(indenter: Indenter) -> str | None:
-    """Sentence about the radius of a sphere or a roller that looks like one in mm; None without.
-
-    >>> import viscontact as vc
-    >>> unusual_radius(vc.Sphere(10))
-    'the radius of the indenter is 10 m: lengths are in metres in Python; write 0.01 for 10 mm'
-    >>> unusual_radius(vc.Sphere(10e-3))
-    """
+    """Sentence about the radius of a sphere or a roller that looks like one in mm; None without."""
     radius = getattr(indenter, "radius", None)
     if not isinstance(indenter, Sphere | Roller) or radius is None or radius < LARGE_RADIUS:
         return None

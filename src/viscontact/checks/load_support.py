@@ -17,10 +17,7 @@ from viscontact.units.formatting import format_quantity
 
 
 class LoadSupport:
-    """Region in which a force can be balanced by pressure, which is never negative.
-
-    `solid` marks the cells that can touch.
-    """
+    """Region in which a force can be balanced by pressure >= 0 on cells that can touch, `solid`."""
 
     def __init__(self, solid: Bools, grid: Grid) -> None:
         self._solid, self._grid = solid, grid

@@ -59,11 +59,7 @@ def early_warnings(
 
 
 def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
-    """Warn of a creep compliance that deviates from the law as given; relative errors [-].
-
-    >>> list(law_warnings(0.1, 0.0)), list(law_warnings(1e-3, 0.02)), law_warnings(1e-3, 1e-3)
-    (['memory'], ['conversion'], {})
-    """
+    """Warn of a creep compliance that deviates from the law as given; relative errors [-]."""
     warnings: dict[str, str] = {}
     if memory_error > MAX_LAW_ERROR:
         warnings["memory"] = (
@@ -80,22 +76,13 @@ def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
 
 
 def origin_warnings(bodies: Sequence[Material]) -> dict[str, str]:
-    """Warn of laws that come with a warning, such as a fit that misses its data.
-
-    >>> from viscontact.laws import Elastic
-    >>> origin_warnings([Material(Elastic(1e9), 0.4, warning="the fit misses storage by 20 %")])
-    {'origin': 'the fit misses storage by 20 %'}
-    """
+    """Warn of laws that come with a warning, such as a fit that misses its data."""
     said = dict.fromkeys(body.warning for body in bodies if body.warning)
     return {"origin": "; ".join(said)} if said else {}
 
 
 def splitting_warnings(error: float) -> dict[str, str]:
-    """Warn of layers whose response is not well approximated by a sum of products; error [-].
-
-    >>> list(splitting_warnings(0.02)), splitting_warnings(1e-4)
-    (['splitting'], {})
-    """
+    """Warn of layers whose response is not well approximated by a sum of products; error [-]."""
     if error <= MAX_LAW_ERROR:
         return {}
     return {

@@ -21,11 +21,7 @@ WARNING_SPOT_CELLS = 4.0
 
 
 def layer_warnings(thickness: float, cell_size: tuple[float, float]) -> dict[str, str]:
-    """Warn of cells that are long against the thinnest layer [m].
-
-    >>> list(layer_warnings(1e-3, (5e-3, 1.2e-3))), layer_warnings(1e-3, (5e-3, 1e-4))
-    (['layers'], {})
-    """
+    """Warn of cells that are long against the thinnest layer [m]."""
     shorter = min(cell_size) / thickness  # along rollers, and along lines, cells may be long
     if shorter <= MOST_CELL:
         return {}

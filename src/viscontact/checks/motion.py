@@ -125,11 +125,7 @@ def axle_warnings(problem: Problem) -> dict[str, str]:
 
 
 def free_tilt_warnings(free: Sequence[str]) -> dict[str, str]:
-    """Warn of tilts along the motion, by name, that are free of moment.
-
-    >>> list(free_tilt_warnings(["tilt_y"]))
-    ['axle']
-    """
+    """Warn of tilts along the motion, by name, that are free of moment."""
     if not free:
         return {}
     given = " and ".join(f"{name} = 0" for name in free)
@@ -198,11 +194,7 @@ def edge_warnings(*, along: bool, across: bool) -> dict[str, str]:
 
 
 def way_warnings(way: float, half_extent: float) -> dict[str, str]:
-    """Warn of a step whose way [m] is long against half the contact's extent along it [m].
-
-    >>> list(way_warnings(1e-4, 1e-3)), list(way_warnings(1e-3, 1e-3))
-    ([], ['way'])
-    """
+    """Warn of a step whose way [m] is long against half the contact's extent along it [m]."""
     if way <= (1 + 1e-6) * LONGEST_WAY * half_extent:
         return {}
     return {
@@ -224,11 +216,7 @@ def loss_shares(compliance: SeriesCompliance, rate: float) -> Floats:
 
 
 def unresolved_loss(compliance: SeriesCompliance, rate: float, duration: float) -> float:
-    """Part of the loss at an angular frequency [1/s] by retardation times shorter than a step [s].
-
-    >>> unresolved_loss(SeriesCompliance(1.0, [1.0], [2.0]), rate=0.1, duration=3.0)
-    1.0
-    """
+    """Part of the loss at a rate [1/s] by retardation times shorter than a step [s]."""
     return float(loss_shares(compliance, rate)[np.asarray(compliance.times) < duration].sum())
 
 

@@ -84,14 +84,8 @@ def check_endless(indenter: Indenter, grid: Grid | None) -> None:
 def datum_warnings(
     grid: Grid, undefined: Sequence[str], *, supported: bool = False
 ) -> dict[str, str]:
-    """Warn that the approach has no datum on a grid that is periodic along one axis only.
-
-    It and all that follows from it, by name, is then `undefined`. It has a datum on layers that are
-    `supported` by a rigid base.
-
-    >>> list(datum_warnings(Grid((1, 8), (1e-3, 1e-3), periodic=(True, False)), ["approach"]))
-    ['datum']
-    """
+    """Warn that approach and what follows from it, `undefined`, have no datum on some grids."""
+    # Periodic along one axis only, unless layers are `supported` by a rigid base.
     if grid.has_datum or supported:
         return {}
     *others, last = undefined

@@ -110,11 +110,7 @@ class Sampling:
 
 
 def local_approach(grid: Grid, motion: Floats) -> float:
-    """Approach in the middle of a grid, which may be far from the pivot of the tilts [m].
-
-    >>> local_approach(Grid((4, 4), (1.0, 1.0), centre=(100.0, 0.0)), np.array([2.0, -0.01, 0.0]))
-    1.0
-    """
+    """Approach in the middle of a grid, which may be far from the pivot of the tilts [m]."""
     x, y = grid.centre
     return float(motion[0] + motion[1] * x + motion[2] * y)
 

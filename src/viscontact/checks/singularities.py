@@ -39,12 +39,7 @@ class EndCells:
 
 
 def cells_at_end(open_gap: Floats) -> EndCells:
-    """Cells at the end of a body whose open gap is +inf outside it [m].
-
-    >>> ends = cells_at_end(np.array([[0.0, 0.0, 0.0, np.inf]]))
-    >>> ends.pressures(np.array([[1.0, 2.0, 3.0, 0.0]]))
-    (3.0, 1.0)
-    """
+    """Cells at the end of a body whose open gap is +inf outside it [m]."""
     beside, near = (
         np.logical_or.reduce(end_cells(open_gap, depth), axis=0) for depth in (1, END_DEPTH)
     )
@@ -52,19 +47,10 @@ def cells_at_end(open_gap: Floats) -> EndCells:
 
 
 def bend_at(open_gap: Floats, grid: Grid, place: tuple[int, int]) -> float:
-    """Largest change of the gap's slope from cell to cell, around a cell [rad].
-
-    Notes
-    -----
-    A corner of the angle alpha raises the pressure by E* alpha/(2 pi) whenever the cells shrink by
-    a factor e, whatever its shape within a cell is (Johnson 1985, Contact Mechanics, section 5.2).
-
-    Examples
-    --------
-    >>> grid = Grid((5, 5), (5.0, 5.0))
-    >>> bend_at(np.abs(grid.x)[:, None] + 0 * grid.y, grid, (2, 2))
-    2.0
-    """
+    """Largest change of the gap's slope from cell to cell, around a cell [rad]."""
+    # A corner of the angle alpha raises the pressure by E* alpha/(2 pi) whenever the cells shrink
+    # by a factor e, whatever its shape within a cell is (Johnson 1985, Contact Mechanics, section
+    # 5.2).
     lines = [np.arange(middle - 2, middle + 3) for middle in place]
     lines = [
         line % count if repeats else line[(line >= 0) & (line < count)]
@@ -82,23 +68,11 @@ def is_sharp(
     cell: tuple[float, float],
     strain: float,
 ) -> bool:
-    """True if a body has a point, a ridge or a corner near a place, towards the half-space.
+    """True if a body has a point, ridge or corner within `reach` of `place` along x and y [m].
 
-    The largest pressure lies at `place` [m], the point within `reach` of it along x and y [m]. A
-    rounding within a quarter of a cell [m] counts as sharp; angles are compared with `strain`, from
-    `strain_of` [-].
-
-    Notes
-    -----
+    A rounding within a quarter of a cell counts as sharp; angles are compared with `strain` [-].
     Under a wedge or a cone of slope s the pressure goes as E* s log(a/r) (Johnson 1985, Contact
     Mechanics, sections 5.2 and 5.3).
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Cone, Sphere
-    >>> near = (0.0, 0.0), (1e-4, 1e-4), (1e-4, 1e-4)
-    >>> is_sharp(Cone(1.5), *near, strain=0.07), is_sharp(Sphere(0.01), *near, strain=0.01)
-    (True, False)
     """
     return sharpest_angle(indenter, place, reach, cell) > MIN_ANGLE * strain
 
@@ -117,19 +91,7 @@ def sharpest_angle(
 
 
 def strain_of(peak_pressure: float, compliance: float) -> float:
-    """Strain (approach over half width) that belongs to a peak pressure by Hertz's theory [-].
-
-    The compliance is the inverse of the contact modulus [1/Pa].
-
-    Notes
-    -----
-    p0 = 2/pi E* delta/a (Hertz).
-
-    Examples
-    --------
-    >>> round(strain_of(1e6, 1e-9), 5)
-    0.00157
-    """
+    """Strain δ/a that belongs to a peak pressure by Hertz, p0 = (2/π) E* δ/a [-]."""
     return np.pi / 2 * peak_pressure * compliance
 
 

@@ -27,13 +27,7 @@ class Outline:
 
 
 def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
-    """Find by bisection where an indenter's gap becomes +inf between cell centres.
-
-    >>> from viscontact.indenters import FlatPunch
-    >>> outline = trace_outline(FlatPunch(1.0), Grid((8, 8), (4.0, 4.0)))
-    >>> round(float(outline.along_x[5, 4]), 6)  # rim at x = sqrt(1 - 0.25²), centre at 0.75
-    0.436492
-    """
+    """Find by bisection where an indenter's gap becomes +inf between cell centres."""
     x, y = grid.x[:, None], grid.y[None, :]
     inside = np.isfinite(indenter.gap(x, y))
     x, y = np.broadcast_arrays(x, y)

@@ -8,13 +8,7 @@ from viscontact.backend.arrays import Floats
 
 
 def height_over_neighbours(gap: Floats, axis: int) -> Floats:
-    """Half the height of each point over the mean of its two neighbours along an axis [m].
-
-    0 at dips, at the ends of a line and at holes, where the gap is +inf.
-
-    >>> height_over_neighbours(np.array([[3.0], [1.0], [3.0], [2.0]]), 0).ravel().tolist()
-    [0.0, 1.0, 0.0, 0.0]
-    """
+    """Half the height of points over the mean of two neighbours [m]; 0 at dips, ends, holes."""
     height = np.zeros(gap.shape)
     lines, out = np.moveaxis(gap, axis, 0), np.moveaxis(height, axis, 0)[1:-1]
     known = np.isfinite(lines[:-2] + lines[1:-1] + lines[2:])
@@ -24,11 +18,5 @@ def height_over_neighbours(gap: Floats, axis: int) -> Floats:
 
 
 def is_even(field: Floats, axis: int) -> bool:
-    """Test whether a field's second half mirrors its first along an axis exactly.
-
-    False for an odd number of cells.
-
-    >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]), 0), is_even(np.array([[1.0, 2.0]]), 1)
-    (True, False)
-    """
+    """Test whether a field's second half mirrors its first along an axis of even number exactly."""
     return field.shape[axis] % 2 == 0 and np.array_equal(field, np.flip(field, axis))

@@ -256,11 +256,7 @@ def _remembered(coefficient: Coefficient) -> Coefficient:
 
 
 def coarser_shape(shape: tuple[int, int]) -> tuple[int, int] | None:
-    """Half the numbers of cells; None if they are odd or too small. A single cell is kept.
-
-    >>> coarser_shape((64, 1)), coarser_shape((64, 62))
-    ((32, 1), None)
-    """
+    """Half the numbers of cells; None if they are odd or too small. A single cell is kept."""
     if max(shape) == 1 or any(n > 1 and (n % 2 or n < 2 * COARSEST) for n in shape):
         return None
     return max(shape[0] // 2, 1), max(shape[1] // 2, 1)

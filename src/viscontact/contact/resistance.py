@@ -20,18 +20,8 @@ def resistance_by_slope(
     indenter: Indenter,
     tilts: tuple[float, float],
 ) -> tuple[float, float]:
-    """Resistance along x and y [N] from the body's slopes under the pressure, means over each cell.
-
-    Where the body ends in a cell, the slope is the mean from its centre to the edge inside.
-
-    >>> from viscontact.indenters import Paraboloid
-    >>> grid = Grid((4, 4), (4.0, 4.0))
-    >>> ahead = np.zeros((4, 4))
-    >>> ahead[3, 1:3] = 1.0  # at x = 1.5, where the slope of the body is 1.5/R
-    >>> found = resistance_by_slope(ahead, grid, Paraboloid(10.0, 10.0), (0.0, 0.0))
-    >>> round(found[0], 12), found[1]
-    (0.3, 0.0)
-    """
+    """Resistance along x and y [N] from the body's slopes under the pressure, means of cells."""
+    # Where the body ends in a cell, the slope is the mean from its centre to the edge inside.
     i, j = np.nonzero(pressure)
     x, y, cell = grid.x[i], grid.y[j], grid.cell_size
     force, centre = pressure[i, j] * grid.cell_area, indenter.gap(x, y)
@@ -50,15 +40,8 @@ def resistance_by_slope(
 
 
 def reaches_end(pressure: Floats, grid: Grid, indenter: Indenter) -> tuple[bool, bool]:
-    """Test whether the contact reaches an end of the body along x, and along y.
-
-    The pressure on an edge is singular, and its force along the surface is in neither form.
-
-    >>> from viscontact.indenters import FlatPunch
-    >>> punch = FlatPunch(half_length=1.0, half_width=9.0)
-    >>> reaches_end(np.ones((4, 4)), Grid((4, 4), (2.0, 2.0)), punch)
-    (True, False)
-    """
+    """Test whether the contact reaches an end of the body along x, and along y."""
+    # The pressure on an edge is singular, and its force along the surface is in neither form.
     i, j = np.nonzero(pressure)
     x, y, (dx, dy) = grid.x[i], grid.y[j], grid.cell_size
     along_x, along_y = (
@@ -69,13 +52,8 @@ def reaches_end(pressure: Floats, grid: Grid, indenter: Indenter) -> tuple[bool,
 
 
 def is_even(pressure: Floats) -> tuple[bool, bool]:
-    """Test whether a pressure is even about the middle of the grid along x, and along y.
-
-    An even contact has no force along that axis, at sharp ends either.
-
-    >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]))
-    (True, False)
-    """
+    """Test whether a pressure is even about the middle of the grid along x, and along y."""
+    # An even contact has no force along that axis, at sharp ends either.
     along_x, along_y = (bool((np.flip(pressure, axis) == pressure).all()) for axis in (0, 1))
     return along_x, along_y
 

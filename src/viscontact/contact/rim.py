@@ -102,15 +102,7 @@ class Rim:
 
 
 def mean_chords(contact: Bools, *, periodic: Sequence[bool] = (False, False)) -> Floats:
-    """Mean numbers of consecutive cells in contact along x and along y.
-
-    Along a periodic axis the last cell of a line is followed by the first.
-
-    >>> spots = np.zeros((8, 8), dtype=bool)
-    >>> spots[1:3, 1:6] = spots[5:7, 1:6] = True
-    >>> mean_chords(spots).tolist()
-    [2.0, 5.0]
-    """
+    """Mean numbers of consecutive cells in contact along x and y, also across a period's border."""
     begun = []
     for lines, repeats in zip((contact, contact.T), periodic, strict=True):
         first = lines[0] > lines[-1] if repeats else lines[0]

@@ -12,11 +12,7 @@ from viscontact.backend.transforms import Transforms, fast_length
 
 
 def padded_length(cells: int, *, unpadded: bool, exact: bool) -> int:
-    """Transform length for a number of cells of the whole block; exactly these in a period.
-
-    >>> padded_length(100, unpadded=False, exact=False)
-    200
-    """
+    """Transform length for a number of cells of the whole block; exactly these in a period."""
     if exact:
         return cells
     return fast_length(cells if unpadded else 2 * cells - 1)
@@ -37,11 +33,6 @@ def kernel_spectrum(
     the spectrum has as many entries; along another one that is even it has the first half of them,
     with the middle, of which the others are the mirror image; so along a signed one if it is
     transformed `first`, otherwise all.
-
-    >>> from viscontact.backend.transforms import SciPyTransforms
-    >>> kernel, transforms = np.array([[4.0], [1.0]]), SciPyTransforms()
-    >>> kernel_spectrum(kernel, (3, 1), (False, False), 1, transforms).ravel().tolist()
-    [6.0, 3.0]
     """
     spectrum: Numbers = coefficients
     for axis in sorted((0, 1), key=lambda each: each == signed):  # real as long as possible

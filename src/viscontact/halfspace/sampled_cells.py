@@ -18,13 +18,7 @@ POINTS = 27
 
 @dataclass(frozen=True, eq=False)
 class SampledCells:
-    """Cells that stand for all of a row.
-
-    >>> row = sampled_cells(np.arange(1001.0), 1000.0)
-    >>> values = np.exp(row.centres / 1000)[None, :, None]
-    >>> row.centres.size, float(row.at_all(values, axis=1)[0, 500, 0].round(9))
-    (27, 1.649545837)
-    """
+    """Cells that stand for all of a row."""
 
     edges: Floats  # [m]
     cells: Integers  # which of the intervals between the edges are cells

@@ -75,11 +75,7 @@ def along_lines(
 
 
 def part_of(progress: Progress | None, index: int, count: int) -> Progress | None:
-    """Progress of one of some equal parts.
-
-    >>> part_of(print, 1, 3)(5, 10)
-    15 30
-    """
+    """Progress of one of some equal parts."""
     if progress is None:
         return None
     return lambda done, total: progress(index * total + done, count * total)

@@ -38,11 +38,6 @@ def strip_coefficient(y: Floats, width: float, response: SurfaceResponse) -> Flo
 
     Per unit contact compliance. On a rigid base, where L(0) = 0, it is all of the displacement: in
     the middle of a strip far wider than a layer the uniaxial compression h (1 - 2ν)/(1 - ν)².
-
-    >>> from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
-    >>> thin = ElasticStack((ElasticLayer(0.01, 1.0, 0.25),), None)
-    >>> strip_coefficient(np.array([0.0]), 1.0, thin).round(9).tolist()
-    [0.008888889]
     """
     return _primitive(y + width / 2, response) - _primitive(y - width / 2, response)
 

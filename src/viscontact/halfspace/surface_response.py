@@ -41,11 +41,7 @@ class SurfaceResponse(ABC):
 
 @dataclass(frozen=True)
 class HalfSpaceResponse(SurfaceResponse):
-    """Response of a half-space to itself: L = 1.
-
-    >>> HalfSpaceResponse().ratio(np.array([1.0, 2.0])).tolist()
-    [1.0, 1.0]
-    """
+    """Response of a half-space to itself: L = 1."""
 
     short_waves = 1.0
     long_waves = 1.0

@@ -9,15 +9,9 @@ from viscontact.backend.arrays import Floats
 
 
 def arc_drop(distance: ArrayLike, radius: ArrayLike) -> Floats:
-    """Drop R - sqrt(R² - s²) of an arc of radius R at the distance s >= 0 along its tangent [m].
-
-    +inf where the arc has ended (s > R), and everywhere for R < 0. It is computed as s² / (R +
-    sqrt((R - s) (R + s))): the difference loses all digits for s < 1e-8 R, and the factored root
-    keeps them for s near R.
-
-    >>> float(arc_drop(3.0, 5.0))
-    1.0
-    """
+    """Drop R - sqrt(R² - s²) of an arc at s >= 0 along its tangent; +inf for s > R, R < 0 [m]."""
+    # As s² / (R + sqrt((R - s) (R + s))): the difference loses all digits for s < 1e-8 R, and the
+    # factored root keeps them for s near R.
     s, R = np.broadcast_arrays(
         np.asarray(distance, dtype=np.float64), np.asarray(radius, dtype=np.float64)
     )

@@ -20,11 +20,7 @@ def positions(x: ArrayLike, y: ArrayLike) -> tuple[Floats, Floats]:
 
 
 def acute_angle(name: str, value: object, unit: str = "rad") -> float:
-    """Return an angle between 0 and π/2, both excluded, as a float, or raise ValueError [rad].
-
-    >>> acute_angle("Cone: half_angle", 1)
-    1.0
-    """
+    """Return an angle between 0 and π/2, both excluded, as a float, or raise ValueError [rad]."""
     angle = real(name, value, unit)
     if not 0 < angle < math.pi / 2:
         raise ValueError(

@@ -32,13 +32,9 @@ PROFILES: dict[str, Callable[..., Profile]] = {
 
 
 def named_profile(name: str, of_roller: Mapping[str, Any], arguments: Mapping[str, Any]) -> Profile:
-    """Make the profile `name`, a key of `PROFILES`, from its arguments.
+    """Make the profile `name`, a key of `PROFILES`, from its arguments or those `of_roller`.
 
-    Arguments that the roller gives too, such as its lengths [m], are in `of_roller`, None where
-    they are unknown. ValueError if the name or an argument is unknown, missing or invalid.
-
-    >>> named_profile("iso-16281", {"radius": 5e-3, "half_length": 6e-3}, {}).crown_ratio
-    1.0
+    Unknown ones of the roller are None. ValueError if one is unknown, missing or invalid.
     """
     make = PROFILES.get(name)
     if make is None:
@@ -66,11 +62,7 @@ def named_profile(name: str, of_roller: Mapping[str, Any], arguments: Mapping[st
 
 
 def profile_from_table(table: object) -> Profile:
-    """Make a smooth `TabulatedProfile` from rows of (x, drop), shape (n, 2) [m].
-
-    >>> float(profile_from_table([(0, 0), (1e-3, 0), (2e-3, 1e-6)]).drop(2e-3, 2e-3))
-    1e-06
-    """
+    """Make a smooth `TabulatedProfile` from rows of (x, drop), shape (n, 2) [m]."""
     try:
         rows = np.asarray(table)
     except ValueError as error:

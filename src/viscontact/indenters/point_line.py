@@ -31,10 +31,6 @@ class TableLine:
     uses the monotone cubics of Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304:
     between two points they stay between their drops, so the lowest drop is at a point.
     ``"linear"`` is straight.
-
-    >>> roof = TableLine("roof", (0.0, 1.0, 1.0, 2.0), (0.0, 1.0, 1.0, 1.0), "smooth")
-    >>> roof([0.5, 1.5, 2.5]).tolist()
-    [0.5, 1.0, inf]
     """
 
     name: str
@@ -113,11 +109,7 @@ class TableLine:
 def mirrored(
     position: tuple[float, ...], drop: tuple[float, ...]
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Complete a symmetric curve given from position 0 on [m]; a position 0 given twice is a tip.
-
-    >>> mirrored((0.0, 1.0, 3.0), (0.0, 2.0, 4.0))[0]
-    (-3.0, -1.0, 0.0, 1.0, 3.0)
-    """
+    """Complete a symmetric curve given from position 0 on [m]; a 0 given twice is a tip."""
     left = tuple(-each for each in reversed(position[1:]))
     # A middle given once is not doubled, so there is no kink.
     start = 0 if position[1] > 0 else 1
@@ -125,11 +117,7 @@ def mirrored(
 
 
 def numbers(name: str, values: ArrayLike) -> tuple[float, ...]:
-    """Return a one-dimensional column of finite lengths [m] as floats, or raise ValueError.
-
-    >>> numbers("TabulatedProfile: x", [0, 1])
-    (0.0, 1.0)
-    """
+    """Return a one-dimensional column of finite lengths [m] as floats, or raise ValueError."""
     try:
         given = np.asarray(values)
     except ValueError as error:

@@ -25,13 +25,7 @@ def side_of_jump(side: str) -> Literal["left", "right"]:
 
 
 def instants(times: ArrayLike) -> Floats:
-    """Return the times of a history's points, read-only, shape (n,) [s].
-
-    They must not decrease, be negative, or come three times.
-
-    >>> instants([0, 1, 1]).tolist()
-    [0.0, 1.0, 1.0]
-    """
+    """Times of a history's points, read-only, not decreasing, >= 0, at most twice, (n,) [s]."""
     given = numbers("times", times, "s")
     if given.ndim != 1 or given.size == 0:
         raise ValueError(
@@ -87,11 +81,7 @@ def refuse_both(
 
 
 def numbers(name: str, given: ArrayLike | None, unit: str) -> Floats:
-    """Return finite numbers of any shape as a read-only copy, or raise ValueError.
-
-    >>> numbers("times", [0, 2], "s").tolist()
-    [0.0, 2.0]
-    """
+    """Return finite numbers of any shape as a read-only copy, or raise ValueError."""
     try:
         array = np.asarray(given)
     except ValueError:  # rows of unequal length

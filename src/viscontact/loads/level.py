@@ -10,11 +10,7 @@ from viscontact.units.numbers import finite, positive
 def prescribed_level(
     history: str, force: float | None, approach: float | None, force_is: str = "force"
 ) -> tuple[Control, float]:
-    """Return what is prescribed, and its force [N] or approach [m]; exactly one is given.
-
-    >>> prescribed_level("ramp", None, 1e-6)
-    ('approach', 1e-06)
-    """
+    """Return what is prescribed, and its force [N] or approach [m]; exactly one is given."""
     if (force is None) == (approach is None):
         what = "missing" if force is None else "given twice"
         raise ValueError(

@@ -105,11 +105,7 @@ class Segment:
             raise ValueError(f"segment: until must be a Condition or a text, got {self.until!r}")
 
     def __str__(self) -> str:
-        """Sentence that describes the segment.
-
-        >>> str(Segment(rate=-2e-6, until="contact is lost")), str(Segment(duration=5.0))
-        ('retract at 2 µm/s until contact is lost', 'hold height for 5 s')
-        """
+        """Sentence that describes the segment."""
         length = "" if self.duration is None else f" for {format_quantity(self.duration, 's', 6)}"
         end = length or f" until {self.until}"
         if self.rate == 0:

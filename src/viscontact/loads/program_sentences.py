@@ -64,13 +64,7 @@ class ProgramSentence(NamedTuple):
 
 
 def parsed_sentences(text: str) -> list[ProgramSentence]:
-    """Read the sentences of a text, which end with semicolons, lines or "then".
-
-    ValueError if one cannot be read.
-
-    >>> parsed_sentences("retract at 2 um/s until contact is lost")[0][:2]
-    (-2e-06, 'approach')
-    """
+    """Read the sentences of a text, which end with semicolons, lines or "then"; else ValueError."""
     if not isinstance(text, str):
         raise ValueError(f"load program: wanted a sentence or a Segment, got {text!r}")
     parts = [part.strip(" ,.\t\r") for part in _ENDS.split(text)]
@@ -78,11 +72,7 @@ def parsed_sentences(text: str) -> list[ProgramSentence]:
 
 
 def parsed_condition(text: str) -> ReadCondition:
-    """Read a condition: name of the scalar, and value [SI unit]; ValueError for any other text.
-
-    >>> parsed_condition("force reaches 10 nN"), parsed_condition("contact is lost")
-    (('force', 1e-08), ('contact', 0.0))
-    """
+    """Read a condition: name of the scalar, and value [SI unit]; ValueError for any other text."""
     told = text.strip() if isinstance(text, str) else ""
     if _LOST.fullmatch(told):
         return "contact", 0.0

@@ -62,22 +62,14 @@ _INNERMOST_WEIGHTS = np.diff(_TO_ZERO**3)[:, None] / 2 * _WEIGHTS
 
 
 def evaluate(function: TimeFunction, times: ArrayLike) -> Floats:
-    """Values of a function of time [s] at times of any shape; a constant may return a scalar.
-
-    >>> evaluate(lambda t: 2 * t, [[1.0, 2.0]]).tolist()
-    [[2.0, 4.0]]
-    """
+    """Values of a function of time [s] at times of any shape; a constant may return a scalar."""
     times = np.asarray(times, dtype=np.float64)
     values = np.asarray(function(times.ravel()), dtype=np.float64)
     return np.broadcast_to(values, times.size).reshape(times.shape).copy()
 
 
 def accumulated(function: TimeFunction, times: ArrayLike) -> Floats:
-    """Integral from 0 to each time >= 0 [s] of a function smooth in log t and finite at 0.
-
-    >>> print(f"{accumulated(np.sqrt, 9.0):.12f}")
-    18.000000000000
-    """
+    """Integral from 0 to each time >= 0 [s] of a function smooth in log t and finite at 0."""
     times = np.asarray(times, dtype=np.float64)
     edges = max(float(times.max()), np.finfo(float).tiny) * _TO_ZERO
     half = np.diff(edges) / 2
@@ -94,11 +86,7 @@ def accumulated(function: TimeFunction, times: ArrayLike) -> Floats:
 
 
 def averaged(function: TimeFunction, starts: Floats, ends: Floats) -> Floats:
-    """Mean over intervals [s] that begin no earlier than their length; the value where it is 0.
-
-    >>> print(averaged(np.square, np.array([3.0, 3.0]), np.array([6.0, 3.0])).round(10))
-    [21.  9.]
-    """
+    """Mean over intervals [s] that begin no earlier than their length; the value where it is 0."""
     times = starts[..., None] + (ends - starts)[..., None] / 2 * (1 + _GAUSS)
     average: Floats = evaluate(function, times) @ _WEIGHTS / 2
     return average
@@ -116,10 +104,6 @@ def superposed(
     The kernel is smooth in log lag, at most integrably infinite at 0. The path is called with times
     of shape (n, panels, nodes); it is smooth but for an algebraic singularity at start <= end <=
     now [s].
-
-    >>> zero, one = np.zeros(1), np.ones(1)
-    >>> print(f"{superposed(lambda lag: np.exp(-lag), np.sqrt, zero, one, one)[0]:.12f}")
-    0.538079506913
     """
     width = (end - start)[:, None, None]
     lag_of_end = (now - end)[:, None, None]

@@ -42,11 +42,7 @@ def lag_mean(creep_compliance: TimeFunction) -> LagMean:
 
 
 def instant_compliance(creep_compliance: TimeFunction) -> float:
-    """Instant compliance J(0), checked to be finite and >= 0 [1/Pa].
-
-    >>> instant_compliance(lambda t: 1e-9 * (1 + t))
-    1e-09
-    """
+    """Instant compliance J(0), checked to be finite and >= 0 [1/Pa]."""
     instant = float(evaluate(creep_compliance, 0.0))
     if not 0 <= instant < np.inf:
         raise ValueError(

@@ -211,11 +211,7 @@ class PunchProfile:
 
 
 def arcsine(x: Floats, r: Floats) -> Floats:
-    """Angle arcsin(x/r), the integral of 1/sqrt(r² - x²) from 0; π/2 where r = 0 [rad].
-
-    >>> print(f"{arcsine(np.array(1.0), np.array(2.0)) * 6:.6f}")
-    3.141593
-    """
+    """Angle arcsin(x/r), the integral of 1/sqrt(r² - x²) from 0; π/2 where r = 0 [rad]."""
     with np.errstate(divide="ignore", invalid="ignore"):
         sine = np.where(r > 0, x / r, 1.0)
     angle: Floats = np.arcsin(np.minimum(sine, 1.0))

@@ -14,12 +14,6 @@ class RodHistory:
     A change dχ that takes place evenly from t1 to t2 has at t displaced its rod by dχ times the
     mean of J over the lags t - t2 to t - t1: exact for every law. Most rods change over whole
     steps, together; those that meet or leave the indenter within a step are kept one by one.
-
-    >>> from viscontact.reference.lag_means import lag_mean
-    >>> history = RodHistory(lag_mean(lambda t: 1.0 + t), rods=1, steps=1)
-    >>> history.add_whole(0.0, 2.0, np.array([3.0]))
-    >>> history.displacement_at(4.0).round(12).tolist()
-    [12.0]
     """
 
     def __init__(self, mean: LagMean, rods: int, steps: int) -> None:

@@ -156,11 +156,7 @@ _ARGUMENT = re.compile(r"\s*\((?:t|f|ω|w|omega|time|t,\s*T)\)\s*$")
 
 
 def meaning(name: str) -> Meaning | None:
-    """Meaning of a column's name without its unit; None if it is unknown.
-
-    >>> meaning("E''").quantity, meaning("Zeit").quantity, meaning("remark")
-    ('loss_modulus', 'time', None)
-    """
+    """Meaning of a column's name without its unit; None if it is unknown."""
     plain = _ARGUMENT.sub("", name.translate(_PRIMES).strip())
     return _SYMBOLS.get(plain) or _WORDS.get(re.sub(r"[\s_-]+", "_", plain).lower())
 

@@ -153,11 +153,7 @@ def _refuse_far_cells(file: Path) -> None:
 
 
 def _column(letters: bytes) -> int:
-    """Number of a column, from 1.
-
-    >>> _column(b"A"), _column(b"XFD")
-    (1, 16384)
-    """
+    """Number of a column, from 1."""
     number = 0
     for letter in letters:
         number = 26 * number + letter - ord("A") + 1

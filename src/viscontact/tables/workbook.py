@@ -97,11 +97,7 @@ def _places(names: list[str], row: int) -> Iterable[str]:
 
 
 def _letters(number: int) -> str:
-    """Name of a column, counted from 0.
-
-    >>> [_letters(number) for number in (0, 25, 26, 701, 702)]
-    ['A', 'Z', 'AA', 'ZZ', 'AAA']
-    """
+    """Name of a column, counted from 0."""
     name, number = "", number + 1
     while number:
         number, letter = divmod(number - 1, 26)

@@ -6,23 +6,9 @@ import numpy as np
 
 
 class AxisFlags(tuple[bool, bool]):
-    """A property that holds or not along x and along y.
+    """Property that holds or not along x and y: a bool if both agree, otherwise a pair."""
 
-    If both agree it compares, prints and hashes as that bool. If not it has no truth value, since
-    a condition on it would mean one axis or the other.
-
-    Raises
-    ------
-    ValueError
-        If it is neither true, nor false, nor a pair of these.
-
-    Examples
-    --------
-    >>> AxisFlags(True) == True == AxisFlags((True, True)), AxisFlags((True, False))
-    (True, (True, False))
-    >>> bool(AxisFlags(False)), any(AxisFlags((True, False)))
-    (False, True)
-    """
+    # If they differ it has no truth value: a condition on it would mean one axis or the other.
 
     __slots__ = ()
 

@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Dimension:
-    """Physical dimension: its name in a sentence, SI unit, an example and common units.
-
-    Other units of the same dimension are read as well.
-
-    >>> DIMENSIONS["force"].units
-    ('mN', 'N', 'kN', 'MN')
-    """
+    """Physical dimension: its name in a sentence, SI unit, an example and units that are common."""
 
     name: str
     unit: str

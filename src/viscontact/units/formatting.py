@@ -12,11 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class ReadableUnit:
-    """A unit to print or draw in: its symbol, and its size in SI units.
-
-    >>> ReadableUnit("mm", 1e-3)(0.0025).item()
-    2.5
-    """
+    """A unit to print or draw in: its symbol, and its size in SI units."""
 
     symbol: str
     factor: float
@@ -106,11 +102,7 @@ def _unit_of_hours(time: float, digits: int, usual: ReadableUnit) -> ReadableUni
 
 
 def quoted(text: str, most: int = 60) -> str:
-    """Return a text in quotation marks, shortened to a number of characters.
-
-    >>> quoted("a long text", most=8)
-    "'a lon...'"
-    """
+    """Return a text in quotation marks, shortened to a number of characters."""
     return repr(text if len(text) <= most else f"{text[: most - 3]}...")
 
 
@@ -129,21 +121,13 @@ def format_number(value: float, digits: int = 4) -> str:
 
 
 def without_trailing_zeros(number: str) -> str:
-    """Drop the zeros at the end of a formatted decimal number.
-
-    >>> [without_trailing_zeros(number) for number in ("1.500", "10.0", "100", "1e+06")]
-    ['1.5', '10', '100', '1e+06']
-    """
+    """Drop the zeros at the end of a formatted decimal number."""
     return number.rstrip("0").rstrip(".") if "." in number and "e" not in number else number
 
 
 # Unlike `format_number` it keeps no digit beyond those wanted (1234 is 1230) and has no exponent.
 def format_compact(value: float, digits: int = 3) -> str:
-    """Format a finite number for a label: rounded, without exponent and trailing zeros.
-
-    >>> format_compact(8.33333), format_compact(1000.0)
-    ('8.33', '1000')
-    """
+    """Format a finite number for a label: rounded, without exponent and trailing zeros."""
     return np.format_float_positional(float(f"{value:.{digits - 1}e}"), trim="-")
 
 
@@ -171,11 +155,6 @@ def clock_ticks(
 
     Labels, of 1 s, 1 min, 1 h, 1 d, are empty where they would be too close, from a ratio of the
     ends `close` on; an axis in seconds has no ticks.
-
-    >>> clock_ticks(ReadableUnit("h", 3600.0), 0.1, 30.0)
-    {0.16666666666666666: '10 min', 1.0: '1 h', 10.0: '10 h', 24.0: '1 d'}
-    >>> clock_ticks(readable_unit("s", [1000.0]), 1.0, 1000.0)
-    {}
     """
     if not _is_long(unit):
         return {}

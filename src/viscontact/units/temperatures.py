@@ -14,9 +14,5 @@ _Temperature = TypeVar("_Temperature", float, NDArray[np.float64])
 
 
 def in_celsius(kelvin: _Temperature) -> _Temperature:
-    """Return absolute temperatures [K] in °C.
-
-    >>> in_celsius(293.15)
-    20.0
-    """
+    """Return absolute temperatures [K] in °C."""
     return kelvin - ZERO_CELSIUS

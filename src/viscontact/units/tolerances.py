@@ -16,11 +16,7 @@ _DIGITS = 12
 
 @dataclass(frozen=True)
 class Toleranced:
-    """Number with a tolerance: its nominal value, the deviation and the bounds, in one unit.
-
-    >>> read_toleranced("12 mm ± 20 um")
-    Toleranced(nominal='12 mm', deviation='0.02 mm', low='11.98 mm', high='12.02 mm')
-    """
+    """Number with a tolerance: its nominal value, the deviation and the bounds, in one unit."""
 
     nominal: str
     deviation: str

@@ -156,10 +156,6 @@ Shapes = Annotated[
 
 
 def combined(shapes: Sequence[Shape]) -> indenters.Indenter:
-    """Return the indenter that a list of shapes describes: their sum.
-
-    >>> combined([Sphere(shape="sphere", radius="5 mm")])
-    Sphere(radius=0.005)
-    """
+    """Return the indenter that a list of shapes describes: their sum."""
     first, *others = [shape.placed() for shape in shapes]
     return functools.reduce(operator.add, others, first)

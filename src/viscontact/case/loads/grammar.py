@@ -75,11 +75,7 @@ class Reading:
 
 
 def read_form(text: str, forms: Sequence[Form]) -> Reading:
-    """Return the form that fits a sentence.
-
-    >>> read_form("Wait for 2 min", [Form("hold", "hold|wait [for] TIME")]).slots
-    (120.0,)
-    """
+    """Return the form that fits a sentence."""
     text = re.sub(r"\s*/\s*|\s+per\s+", "/", text.strip())
     tokens = [Token(found[0], found.end()) for found in _TOKEN.finditer(text)]
     tokens = [token for token in tokens if token.word not in _ARTICLES]

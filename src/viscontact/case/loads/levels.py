@@ -27,13 +27,7 @@ class Level(NamedTuple):
 
 
 def read_level(given: Any) -> Level:
-    """Read a force or a length with its unit.
-
-    >>> read_level("10 kN")
-    Level(value=10000.0, control='force')
-    >>> read_level("-5 um").control
-    'approach'
-    """
+    """Read a force or a length with its unit."""
     why = ""
     for dimension, control in _DIMENSIONS.items():
         try:

@@ -177,13 +177,8 @@ def _with_law(given: Any) -> Any:
 
 
 def spelled_out(given: Any) -> Any:
-    """Return a material section in its longest spelling: with its law, and with nested layers.
-
-    Names of the library that stand alone, and what is not valid, are returned unchanged.
-
-    >>> spelled_out({"layers": [{"thickness": "5 mm", "law": "elastic"}]})["layers"]
-    [{'thickness': '5 mm', 'material': {'law': 'elastic'}}]
-    """
+    """Return a material section in its longest spelling: with its law, and with nested layers."""
+    # Names of the library that stand alone, and what is not valid, are returned unchanged.
     if not isinstance(given, dict):
         return given
     try:

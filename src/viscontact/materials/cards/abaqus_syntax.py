@@ -49,15 +49,11 @@ class Block:
 
 
 def read_blocks(source: str, text: str) -> list[Block]:
-    r"""Split the text of an input file into keyword blocks; `source` is its name, for messages.
+    """Split the text of an input file into keyword blocks; `source` is its name, for messages.
 
     Abaqus 2016 Analysis User's Guide, section 1.2.1, "Input syntax rules": a keyword line begins
     with one star and continues on the next line if it ends with a comma; two stars begin a
     comment; case and blanks are ignored, except in quotation marks.
-
-    >>> [block] = read_blocks("p.inp", "*Elastic, moduli=INSTANTANEOUS\n** why\n 3e3, .5\n")
-    >>> block.keyword, block.parameters, block.data[0].fields
-    ('ELASTIC', {'MODULI': 'INSTANTANEOUS'}, ('3e3', '.5'))
     """
     blocks: list[Block] = []
     data: list[DataLine] = []

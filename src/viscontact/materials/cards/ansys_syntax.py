@@ -31,16 +31,12 @@ class Command:
 
 
 def read_commands(source: str, text: str) -> list[Command]:
-    r"""Split the text of an APDL file into commands; `source` is its name, for messages.
+    """Split the text of an APDL file into commands; `source` is its name, for messages.
 
     Mechanical APDL Command Reference: an exclamation mark begins a comment, a dollar sign another
     command on the same line, fields are separated by commas, and case is ignored. Scalar
     parameters that are set to a number (``E0=1000``) are substituted where a field is their name;
     expressions are not evaluated.
-
-    >>> [command] = read_commands("p.mac", "E0=3e3 ! modulus\nmp,ex,1,e0 $")
-    >>> command.name, command.fields
-    ('MP', ('ex', '1', '3e3'))
     """
     parameters: dict[str, str] = {}
     commands: list[Command] = []

@@ -59,11 +59,7 @@ class CardUnits:
 
 
 def card_units(modulus_unit: str, time_unit: str, temperature_unit: str | None) -> CardUnits:
-    """Return the units of a card from words such as ``"MPa"``, ``"s"`` and ``"degC"``.
-
-    >>> card_units("MPa", "ms", None).time
-    0.001
-    """
+    """Return the units of a card from words such as ``"MPa"``, ``"s"`` and ``"degC"``."""
     words = f"moduli in {modulus_unit}, times in {time_unit}"
     if temperature_unit is not None:
         words += f", temperatures in {temperature_unit}"
@@ -74,10 +70,6 @@ def card_units(modulus_unit: str, time_unit: str, temperature_unit: str | None) 
 
 
 def in_unit(kelvins: float, scale: Scale) -> float:
-    """Return a temperature [K] as a number in another unit.
-
-    >>> in_unit(298.15, Scale(1.0, 273.15))
-    25.0
-    """
+    """Return a temperature [K] as a number in another unit."""
     above = Decimal(repr(kelvins)) - Decimal(repr(scale.offset))
     return float(above / Decimal(repr(scale.factor)))

@@ -8,11 +8,7 @@ _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
 def card_number(where: str, text: str) -> float:
-    """Return the number in a field, whose exponent may begin with E or D, or raise ValueError.
-
-    >>> card_number("card:1", "1.5D-3")
-    0.0015
-    """
+    """Return the number in a field, whose exponent may begin with E or D, or raise ValueError."""
     if not _NUMBER.fullmatch(text):
         raise ValueError(f"{where}: {text[:40]!r} is not a number; write parameters out")
     value = float(re.sub("[dD]", "e", text))
@@ -22,11 +18,7 @@ def card_number(where: str, text: str) -> float:
 
 
 def card_digits(value: float, widest: int = 20) -> str:
-    """Write a number with all its digits, or as many as fit in `widest` characters.
-
-    >>> card_digits(0.1), card_digits(1.2345678901234567e-05)
-    ('0.1', '1.23456789012346e-05')
-    """
+    """Write a number with all its digits, or as many as fit in `widest` characters."""
     text = repr(float(value))
     digits = 17
     while len(text) > widest:

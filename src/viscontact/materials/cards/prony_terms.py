@@ -110,10 +110,6 @@ def relaxing_material(moduli: Moduli, shear: Terms, bulk: Terms) -> Material:
     Poisson's ratio is constant if bulk and shear modulus relax alike, the bulk modulus is elastic
     if only shear relaxes; ValueError for any other relaxation of the bulk modulus. Terms in shear
     alone do *not* mean a constant Poisson's ratio: it grows while G falls.
-
-    >>> moduli = Moduli("card", 3e6, 0.5, instantaneous=True)
-    >>> relaxing_material(moduli, Terms((0.25,), (10.0,)), Terms()).law
-    RelaxationSeries(equilibrium=750000.0, moduli=(250000.0,), times=(10.0,))
     """
     if shear.is_idle and bulk.is_idle:
         return Material(Elastic(moduli.shear), moduli.poisson_ratio)
