@@ -298,12 +298,13 @@ def test_map_of_a_surface_has_its_strongest_tone_on_its_peak_and_holes_where_it_
     heights = np.zeros((8, 4))
     heights[6, 1], heights[0, 3] = 1e-6, np.nan
     drawing = next(_parsed(vc.Surface(heights, 1e-6)).iter("svg"))
-    strokes = {path.get("stroke-opacity"): path.get("d", "") for path in drawing.iter("path")}
-    # 8 x 4 points in 206 x 103 px, which begin 7 px from the left and 22 px from the top.
-    side = 206 / 8
-    [(left, at, width)] = re.findall(r"M([\d.]+),([\d.]+)h([\d.]+)", strokes["0.95"])
-    assert float(left) == pytest.approx(7 + 6 * side, abs=0.1)
-    assert float(at) == pytest.approx(22 + (4 - 1.5) * side, abs=0.1)  # y goes upwards
+    cells = [path for path in drawing.iter("path") if path.get("class") == "cells"]
+    strokes = {path.get("stroke"): path.get("d", "") for path in cells}
+    # 8 x 4 points in 164 x 82 px, which begin 46 px from the left and 24 px from the top.
+    side = 164 / 8
+    [(left, at, width)] = re.findall(r"M([\d.]+),([\d.]+)h([\d.]+)", strokes["#2f80c3f2"])
+    assert float(left) == pytest.approx(46 + 6 * side, abs=0.1)
+    assert float(at) == pytest.approx(24 + (4 - 1.5) * side, abs=0.1)  # y goes upwards
     assert float(width) == pytest.approx(side, abs=0.1)
     drawn = sum(float(w) for d in strokes.values() for w in re.findall(r"h([\d.]+)", d))
     assert drawn == pytest.approx(31 * side, abs=1.0)

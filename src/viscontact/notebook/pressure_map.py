@@ -12,8 +12,7 @@ from viscontact.backend.arrays import Integers
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import Map, Maps
 from viscontact.drawing.content.scale import CELLS, Scale
-from viscontact.notebook.svg_axes import linear
-from viscontact.notebook.svg_panel import AROUND, ROOM, Cells, Mark, panel
+from viscontact.notebook.svg_panel import Cells, Mark, map_panel
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import format_compact
 
@@ -21,8 +20,6 @@ from viscontact.units.formatting import format_compact
 _MOST, _POINTS = 60, 160
 #: Length of the arrow along a motion over the width.
 _ARROW = 0.15
-#: Least and largest height of the axes [px].
-_HEIGHTS = 56.0, 190.0
 
 
 def map_drawing(maps: Maps) -> Element:
@@ -31,22 +28,13 @@ def map_drawing(maps: Maps) -> Element:
     cells = Cells(x, y, _bands(maps, scale), scale.colours(len(scale.levels) - 1, *CELLS))
     low, high = (format_compact(float(each)) for each in scale.unit(scale.levels[[0, -1]]))
     instant = labels_of(maps.snapshots)[-1]
-    height = ROOM[0] * maps.window.height_to_width
-    return panel(
+    return map_panel(
         scale.unit.label(scale.quantity.lower()),
-        linear("x", "m", *_widened(maps.window.x, max(height / _HEIGHTS[1], 1.0))),
-        linear("y", "m", *maps.window.y, 3),
-        _marks(maps, maps.maps[-1]),
-        cells=cells,
+        (maps.window.x, maps.window.y),
+        cells,
+        marks=_marks(maps, maps.maps[-1]),
         aside=f"{low} to {high}, {instant}",
-        height=round(AROUND + min(max(height, _HEIGHTS[0]), _HEIGHTS[1])),
     )
-
-
-def _widened(limits: tuple[float, float], part: float) -> tuple[float, float]:
-    """Limits farther apart: a high map is in true shape as well."""
-    middle, half = sum(limits) / 2, part * (limits[1] - limits[0]) / 2
-    return middle - half, middle + half
 
 
 def _bands(maps: Maps, scale: Scale) -> Integers:

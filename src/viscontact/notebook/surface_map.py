@@ -7,18 +7,17 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.drawing.content.look import BLUE
-from viscontact.notebook.html import element
 from viscontact.notebook.overview import Overview
 from viscontact.notebook.svg_axes import linear
-from viscontact.notebook.svg_panel import WIDTH, Mark, panel
+from viscontact.notebook.svg_panel import Cells, Mark, map_panel, panel
 from viscontact.results.formatting import format_percent
 from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_number, format_quantity
 
-#: Size of the map, and the least side of an area of one tone [px].
-_ROOM, _LEAST = (206.0, 120.0), 5.0
+#: Most areas of one tone along an axis.
+_MOST = 40
 #: From low to high; unknown heights stay empty.
 _TONES = (0.12, 0.3, 0.5, 0.7, 0.95)
 #: Number of points of a section.
@@ -62,38 +61,20 @@ def surface_overview(surface: Surface) -> Overview:
 
 
 def _map(surface: Surface) -> Element:
-    """Heights in tones, in true proportions; x to the right, y upwards."""
-    scale = min(room / extent for room, extent in zip(_ROOM, surface.size, strict=True))
-    width, height = (max(scale * extent, _LEAST) for extent in surface.size)
-    counts = [
-        max(1, min(points, int(side / _LEAST)))
-        for points, side in zip(surface.shape, (width, height), strict=True)
-    ]
+    """Heights in tones, from low to high."""
+    counts = [min(points, _MOST) for points in surface.shape]
     tones = _tones(_means(surface.heights, counts))
-    across, up = width / counts[0], height / counts[1]
-    drawn = [
-        element(
-            "path",
-            d=_strokes(tones == tone, across, up, height),
-            stroke=BLUE,
-            stroke_opacity=f"{opacity:g}",
-            stroke_width=f"{up + 0.1:.2f}",
-        )
-        for tone, opacity in enumerate(_TONES)
+    limits = [
+        (float(at[0]) - step / 2, float(at[-1]) + step / 2)
+        for at, step in zip((surface.x, surface.y), surface.spacing, strict=True)
     ]
-    return element(
-        "svg",
-        element("text", "heights", x="6", y="13", font_weight="600"),
-        element("text", "blue: high", x="210", y="13", text_anchor="end", fill_opacity="0.65"),
-        *drawn,
-        viewBox=f"0 0 {WIDTH} {height + 30:.0f}",
-        width=str(WIDTH),
-        height=f"{height + 30:.0f}",
-        role="img",
-        aria_label="map of the heights",
-        style="font:11px system-ui,sans-serif;max-width:100%",
-        fill="currentColor",
+    x, y = (
+        low + (np.arange(count) + 0.5) * (high - low) / count
+        for (low, high), count in zip(limits, counts, strict=True)
     )
+    colours = [f"{BLUE}{round(255 * opacity):02x}" for opacity in _TONES]
+    cells = Cells(x, y, tones, colours)
+    return map_panel("heights", (limits[0], limits[1]), cells, aside="blue: high")
 
 
 def _means(heights: Floats, counts: list[int]) -> Floats:
@@ -113,17 +94,6 @@ def _tones(means: Floats) -> Integers:
     known = means[np.isfinite(means)]
     limits = np.quantile(known, np.linspace(0, 1, len(_TONES) + 1)[1:-1])
     return np.where(np.isfinite(means), np.searchsorted(limits, means), -1)
-
-
-def _strokes(where: Bools, across: float, up: float, height: float) -> str:
-    """A horizontal stroke for each run of parts in a row."""
-    path = []
-    for row in range(where.shape[1]):
-        edges = np.flatnonzero(np.diff(where[:, row].astype(int), prepend=0, append=0))
-        at = 22 + height - (row + 0.5) * up
-        for first, last in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-            path.append(f"M{7 + first * across:.1f},{at:.1f}h{(last - first) * across:.1f}")
-    return "".join(path)
 
 
 def _section(surface: Surface) -> list[Element]:

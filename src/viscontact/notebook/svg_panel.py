@@ -14,14 +14,14 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.drawing.content.look import BLUE
 from viscontact.notebook.html import element
-from viscontact.notebook.svg_axes import Scale
+from viscontact.notebook.svg_axes import Scale, linear
 
 _Path = list[tuple[float, float]]
 
 WIDTH, _HEIGHT = 222, 158
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 12, 24, 36
-#: Height of what is above and below the axes [px].
-AROUND = _TOP + _BOTTOM
+#: Least and largest height of the axes of a map [px].
+_HEIGHTS = 56.0, 190.0
 #: Inside the axes [px].
 ROOM = WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
 #: Width of a letter, about [px].
@@ -47,7 +47,7 @@ class Mark:
 class Cells:
     """Cells over the axes, in colours by their bands."""
 
-    x: Floats  # centres at equal distances [SI], shape (nx,)
+    x: Floats  # centres at equal distances, but for the last [SI], shape (nx,)
     y: Floats  # shape (ny,)
     bands: Integers  # numbers of the colours, -1 for none; shape (nx, ny)
     colours: Sequence[str]
@@ -85,6 +85,30 @@ def panel(
     )
 
 
+def map_panel(
+    heading: str,
+    limits: tuple[tuple[float, float], tuple[float, float]],
+    cells: Cells,
+    *,
+    marks: Iterable[Mark] = (),
+    aside: str = "",
+) -> Element:
+    """Map between limits of x and y [m], in true shape if it is not very low."""
+    x, y = limits
+    height = ROOM[0] * (y[1] - y[0]) / (x[1] - x[0])
+    # Room at both sides of a high map.
+    more = max(height / _HEIGHTS[1] - 1.0, 0.0) * (x[1] - x[0]) / 2
+    return panel(
+        heading,
+        linear("x", "m", x[0] - more, x[1] + more),
+        linear("y", "m", *y, 3),
+        marks,
+        cells=cells,
+        aside=aside,
+        height=round(_TOP + _BOTTOM + min(max(height, _HEIGHTS[0]), _HEIGHTS[1])),
+    )
+
+
 @dataclass(frozen=True)
 class _Frame:
     x: Scale
@@ -104,7 +128,10 @@ class _Frame:
     def areas(self, cells: Cells) -> Iterable[Element]:
         """The cells of each colour, those next to each other in a row as one stroke."""
         across, up = self.across(self.x.place(cells.x)), self.up(self.y.place(cells.y))
-        wide, high = (abs(float(at[-1] - at[0])) / max(at.size - 1, 1) for at in (across, up))
+        wide, high = (
+            abs(float(at[1] - at[0])) if at.size > 1 else whole
+            for at, whole in ((across, float(ROOM[0])), (up, self.bottom - _TOP))
+        )
         for band, colour in enumerate(cells.colours):
             strokes = [
                 f"M{across[run.start] - wide / 2:.1f},{at:.1f}h{(run.stop - run.start) * wide:.1f}"
