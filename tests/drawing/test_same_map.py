@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import re
 from functools import cache
 from xml.etree.ElementTree import Element
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from synthetic_results import ellipse
 from viscontact import plot
 from viscontact.drawing.content.map import Maps, maps_over
+from viscontact.figures.parts import plain
 from viscontact.figures.pressure_map import pressure_map as interactive_map
 from viscontact.notebook.pressure_map import map_drawing
 
@@ -100,3 +102,26 @@ def test_outline_is_the_same() -> None:
     curve = np.column_stack([placed_on("x", x), placed_on("y", y)])
     distance = np.hypot(*(curve[:, None] - outline[None]).T).min(axis=0)
     assert distance.max() < 3e-6  # a tenth of a pixel is 1 µm
+
+
+def test_tension_is_drawn_in_colours_that_diverge_from_zero() -> None:
+    ds = ellipse()
+    touched = ds.pressure > 0
+    tensile = ds.assign(
+        pressure=ds.pressure.where(ds.pressure > 0.5e6, -0.3e6).where(touched, 0.0),
+        in_contact=touched.astype("i1"),
+    )
+    maps = maps_over(tensile)
+    scale = maps.scale()
+    low, high = scale.unit(scale.limits)
+    assert (low, high) == pytest.approx((-0.3, 3.0), rel=1e-3)
+    assert scale.unit(scale.levels)[[0, -1]].tolist() == pytest.approx([-0.5, 3.0])
+    heat = plain(interactive_map(maps))["data"][0]
+    assert (heat["zmin"], heat["zmax"]) == pytest.approx((low, high))
+    shown = np.frombuffer(base64.b64decode(heat["z"]["bdata"]), "<i2") * heat["z"]["step"]
+    assert shown.min() == pytest.approx(-0.3, rel=1e-3)
+    # White at zero, red below it, blue above.
+    red, blue = (colour[1:3] > colour[5:7] for colour in scale.colours(3)[::2])
+    assert (red, blue) == (True, False)
+    figure = plot.pressure_map(tensile, style="contours")
+    assert figure.axes[-1].get_ylim() == pytest.approx((-0.5, 3.0))

@@ -11,11 +11,12 @@ const config = ({ name }) => ({
   toImageButtonOptions: { format: "svg" },
 });
 
-// Maps come in steps of their largest value, two bytes each; 0 is no value.
-function unpacked({ bdata, shape, step }) {
+// Maps come in steps of their largest magnitude, two bytes each, signed with tension; 0 is no value.
+function unpacked({ bdata, dtype, shape, step }) {
   const bytes = Uint8Array.from(atob(bdata), (letter) => letter.charCodeAt(0));
   const parts = new DataView(bytes.buffer), [rows, columns] = shape.split(",").map(Number);
-  const value = (index) => parts.getUint16(2 * index, true) * step || NaN;
+  const read = dtype === "i2" ? "getInt16" : "getUint16";
+  const value = (index) => parts[read](2 * index, true) * step || NaN;
   return Array.from({ length: rows }, (_, row) => Float32Array.from({ length: columns }, (__, column) => value(row * columns + column)));
 }
 

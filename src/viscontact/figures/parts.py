@@ -32,23 +32,26 @@ def drawn(
 def plain(figure: go.Figure) -> Part:
     """Return a figure as data for JSON: traces, layout, frames.
 
-    Maps, which are most of a page, are packed in steps of their largest value, two bytes each; the
-    step is beside them, and 0 is no value. `linked.js` unpacks them.
+    Maps, which are most of a page, are packed in steps of their largest magnitude, two bytes each,
+    signed where there is tension; the step is beside them, and 0 is no value. `linked.js` unpacks
+    them.
     """
     made: Part = figure.to_dict()
     frames = made.get("frames", ())
     for part in (*made["data"], *(part for frame in frames for part in frame["data"])):
         if part.get("type") == "heatmap":
-            part["z"] = _in_steps(part["z"], made["data"][0]["zmax"] / STEPS)
+            part["z"] = _in_steps(part["z"], made["data"][0]["zmin"], made["data"][0]["zmax"])
     return made
 
 
-def _in_steps(packed: Part, step: float) -> Part:
+def _in_steps(packed: Part, low: float, high: float) -> Part:
     """Values in four bytes each as steps in two bytes each; small ones do not vanish."""
     values = np.frombuffer(base64.b64decode(packed["bdata"]), "<f4")
-    steps = np.where(np.isnan(values), 0.0, np.maximum(np.rint(values / step), 1.0))
-    written = base64.b64encode(steps.astype("<u2").tobytes()).decode("ascii")
-    return packed | {"dtype": "u2", "bdata": written, "step": step}
+    kind, step = ("u2", high / STEPS) if low >= 0 else ("i2", max(-low, high) / (STEPS // 2))
+    sizes = np.maximum(np.rint(np.abs(values) / step), 1.0)
+    steps = np.where(np.isnan(values), 0.0, np.copysign(sizes, values))
+    written = base64.b64encode(steps.astype(f"<{kind}").tobytes()).decode("ascii")
+    return packed | {"dtype": kind, "bdata": written, "step": step}
 
 
 def numbers(values: ArrayLike) -> Singles:
