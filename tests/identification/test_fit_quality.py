@@ -11,7 +11,10 @@ from viscontact.case import read_material
 from viscontact.errors import AccuracyWarning
 from viscontact.identification import Fit, fit_dynamic, fit_relaxation, material_section
 from viscontact.laws import RelaxationSeries
+from viscontact.series_fits.columns import positive_column
+from viscontact.series_fits.conventions import bulk_arguments
 from viscontact.series_fits.quality import Reason
+from viscontact.series_fits.weights import given_weights
 
 OMEGA = np.geomspace(1e-4, 1e4, 49)
 T = np.geomspace(1e-3, 1e5, 49)
@@ -133,3 +136,12 @@ def test_the_section_of_a_misfit_carries_it_as_a_comment_and_a_warning(tmp_path)
     assert isinstance(material.law, RelaxationSeries)
     assert material.warning == fit.misfit.message
     assert "warning" not in material_section(fit_relaxation(T, SERIES.relaxation(T), data="shear"))
+
+
+def test_arguments_of_a_fit_are_checked_by_name_and_row():
+    with pytest.raises(ValueError, match=r"times, row 1: must be a finite number above 0 s"):
+        positive_column("fit_creep", "times", [1.0, -2.0], "s")
+    bulk = bulk_arguments("fit_creep", "uniaxial", 0.4, None)
+    assert bulk == {"poisson_ratio": 0.4, "bulk_modulus": None}
+    weights = given_weights("fit_dynamic", {"storage": 3}, ("storage", "loss"))
+    assert weights == {"storage": 3.0, "loss": 1.0}

@@ -11,6 +11,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.cli import main
+from viscontact.identification.instrument_curves import is_instrument_file, split_number
 
 pytest.importorskip("afmformats")
 
@@ -123,3 +124,11 @@ def test_fit_takes_the_file_of_an_instrument(tmp_path, capsys):
     assert "--sensitivity does not go with this file" in capsys.readouterr().err
     assert main(["fit", str(CELL), "--poisson-ratio", "0.5"]) == 2
     assert "cell.jpk-force: an indentation record needs --indenter" in capsys.readouterr().err
+
+
+def test_number_of_a_curve_is_behind_the_name_of_its_file():
+    named = Path("a/map.jpk-force-map#12")
+    assert split_number(named) == (Path("a/map.jpk-force-map"), 12)
+    assert is_instrument_file(named)
+    assert is_instrument_file(Path("cell.jpk-force"))
+    assert not is_instrument_file(Path("cell.csv"))

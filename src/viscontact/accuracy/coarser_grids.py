@@ -23,9 +23,6 @@ def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid
 
     With `parity` even numbers of cells stay even; otherwise they become odd. It extends at least
     one cell further, so that the contact does not touch its rim.
-
-    >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), (2.0, 2.0), parity=True)
-    Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
     """
     shape, size = [], []
     for axis, (count, by) in enumerate(zip(grid.shape, spacing, strict=True)):

@@ -147,11 +147,6 @@ def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]
     """Ratios of cells and of steps of the coarser runs of a run.
 
     It has a number of steps, and of cells across its largest contact.
-
-    >>> usual_coarsening(60, across=50)
-    ((1.9, 4), (2.9, 8))
-    >>> usual_coarsening(20, across=30), usual_coarsening(6, across=30)
-    (((1.5, 2), (2.4, 4)), ((1.5, 1), (2.4, 1)))
     """
     return tuple(zip(_cell_ratios(across), _step_ratios(steps), strict=True))
 

@@ -24,9 +24,6 @@ def _every_second(times: Floats, stops: Floats) -> Floats:
     """Every second time between two stops of the load, without the first step behind each.
 
     Of an odd number of steps three are joined.
-
-    >>> _every_second(np.arange(10.0), stops=np.array([0.0, 4.0]))
-    array([0., 1., 4., 5., 7., 9.])
     """
     within = stops[(stops > times[0]) & (stops < times[-1])]
     kept = [times[:1]]
@@ -40,11 +37,7 @@ def _every_second(times: Floats, stops: Floats) -> Floats:
 
 
 def parts_of_shared_steps(ends: Floats, others: Floats) -> Floats:
-    """Quarters and middles of the steps of the others that are hardly longer than the own ones.
-
-    >>> parts_of_shared_steps(np.array([0.0, 1.0, 9.0, 12.0, 15.0]), np.array([0.0, 9.0, 15.0]))
-    array([2.25, 4.5 ])
-    """
+    """Quarters and middles of the steps of the others that are hardly longer than the own ones."""
     own, theirs = np.unique(ends), np.unique(others)
     begins, lengths = theirs[:-1], np.diff(theirs)
     longest = np.zeros(len(begins))
@@ -60,11 +53,7 @@ SHORTEST_PART, PARTS = 1e-3, 12
 
 
 def first_steps(ends: Floats, jumps: Floats) -> tuple[Floats, Floats]:
-    """Begins and durations of the first steps behind jumps.
-
-    >>> first_steps(np.array([0.0, 1.0, 3.0]), jumps=np.array([1.0, 3.0]))
-    (array([1.]), array([2.]))
-    """
+    """Begins and durations of the first steps behind jumps."""
     places = np.searchsorted(ends, jumps, side="right")
     known = places < len(ends)
     return jumps[known], ends[places[known]] - jumps[known]
@@ -75,9 +64,6 @@ def parts_of_first_steps(ends: Floats, jumps: Floats) -> Floats:
 
     A moving body heats the material most while this adapts to a jump; in steps that are long
     against the law, other ones of similar length have the same error.
-
-    >>> parts_of_first_steps(np.array([0.0, 1.0, 2.0]), jumps=np.array([1.0])).round(3).tolist()
-    [1.001, 1.002, 1.004, 1.007, 1.012, 1.023, 1.043, 1.081, 1.152, 1.285, 1.534, 2.0]
     """
     begins, durations = first_steps(ends, jumps)
     parts = np.geomspace(SHORTEST_PART, 1.0, PARTS)

@@ -31,11 +31,6 @@ def aligned_along(grid: Grid, fine: Grid, motion: Motion) -> Grid:
     """A coarser grid, moved by up to half a cell along the motion, so that the body starts alike.
 
     Its error then differs by the cells' size only, and not by the place of the body within them.
-
-    >>> from viscontact.loads import Travel
-    >>> fine, coarse = Grid((8, 8), (8.0, 8.0)), Grid((6, 6), (12.0, 12.0))
-    >>> aligned_along(coarse, fine, Travel([0, 1], y=[0.5, 3.0])).centre
-    (0.0, -0.5)
     """
     centre = list(grid.centre)
     start = motion.position_at(0.0)
@@ -56,11 +51,6 @@ def fewer_moving_times(
     """Times of steps of `step_ratio` as many cells of the grid; at rest about every second one.
 
     Of times that are not at whole cells every `step_ratio`-th, without those behind stops.
-
-    >>> from viscontact.loads import Travel
-    >>> path = Travel([0, 6], y=[0, 6.0])
-    >>> fewer_moving_times(np.arange(7.0), path.kinks, path, Grid((9, 9), (9.0, 9.0)), 3).tolist()
-    [0.0, 3.0, 6.0]
     """
     way = (motion.position_at(times) - motion.position_at(0.0)) / grid.cell_size
     whole = np.round(way)

@@ -24,11 +24,7 @@ _POSITIONS = ("height (measured)", "height (piezo)")
 
 
 def split_number(path: Path) -> tuple[Path, int | None]:
-    """File and number of a curve, such as ``map.jpk-force-map#12``; None without a number.
-
-    >>> split_number(Path("a/map.jpk-force-map#12"))
-    (PosixPath('a/map.jpk-force-map'), 12)
-    """
+    """File and number of a curve, such as ``map.jpk-force-map#12``; None without a number."""
     found = _NUMBERED.fullmatch(path.name)
     if found is None or path.exists():
         return path, None
@@ -36,11 +32,7 @@ def split_number(path: Path) -> tuple[Path, int | None]:
 
 
 def is_instrument_file(path: Path) -> bool:
-    """True for the name of a file of an instrument, with or without the number of a curve.
-
-    >>> is_instrument_file(Path("cell.jpk-force")), is_instrument_file(Path("cell.csv"))
-    (True, False)
-    """
+    """True for the name of a file of an instrument, with or without the number of a curve."""
     return split_number(path)[0].suffix.lower() in INSTRUMENT_FILES
 
 

@@ -30,15 +30,6 @@ def locate_contact(
     """Estimate a contact at one compliance [1/Pa], on a grid around the origin or around itself.
 
     Raises ValueError if no grid fits.
-
-    A contact of 0.18 mm, 5 mm away, where the cells of a grid around the origin are larger than it:
-
-    >>> from viscontact.indenters import Paraboloid
-    >>> from viscontact.loads import step
-    >>> ball, level = Paraboloid(0.01, 0.01).shifted(x=5e-3), step(0.1, tilt_x=0.0, tilt_y=0.0)
-    >>> found = locate_contact(ball, 1e-9, level.at(0.0))
-    >>> [round(each * 1e3, 2) for each in (*found.centre, found.length)]
-    [5.0, 0.0, 0.18]
     """
     found, refusals = None, []
     far_compliance = response.long_waves * compliance
@@ -130,13 +121,7 @@ def _refusal(*places: Place) -> ValueError:
 
 
 def grid_centre(contacts: Sequence[ContactEstimate]) -> Place:
-    """Centre of a grid over some contacts, rounded [m]: 0 along an axis unless they are far away.
-
-    >>> from viscontact.indenters import Sphere
-    >>> from viscontact.loads import step
-    >>> grid_centre([estimate_contact(Sphere(0.01), 1e-9, step(100.0).at(0.0))])
-    (0.0, 0.0)
-    """
+    """Centre of a grid over contacts, rounded [m]: 0 along an axis unless they are far away."""
     middles = np.array([each.centre for each in contacts])
     halves = np.array([each.extents for each in contacts]) / 2
     low, high = (middles - halves).min(axis=0), (middles + halves).max(axis=0)

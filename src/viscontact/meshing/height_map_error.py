@@ -19,14 +19,6 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
     that amplitude, which takes a pressure of pi h / (l J) to flatten (Johnson 1985, Contact
     Mechanics, eq. 13.7); waves along x and along y add. Points that the undeformed body would press
     in count.
-
-    >>> import viscontact as vc
-    >>> from viscontact.meshing.elastic_estimate import estimate_contact
-    >>> x = np.linspace(-1e-3, 1e-3, 101)
-    >>> ball = vc.HeightMap(x, x, -vc.Sphere(0.01).gap(x[:, None], x[None, :]))
-    >>> found = estimate_contact(ball, 1e-9, vc.step(17.0).at(0.0))
-    >>> round(facet_error(ball, found, 1e-9), 2)
-    0.05
     """
     steps = indenter.sample_spacing
     if min(steps) <= 0:

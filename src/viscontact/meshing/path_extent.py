@@ -13,12 +13,7 @@ from viscontact.units.formatting import format_quantity
 
 
 def grid_over_path(grid: Grid, motion: Motion) -> Grid:
-    """Grid of the same cells that holds what a grid around the body holds, on all of its path.
-
-    >>> from viscontact.loads import Travel
-    >>> grid_over_path(Grid((4, 4), (4.0, 4.0)), Travel([0, 1], y=[0, 4.5]))
-    Grid(shape=(4, 9), size=(4.0, 9.0), periodic=False, centre=(0.0, 2.5))
-    """
+    """Grid of the same cells that holds what a grid around the body holds, on all of its path."""
     shape, size, centre = list(grid.shape), list(grid.size), list(grid.centre)
     for axis, (cell, (low, high)) in enumerate(zip(grid.cell_size, motion.reach, strict=True)):
         if low == high == 0:

@@ -80,13 +80,6 @@ def refine_mesh(
     """Refine the mesh of an elastic contact until some `MESH_QUANTITIES` meet a relative tolerance.
 
     `fewest` cells along x and y to begin with, no more than `finest`, and `most_cells` in all.
-
-    >>> from viscontact.indenters import Sphere
-    >>> from viscontact.loads import step
-    >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
-    >>> found = refine_mesh(ball, ["contact_area"], 0.01, fewest=(24, 24))
-    >>> found.is_enough, found.trial.shape
-    (True, (48, 48))
     """
     exact = min(MAX_TRIAL_TOLERANCE, TRIAL_TOLERANCE_SHARE * tolerance)
     names, shape = tuple(quantities), good_shape(fewest, finest)

@@ -26,11 +26,7 @@ class StripContact:
     pressures: Floats  # of the strips on one side, shape (strips, strips)
 
     def pressure(self, half_width: float) -> Floats:
-        """Pressure of the strips on one side, under the force of Hertz's contact.
-
-        >>> round(float(strip_contact(64).pressure(40.0).max()), 2)
-        40.0
-        """
+        """Pressure of the strips on one side, under the force of Hertz's contact."""
         force = np.pi * half_width**2 / 2
         after = int(np.searchsorted(self.forces, force, side="right"))
         after = min(max(after, 1), len(self.forces) - 1)

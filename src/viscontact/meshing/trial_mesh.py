@@ -110,12 +110,6 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     """Solve a contact on a mesh, and on cells twice as long along x and along y.
 
     `shape` holds even numbers of cells; `tolerance` is that of gap and balances.
-
-    >>> from viscontact.indenters import Sphere
-    >>> from viscontact.loads import step
-    >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
-    >>> try_mesh(ball, (24, 24), 1e-4).errors["approach"] < 0.01
-    True
     """
     (nx, ny), grid = shape, pressing.grid(shape)
     coarser = [

@@ -11,13 +11,7 @@ from viscontact.backend.arrays import Floats
 def positive_column(
     owner: str, name: str, values: ArrayLike, unit: str, *, zero: bool = False
 ) -> Floats:
-    """Return a column of positive (or zero) finite numbers as floats, shape (n,).
-
-    >>> positive_column("fit_creep", "times", [1.0, -2.0], "s")
-    Traceback (most recent call last):
-    ...
-    ValueError: fit_creep: times, row 1: must be a finite number above 0 s, got -2.0
-    """
+    """Return a column of positive (or zero) finite numbers as floats, shape (n,)."""
     try:
         column = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):

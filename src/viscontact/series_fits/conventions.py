@@ -34,11 +34,7 @@ def shear_law(
 def bulk_arguments(
     owner: str, data: str, poisson_ratio: float | None, bulk_modulus: float | None
 ) -> dict[str, float | None]:
-    """Bulk arguments of uniaxial data [-, Pa], by name; other data take none.
-
-    >>> bulk_arguments("fit_creep", "uniaxial", 0.4, None)
-    {'poisson_ratio': 0.4, 'bulk_modulus': None}
-    """
+    """Bulk arguments of uniaxial data [-, Pa], by name; other data take none."""
     if data == "uniaxial":
         return {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
     if poisson_ratio is not None or bulk_modulus is not None:

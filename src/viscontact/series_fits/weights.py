@@ -17,11 +17,7 @@ _LARGEST_RATIO = 30.0
 def given_weights(
     owner: str, weights: Mapping[str, float], names: tuple[str, ...]
 ) -> dict[str, float]:
-    """Weights of all columns, those not given 1.
-
-    >>> given_weights("fit_dynamic", {"storage": 3}, ("storage", "loss"))
-    {'storage': 3.0, 'loss': 1.0}
-    """
+    """Weights of all columns, those not given 1."""
     for name, value in weights.items():
         if name not in names:
             raise ValueError(

@@ -46,14 +46,7 @@ STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
 def estimated_steps(
     request: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance
 ) -> float:
-    """Estimated number of adaptive steps, within a factor of two if J(0) > 0.
-
-    >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> from viscontact.loads import step
-    >>> zener = SeriesCompliance(1.0, [1.0], [2.0])
-    >>> estimated_steps(AdaptiveTimes(10.0, 1e-3), step(1.0), zener)
-    25.0
-    """
+    """Estimated number of adaptive steps, within a factor of two if J(0) > 0."""
     stretches = float((load.kinks < request.end).sum())
     creeps = compliance(request.end) > compliance.instant
     # The error of a step falls with its cube, that of the run with its square.

@@ -45,11 +45,6 @@ def heat_of_step(
     and pressure and unit displacement at both ends.
 
     A Kelvin unit, J = 1 - exp(-t), under q = 1 from time 0: all of its heat is 1/2.
-
-    >>> unit = SeriesCompliance(0.0, [1.0], [1.0])
-    >>> q = np.ones((2, 1, 1))
-    >>> round(heat_of_step(unit, np.zeros((1, 2, 1, 1)), [(50.0, q, q)]), 12)
-    0.5
     """
     heat = 0.0
     for duration, begin, end in parts:

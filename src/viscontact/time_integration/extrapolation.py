@@ -69,9 +69,6 @@ def shifted(fields: Floats, cells: tuple[int, int], *, periodic: tuple[bool, boo
     """Fields moved by whole cells along the last two axes.
 
     What enters at a border is a copy of the last values there, along a period what leaves.
-
-    >>> shifted(np.array([[1.0, 2.0, 3.0]]), (0, 1), periodic=(False, False)).tolist()
-    [[1.0, 1.0, 2.0]]
     """
     for axis, by, repeats in zip((-2, -1), cells, periodic, strict=True):
         if by:

@@ -165,12 +165,7 @@ def _up_to(
 
 
 def snap_to_kink(time: float, kinks: Floats) -> float:
-    """Kink that a time differs from by rounding only, else the time [s].
-
-    >>> import numpy as np
-    >>> snap_to_kink(0.1 + 0.2, np.array([0.3])), snap_to_kink(0.31, np.array([0.3]))
-    (0.3, 0.31)
-    """
+    """Kink that a time differs from by rounding only, else the time [s]."""
     return float(_snapped_to_kinks(np.array([time]), kinks)[0])
 
 

@@ -95,8 +95,5 @@ def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
 
     `crept` is J at its end less J(0), `instant` is J(0) [1/Pa]. With J(0) = 0 no step is short, but
     one over whose `whole` length the field may rise is followed well.
-
-    >>> is_resolved(0.4, 1.0, whole=True), is_resolved(0.6, 1.0, whole=True)
-    (True, False)
     """
     return whole if instant == 0 else crept <= MAX_RESOLVED_CREEP * instant

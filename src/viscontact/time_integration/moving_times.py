@@ -38,11 +38,6 @@ def moving_times(
     Alignment of body and cells is then the same at all of them, so that the resistance does not
     scatter. At rest they are in geometric progression. The last one is that of load and path, or
     `end`. The times `kept` up to there are among them.
-
-    >>> from viscontact.loads import Travel, step
-    >>> path = Travel([0.0, 1.0], y=[0.0, 1e-3])
-    >>> moving_times(path, step(1.0), (1e-4, 2.5e-4)).round(9).tolist()
-    [0.0, 0.25, 0.5, 0.75, 1.0]
     """
     kinks = MovingLoad(load, motion).kinks
     end = float(kinks[-1]) if end is None else end

@@ -126,13 +126,6 @@ def longest_smooth_rise(
     Linz 1985, Analytical and Numerical Methods for Volterra Equations) the rise is the longest that
     halves an error: the whole step for J like t^n with n up to 1/2, where the trapezoidal rule is
     known to be stable and of second order; two thirds of it for a dashpot, where it is not damped.
-
-    Examples
-    --------
-    >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> fluid = SeriesCompliance(1.0, (), (), 1.0)  # J = 1 + t: its old weight is r/2
-    >>> longest_smooth_rise(fluid, 1.5), round(longest_smooth_rise(fluid, 9.0), 9)
-    (1.5, 2.0)
     """
     instant, end = compliance.instant, compliance(duration)
     limit = OLD_WEIGHT_AFTER_JUMP * instant if after_jump else instant
