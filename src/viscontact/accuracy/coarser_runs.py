@@ -144,10 +144,7 @@ def _creeps_behind_jumps(run: RunSetup, ends: Floats) -> bool:
 
 
 def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]:
-    """Ratios of cells and of steps of the coarser runs of a run.
-
-    It has a number of steps, and of cells across its largest contact.
-    """
+    """Ratios of cells and of steps of the coarser runs, by the run's steps and cells across."""
     return tuple(zip(_cell_ratios(across), _step_ratios(steps), strict=True))
 
 

@@ -21,10 +21,8 @@ def fewer_times(times: Floats, stops: Floats, step_ratio: int) -> Floats:
 
 
 def _every_second(times: Floats, stops: Floats) -> Floats:
-    """Every second time between two stops of the load, without the first step behind each.
-
-    Of an odd number of steps three are joined.
-    """
+    """Every second time between two stops of the load, without the first step behind each."""
+    # Of an odd number of steps three are joined.
     within = stops[(stops > times[0]) & (stops < times[-1])]
     kept = [times[:1]]
     for begin, end in itertools.pairwise([times[0], *within, times[-1]]):
@@ -60,11 +58,9 @@ def first_steps(ends: Floats, jumps: Floats) -> tuple[Floats, Floats]:
 
 
 def parts_of_first_steps(ends: Floats, jumps: Floats) -> Floats:
-    """Parts of the first step behind each jump, in geometric progression, with its end.
-
-    A moving body heats the material most while this adapts to a jump; in steps that are long
-    against the law, other ones of similar length have the same error.
-    """
+    """Parts of the first step behind each jump, in geometric progression, with its end."""
+    # A moving body heats the material most while this adapts to a jump; in steps that are long
+    # against the law, other ones of similar length have the same error.
     begins, durations = first_steps(ends, jumps)
     parts = np.geomspace(SHORTEST_PART, 1.0, PARTS)
     return np.asarray((begins + durations * parts[:, None]).ravel())

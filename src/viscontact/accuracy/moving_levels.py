@@ -28,10 +28,8 @@ def whole_cell_ratios(across: float) -> tuple[tuple[float, int], ...]:
 
 
 def aligned_along(grid: Grid, fine: Grid, motion: Motion) -> Grid:
-    """A coarser grid, moved by up to half a cell along the motion, so that the body starts alike.
-
-    Its error then differs by the cells' size only, and not by the place of the body within them.
-    """
+    """Coarser grid, moved by up to half a cell along the motion, so that the body starts alike."""
+    # Its error then differs by the cells' size only, and not by the place of the body within them.
     centre = list(grid.centre)
     start = motion.position_at(0.0)
     for axis, moves in enumerate(motion.moves):
@@ -48,10 +46,8 @@ def aligned_along(grid: Grid, fine: Grid, motion: Motion) -> Grid:
 def fewer_moving_times(
     times: Floats, stops: Floats, motion: Motion, grid: Grid, step_ratio: int
 ) -> Floats:
-    """Times of steps of `step_ratio` as many cells of the grid; at rest about every second one.
-
-    Of times that are not at whole cells every `step_ratio`-th, without those behind stops.
-    """
+    """Times of steps of `step_ratio` as many cells of the grid; at rest about every second one."""
+    # Of times that are not at whole cells every `step_ratio`-th, without those behind stops.
     way = (motion.position_at(times) - motion.position_at(0.0)) / grid.cell_size
     whole = np.round(way)
     at_stop = np.isin(times, stops) | np.isin(times, times[[0, -1]])

@@ -43,8 +43,6 @@ def heat_of_step(
 
     `variables` are the internal variables at its beginning, `parts` its linear parts: duration [s],
     and pressure and unit displacement at both ends.
-
-    A Kelvin unit, J = 1 - exp(-t), under q = 1 from time 0: all of its heat is 1/2.
     """
     heat = 0.0
     for duration, begin, end in parts:

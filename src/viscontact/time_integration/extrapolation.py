@@ -66,10 +66,8 @@ def predict(
 
 
 def shifted(fields: Floats, cells: tuple[int, int], *, periodic: tuple[bool, bool]) -> Floats:
-    """Fields moved by whole cells along the last two axes.
-
-    What enters at a border is a copy of the last values there, along a period what leaves.
-    """
+    """Fields moved by whole cells along the last two axes."""
+    # What enters at a border is a copy of the last values there, along a period what leaves.
     for axis, by, repeats in zip((-2, -1), cells, periodic, strict=True):
         if by:
             count = fields.shape[axis]

@@ -91,10 +91,7 @@ def step_shape(
     trend: Trend | None = None,
     others: tuple[ContactCompliance, ...] = (),
 ) -> StepShape:
-    """Shape of a step of a duration [s], continued from a trend if that is recent enough.
-
-    With `others`, further creep functions that act on the same field, it is short enough for all.
-    """
+    """Shape of a step of a duration [s] for a law and `others`, continued from a recent trend."""
     laws = (compliance, *others)
     rise = min(longest_smooth_rise(law, duration, after_jump=after_jump) for law in laws)
     # Without instantaneous compliance the rise damps errors too little for a trend.
