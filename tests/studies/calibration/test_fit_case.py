@@ -143,8 +143,23 @@ def test_an_interrupted_fit_goes_on_from_its_log(tmp_path: Path) -> None:
     lines = log.read_text().splitlines()
     assert len(lines) == 1 + whole.runs  # none was made twice
     assert fit(trials=log).intervals == whole.intervals
-    with pytest.raises(ValueError, match="holds the runs of another fit"):
+    with pytest.raises(ValueError, match="holds the runs of another fit, with a different unknown"):
         fit(trials=log, contact_point=("-1 um", "1 um"))
+
+
+def test_a_second_fit_on_the_same_log_is_refused(tmp_path: Path) -> None:
+    force = np.linspace(0.0, 0.1, 9)
+    record = vc.ContactRecord(np.arange(9.0), force, hertz_depth(force))
+    fit = partial(vc.fit_case, written(tmp_path, ELASTIC_BALL), record, MODULUS, workers=1)
+    log = tmp_path / "runs.jsonl"
+
+    def second(done: int, allowed: int) -> None:
+        fit(trials=log)
+
+    with pytest.raises(ValueError, match=r"runs\.jsonl is in use by another run"):
+        fit(trials=log, progress=second)
+    assert fit(trials=log).runs == len(log.read_text().splitlines()) - 1
+    assert [each.name for each in tmp_path.iterdir() if "lock" in each.name] == []
 
 
 def test_spent_runs_leave_the_best_values_with_a_note(tmp_path: Path) -> None:

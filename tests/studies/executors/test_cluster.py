@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from runs.executors.test_local import CASE, contents, lines
-from runs.executors.test_recorded_many import runs
 
 import viscontact as vc
+from studies.executors.test_local import CASE, contents, lines
+from studies.executors.test_recorded_many import runs
 from viscontact.cli import main
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 

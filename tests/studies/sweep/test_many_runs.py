@@ -28,10 +28,10 @@ from viscontact.cli.sweep import jobs
 from viscontact.cli.sweep.plan_options import DesignOptions
 from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
-from viscontact.runs import many
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
+from viscontact.studies.sweep import many
 
 PAGE = (Path(__file__).parents[3] / "docs" / "many-runs.md").read_text(encoding="utf-8")
 CASE = (

@@ -2,36 +2,33 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from concurrent.futures import Executor
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 from warnings import warn
 
+import numpy as np
+
 from viscontact.errors import AccuracyWarning
-from viscontact.studies.calibration.evaluation import Evaluation
 from viscontact.studies.calibration.preparation import (
     Record,
     check_bounds,
     digest,
     experiment_of,
     read_records,
-    refuse_repeated,
     require_at_rest,
     require_rows,
 )
-from viscontact.studies.calibration.response import case_with
+from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.result import CaseFit, result_of
 from viscontact.studies.calibration.search import Optimum, search
-from viscontact.studies.calibration.trial_log import TrialLog
-from viscontact.studies.calibration.unknowns import (
-    Unknown,
-    unknowns_of,
-)
-from viscontact.studies.executors.local import LocalWorkers
-from viscontact.studies.sweep.recipes import refuse_import_by_a_worker
+from viscontact.studies.calibration.unknowns import Unknown, unknowns_of
+from viscontact.studies.case_values import case_with, fingerprint, refuse_repeated, texts
+from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
+from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.journal import journal_at
 from viscontact.units.numbers import whole
 
 _INSEPARABLE = 0.99  # correlation from which on two parameters are not distinguished
@@ -51,7 +48,9 @@ def fit_case(  # noqa: PLR0913
     confidence: float = 0.95,
     rows: int = 60,
     runs: int | None = None,
-    workers: int = 1,
+    workers: int | None = None,
+    executor: Executor | None = None,
+    client: Any = None,
     trials: str | PathLike[str] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> CaseFit:
@@ -88,9 +87,15 @@ def fit_case(  # noqa: PLR0913
     runs : int, optional
         Most runs on coarse cells; by default 40 for each unknown and record, and 40 more.
     workers : int, optional
-        Number of parallel processes.
+        Number of parallel processes; by default as many as there are cores. With 1, the runs are
+        computed in this process.
+    executor : concurrent.futures.Executor, optional
+        Executor of the runs in place of processes of this machine, as for `simulate_many`.
+    client : distributed.Client, optional
+        Client of a Dask cluster, in place of an executor.
     trials : path-like, optional
-        Keep each run in this file; the same call again goes on from there.
+        Keep each run in this file; the same call again goes on from there. One fit at a time writes
+        to it.
     progress : callable, optional
         Called after each run with the number of runs so far and the most allowed ones.
 
@@ -153,59 +158,46 @@ def fit_case(  # noqa: PLR0913
     '2e-06 m'
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
+    path, fixed = Path(case), texts(settings)
     if not 0 < confidence < 1:
         raise ValueError(f"confidence: must lie between 0 and 1, got {confidence!r}")
-    most_rows, count = whole("rows", rows, 5), whole("workers", workers, 1)
     if drive not in (None, "force", "approach", "case"):
         raise ValueError(f"drive: must be 'force', 'approach' or 'case', got {drive!r}")
-    own = case_with(path, fixed)
+    most_rows, own = whole("rows", rows, 5), case_with(path, fixed)
     require_at_rest(path, own)
     given = [each.thinned(most_rows) for each in read_records(records)]
     unknowns = unknowns_of(change, contact_point, machine_stiffness, len(given), own)
-    refuse_repeated(unknowns, fixed)
+    refuse_repeated(change=[each.name for each in unknowns], settings=list(fixed))
     check_bounds(path, fixed, unknowns)
-    experiments = [experiment_of(path, fixed, own, each, drive) for each in given]
+    experiments = [
+        experiment_of(path, fixed, own, each, drive, number) for number, each in enumerate(given)
+    ]
     require_rows(experiments, unknowns)
     default = _RUNS_PER_UNKNOWN * (1 + len(unknowns)) * len(experiments)
-    budget = default if runs is None else whole("runs", runs, 1)
+    most = default if runs is None else whole("runs", runs, 1)
     arguments = {
-        "case": hashlib.sha256(b"".join(sorted(own.digests.values()))).hexdigest(),
+        "case": fingerprint(own),
         "records": [digest(each) for each in given],
-        **{"unknowns": repr(unknowns), "drives": [each.drive for each in experiments]},
-        **{
-            "settings": fixed,
-            "cells": repr([(each.own_cells, each.coarse_cells) for each in experiments]),
-        },
+        "unknowns": repr(unknowns),
+        "drives": [each.drive for each in experiments],
+        "settings": fixed,
+        "cells": repr([(each.own_cells, each.coarse_cells) for each in experiments]),
     }
-    log = None if trials is None else TrialLog(Path(trials), arguments)
-    with _workers(min(count, len(experiments) * len(unknowns))) as executor:
-        evaluation = Evaluation(experiments, unknowns, budget, executor, log, progress or _silent)
-        found = search(evaluation)
-        notes = tuple(_notes(unknowns, found, confidence, budget))
+    at_a_time = len(experiments) * len(unknowns)
+    with (
+        journal_at(trials, "fit", arguments) as journal,
+        chosen_workers(workers, executor, client, at_a_time) as chosen,
+    ):
+        evaluation = Evaluation(Budget(most), chosen, journal, progress)
+        residuals = Residuals(experiments, unknowns, evaluation)
+        try:
+            found = search(residuals, np.array([each.start for each in unknowns]))
+        except BudgetSpentError:
+            raise ValueError(f"runs: {most} are too few for this fit; give more") from None
+        notes = tuple(_notes(unknowns, found, confidence, most))
         for note in notes:
             warn(f"fit_case: {note}", AccuracyWarning, stacklevel=2)
-        return result_of(evaluation, found, confidence, notes, path, fixed)
-
-
-@contextmanager
-def _workers(count: int) -> Iterator[LocalWorkers | None]:
-    """Warm processes; none for one run at a time."""
-    if count == 1:
-        yield None
-        return
-    pool = LocalWorkers(count)
-    try:
-        yield pool
-    except BaseException:
-        pool.kill()
-        raise
-    finally:
-        pool.shutdown()
-
-
-def _silent(done: int, allowed: int) -> None:
-    """Show nothing."""
+        return result_of(residuals, found, confidence, notes, path, fixed)
 
 
 def _notes(

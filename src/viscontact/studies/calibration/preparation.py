@@ -12,8 +12,9 @@ import numpy as np
 from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.studies.calibration.record import ContactRecord, Drive, chosen_drive, read_record
-from viscontact.studies.calibration.response import Experiment, case_with, cells_of
+from viscontact.studies.calibration.response import Experiment, cells_of
 from viscontact.studies.calibration.unknowns import Unknown, case_settings
+from viscontact.studies.case_values import case_with
 from viscontact.units.formatting import format_quantity
 
 #: A record, or the table that it is read from.
@@ -36,13 +37,6 @@ def require_at_rest(path: Path, case: Case) -> None:
         )
 
 
-def refuse_repeated(unknowns: Sequence[Unknown], fixed: Mapping[str, str]) -> None:
-    """Raise ValueError if an unknown has a fixed value."""
-    for each in unknowns:
-        if each.name in fixed:
-            raise ValueError(f"{each.name}: is given twice, in change and settings; give it once")
-
-
 def check_bounds(path: Path, fixed: Mapping[str, str], unknowns: Sequence[Unknown]) -> None:
     """Check the case with each unknown at its bounds, the others at their starts."""
     starts = np.array([each.start for each in unknowns])
@@ -59,6 +53,7 @@ def experiment_of(
     case: Case,
     record: ContactRecord,
     wanted: str | None,
+    number: int = 0,
 ) -> Experiment:
     """Experiment of a record; ValueError if the case does not describe it."""
     control = case.load.control
@@ -78,7 +73,7 @@ def experiment_of(
             "body a thickness or layers"
         )
     may_grow = not isinstance(case.grid, Grid)
-    return Experiment(path, fixed, record, drive, control, own, coarse, may_grow)
+    return Experiment(path, fixed, record, drive, control, own, coarse, may_grow, number)
 
 
 def require_rows(experiments: Sequence[Experiment], unknowns: Sequence[Unknown]) -> None:

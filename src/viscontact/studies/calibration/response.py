@@ -11,7 +11,7 @@ import numpy as np
 
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.backend.arrays import Floats
-from viscontact.case import Case, CaseError, read_case
+from viscontact.case import Case
 from viscontact.errors import AccuracyWarning
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
@@ -20,6 +20,8 @@ from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.studies.calibration.record import ContactRecord, Drive, compared_column
+from viscontact.studies.case_values import case_with
+from viscontact.studies.evaluation import Level, Outcome
 
 #: Cells of the search across the longer and the shorter edge of the grid, at least, if the case has
 #: more.
@@ -40,6 +42,7 @@ class Experiment:
     own_cells: Grid  # of the case
     coarse_cells: Grid  # of the search
     may_grow: bool  # the grid of the case is automatic
+    number: int = 0  # of the record
 
     @property
     def compared(self) -> Control:
@@ -54,7 +57,7 @@ class Experiment:
 
 @dataclass(frozen=True)
 class Mounting:
-    """Where the approach is zero, and how the machine yields."""
+    """Zero of the approach, and compliance of the machine."""
 
     contact_point: float = 0.0  # reading at first touch [m]
     compliance: float = 0.0  # of the machine [m/N]
@@ -62,23 +65,30 @@ class Mounting:
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Run of a test with some values; a call without arguments returns force and approach.
+    """Run of a test with some values: its force and approach at the rows of the record [N, m].
 
-    Both at the rows of the record, without the machine [N, m].
+    The machine is not part of the approach.
     """
 
     experiment: Experiment
     values: Mapping[str, str]  # by key of the case
     mounting: Mounting  # counts if the reading of the approach is prescribed
-    on_own_cells: bool
+    level: Level
 
-    def __call__(self) -> tuple[Floats, Floats]:
-        """Simulate the run; ValueError, ConvergenceError or DomainError if it fails."""
+    @property
+    def key(self) -> str:
+        """Cells, number of the record, mounting and values."""
+        values = ", ".join(f"{key}={value}" for key, value in self.values.items())
+        point, compliance = self.mounting.contact_point, self.mounting.compliance
+        return f"{self.level} {self.experiment.number} {point!r} {compliance!r} {values}"
+
+    def __call__(self) -> Outcome:
+        """Simulate the run."""
         test = self.experiment
-        cells = test.own_cells if self.on_own_cells else test.coarse_cells
+        cells = test.own_cells if self.level == "case" else test.coarse_cells
         case = case_with(test.case, {**test.settings, **self.values})
         load, rows, instants = history_of(case, test.record, test.drive, self.mounting)
-        if self.on_own_cells:
+        if self.level == "case":
             instants = _halved(instants)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AccuracyWarning)
@@ -87,19 +97,10 @@ class Response:
                 run = replace(run, problem=replace(run.problem, grid=case.automatic_grid))
             states = [state for state in March(run, warns=False) if state is not None]
         chosen = np.searchsorted([state.time for state in states], rows * (1 - 1e-12))
-        force, approach = (
-            np.array([getattr(states[n], name) for n in chosen], dtype=np.float64)
+        return {
+            name: [float(getattr(states[n], name)) for n in chosen]
             for name in ("force", "approach")
-        )
-        return force, approach
-
-
-def case_with(path: Path, settings: Mapping[str, str]) -> Case:
-    """Read a case with settings; CaseError without the name of an option."""
-    try:
-        return read_case(path, [f"{key}={value}" for key, value in settings.items()])
-    except CaseError as error:
-        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
+        }
 
 
 def history_of(

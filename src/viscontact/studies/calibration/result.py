@@ -14,10 +14,11 @@ import xarray as xr
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.case import yaml_source
 from viscontact.display import write_study_report
-from viscontact.studies.calibration.evaluation import Evaluation
-from viscontact.studies.calibration.response import Experiment, case_with
-from viscontact.studies.calibration.search import Optimum
+from viscontact.studies.calibration.residuals import Residuals
+from viscontact.studies.calibration.response import Experiment
+from viscontact.studies.calibration.search import NoResidualsError, Optimum
 from viscontact.studies.calibration.unknowns import Unknown, case_settings
+from viscontact.studies.case_values import case_with
 from viscontact.units.parsing import split_quantity
 
 _DIGITS = 6
@@ -205,7 +206,7 @@ def _difference(unknown: Unknown, part: float, shift: float) -> str:
 
 
 def result_of(
-    evaluation: Evaluation,
+    residuals: Residuals,
     found: Optimum,
     confidence: float,
     notes: tuple[str, ...],
@@ -213,7 +214,7 @@ def result_of(
     fixed: Mapping[str, str],
 ) -> CaseFit:
     """Result of a search."""
-    unknowns, reach = evaluation.unknowns, found.reach(confidence)
+    unknowns, reach = residuals.unknowns, found.reach(confidence)
     point, shift = found.point, found.shift
     parts = list(zip(unknowns, point.tolist(), reach.tolist(), shift.tolist(), strict=True))
     return CaseFit(
@@ -223,10 +224,10 @@ def result_of(
         discretisation_errors={u.name: abs(u.si(p) - u.si(p - s)) for u, p, _, s in parts},
         confidence=confidence,
         correlation=found.correlation,
-        curves=_curves(evaluation, point),
+        curves=_curves(residuals, point),
         settings={key: rounded(value) for key, value in case_settings(unknowns, point).items()},
         notes=notes,
-        runs=evaluation.runs,
+        runs=residuals.evaluation.budget.runs,
         case=path,
         fixed=fixed,
         unknowns=unknowns,
@@ -243,10 +244,12 @@ def _far(unknown: Unknown, part: float) -> float:
     return unknown.si(part)
 
 
-def _curves(evaluation: Evaluation, point: Floats) -> xr.Dataset:
+def _curves(residuals: Residuals, point: Floats) -> xr.Dataset:
     """Measured and fitted values of all records along the dimension ``row``."""
-    fitted = evaluation.fitted(point, on_own_cells=True)
-    pairs = zip(evaluation.experiments, fitted, strict=True)
+    (fitted,) = residuals.fitted([point], "case")
+    if isinstance(fitted, str):
+        raise NoResidualsError(fitted)
+    pairs = zip(residuals.experiments, fitted, strict=True)
     parts = [_curve(n + 1, each, *values) for n, (each, values) in enumerate(pairs)]
     return xr.concat(parts, "row")
 

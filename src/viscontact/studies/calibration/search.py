@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.special import stdtrit
 from scipy.stats import qmc
 
 from viscontact.backend.arrays import Floats
-from viscontact.studies.calibration.evaluation import BudgetSpentError, Evaluation, FailedRunError
+from viscontact.studies.evaluation import BudgetSpentError, Level
 
 #: Step of the differences, in parts of the ranges: well above the tolerance of the solver.
 _STEP = 5e-4
@@ -73,19 +74,41 @@ class Optimum:
         return np.asarray(student * np.sqrt(np.diag(self.covariance)))
 
 
-def search(evaluation: Evaluation) -> Optimum:
-    """Find the least squares; FailedRunError if no run at any start has a result."""
-    found = _Descent(evaluation)
+#: Residuals at several points, parts of the ranges, or the reason where there are none.
+Evaluate = Callable[[Sequence[Floats], Level], Sequence[Floats | str]]
+
+
+class NoResidualsError(ValueError):
+    """There are no residuals at a point; the message has the reason."""
+
+
+def search(evaluate: Evaluate, start: Floats) -> Optimum:
+    """Find the least squares; NoResidualsError if there are none at any start.
+
+    BudgetSpentError if the runs are used up before the first derivatives are known.
+    """
+    found = _Descent(evaluate, start)
     complete = True
     try:
         found.begin()
         found.descend()
     except BudgetSpentError:
         complete = False
-    if found.jacobian is None:
-        raise ValueError(f"runs: {evaluation.budget} are too few for this fit; give more")
-    point, shift, residuals = _corrected(evaluation, found.best, found.jacobian)
+        if found.jacobian is None:
+            raise
+    assert found.jacobian is not None
+    point, shift, residuals = _corrected(evaluate, found.best, found.jacobian)
     return Optimum(point, shift, residuals, found.jacobian, complete)
+
+
+def _all(evaluate: Evaluate, points: Sequence[Floats], level: Level) -> list[Floats]:
+    """Residuals at all points; NoResidualsError if one has none."""
+    found = []
+    for each in evaluate(points, level):
+        if isinstance(each, str):
+            raise NoResidualsError(each)
+        found.append(each)
+    return found
 
 
 class _Descent:
@@ -94,9 +117,8 @@ class _Descent:
     Trust-region reflective (Branch, Coleman and Li 1999).
     """
 
-    def __init__(self, evaluation: Evaluation) -> None:
-        self._evaluation = evaluation
-        self._count = len(evaluation.unknowns)
+    def __init__(self, evaluate: Evaluate, start: Floats) -> None:
+        self._evaluate, self._start = evaluate, start
         self._least = np.inf
         self._penalty = np.zeros(0)
         self._starts: list[tuple[float, tuple[float, ...]]] = []
@@ -105,15 +127,14 @@ class _Descent:
 
     def begin(self) -> None:
         """Rank the case's own values and some others in the ranges as starts."""
-        own = np.array([unknown.start for unknown in self._evaluation.unknowns])
-        others = qmc.Sobol(self._count, scramble=False).random_base2(2 + (self._count > 2))[1:]
-        for point in (own, *others):
+        count = self._start.size
+        others = qmc.Sobol(count, scramble=False).random_base2(2 + (count > 2))[1:]
+        for point in (self._start, *others):
             residuals = self._try(point)
             if residuals is not None:
                 self._starts.append((float(residuals @ residuals), tuple(point.tolist())))
-        if not self._starts:
-            self._evaluation.residuals(own)  # raises the reason
-        self._penalty = 10.0 + np.abs(self._evaluation.residuals(self.best))
+        reached = self.best if self._starts else self._start  # which raises the reason
+        self._penalty = 10.0 + np.abs(_all(self._evaluate, [reached], "coarse")[0])
 
     def descend(self) -> None:
         """Search from the best start, and from others if the search ends at a bound."""
@@ -125,7 +146,7 @@ class _Descent:
 
     def _descend(self, start: Floats) -> None:
         # The first trust region is as large as the norm of the start: the origin is put near it.
-        origin = start - _FIRST_REGION / np.sqrt(self._count)
+        origin = start - _FIRST_REGION / np.sqrt(start.size)
         least_squares(
             lambda offset: self._residuals(origin + offset),
             start - origin,
@@ -138,9 +159,8 @@ class _Descent:
         )
 
     def _try(self, point: Floats) -> Floats | None:
-        try:
-            residuals = self._evaluation.residuals(point)
-        except FailedRunError:
+        (residuals,) = self._evaluate([point], "coarse")
+        if isinstance(residuals, str):
             return None
         squares = float(residuals @ residuals)
         if squares < self._least:
@@ -156,38 +176,33 @@ class _Descent:
         steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
         try:
             self.jacobian = self._differences(point, steps)
-        except FailedRunError:  # on that side of the point
+        except NoResidualsError:  # on that side of the point
             self.jacobian = self._differences(point, -steps)
         return self.jacobian
 
     def _differences(self, point: Floats, steps: Floats) -> Floats:
         moved = [point + step * unit for step, unit in zip(steps, np.eye(point.size), strict=True)]
-        here, *there = self._evaluation.many([point, *moved])
+        here, *there = _all(self._evaluate, [point, *moved], "coarse")
         columns = [(each - here) / step for each, step in zip(there, steps, strict=True)]
         return np.stack(columns, axis=1)
 
 
 def _corrected(
-    evaluation: Evaluation, coarse: Floats, jacobian: Floats
+    evaluate: Evaluate, coarse: Floats, jacobian: Floats
 ) -> tuple[Floats, Floats, Floats]:
     """Least squares on the case's cells with steps half as long: point, its shift, residuals.
 
-    Gauss-Newton steps with the Jacobian of the coarse cells, which is near enough. They are made
-    beyond the budget of the search.
+    Gauss-Newton steps with the Jacobian of the coarse cells, which is near enough.
     """
-    evaluation.budget += (_CORRECTIONS + 1) * len(evaluation.experiments)
-    best, residuals = coarse, evaluation.residuals(coarse, on_own_cells=True)
+    (residuals,), best = _all(evaluate, [coarse], "case"), coarse
     inverse = np.linalg.pinv(jacobian)
     variance = float(residuals @ residuals) / (residuals.size - coarse.size)
     errors = np.sqrt(variance * np.diag(inverse @ inverse.T))
     shift = -inverse @ residuals
     for _ in range(_CORRECTIONS):
         trial = np.clip(best - inverse @ residuals, 0.0, 1.0)
-        try:
-            changed = evaluation.residuals(trial, on_own_cells=True)
-        except FailedRunError:
-            break
-        if changed @ changed > residuals @ residuals:
+        (changed,) = evaluate([trial], "case")
+        if isinstance(changed, str) or changed @ changed > residuals @ residuals:
             break
         moved, best, residuals = trial - best, trial, changed
         shift = best - coarse

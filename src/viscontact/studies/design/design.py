@@ -32,8 +32,8 @@ from viscontact.studies.design.scenarios import Scenario, scenarios_of
 from viscontact.studies.design.search import Search
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trials import Trial
+from viscontact.studies.executors.chosen import refuse_import_by_a_worker
 from viscontact.studies.executors.local import LocalWorkers
-from viscontact.studies.sweep.recipes import refuse_import_by_a_worker
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
 

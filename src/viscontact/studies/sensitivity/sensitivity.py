@@ -15,6 +15,7 @@ import xarray as xr
 from viscontact.case import Case
 from viscontact.case.errors import dotted
 from viscontact.results.netcdf import open_results
+from viscontact.studies.executors.chosen import refuse_import_by_a_worker
 from viscontact.studies.sensitivity.inputs import Input, input_of, inputs_of
 from viscontact.studies.sensitivity.outcomes import Outcomes, checked_outputs
 from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned, read_plainly
@@ -22,7 +23,6 @@ from viscontact.studies.sensitivity.result import SensitivityResult
 from viscontact.studies.sensitivity.samples import Samples, samples_of
 from viscontact.studies.sensitivity.table import derivative_table, scatter_table
 from viscontact.studies.sweep.many import simulate_many
-from viscontact.studies.sweep.recipes import refuse_import_by_a_worker
 from viscontact.units.numbers import positive
 
 #: Called with the numbers of runs, done and planned, after each run.

@@ -12,26 +12,23 @@ from typing import Any, overload
 
 import xarray as xr
 
-from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import fitting
 from viscontact.runs.single import simulate
 from viscontact.simulation.progress_bar import ProgressBar, reported
+from viscontact.studies.executors.chosen import (
+    BEHIND_MAIN,
+    number_of_workers,
+    refuse_import_by_a_worker,
+    require_executor,
+)
 from viscontact.studies.executors.dask import dask_executor
 from viscontact.studies.executors.driver import Workers
 from viscontact.studies.executors.local import LocalTasks, LocalWorkers
 from viscontact.studies.executors.remote import RemoteTasks
 from viscontact.studies.sweep.open_many import open_many
-from viscontact.studies.sweep.recipes import (
-    BEHIND_MAIN,
-    Recipe,
-    checked_recipes,
-    known_memory,
-    refuse_import_by_a_worker,
-    require_executor,
-)
+from viscontact.studies.sweep.recipes import Recipe, checked_recipes, known_memory
 from viscontact.studies.sweep.recorded_many import Progress, record_many
-from viscontact.units.numbers import whole
 
 #: Longest time in which an interruption is not noticed on Windows [s].
 _PAUSE = 0.5
@@ -165,7 +162,7 @@ def simulate_many(
         executor = client.get_executor(pure=False)
     if executor is not None:
         return _results(recipes, executor, report, return_exceptions)
-    count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
+    count = _affordable(recipes, min(number_of_workers(workers), max(1, len(recipes))))
     pool = LocalWorkers(count)
     try:
         found = _results(recipes, pool, report, return_exceptions)
@@ -187,19 +184,13 @@ def _tasks(
         with RemoteTasks(chosen, directory, _REMEDY) as remote:
             yield remote
         return
-    count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
+    count = _affordable(recipes, min(number_of_workers(workers), max(1, len(recipes))))
     with LocalWorkers(count) as pool:
         yield LocalTasks(pool, count, f"{_REMEDY}, with fewer workers")
 
 
 def _no_progress(run: int, done: int, total: int) -> None:
     """Show nothing."""
-
-
-def _checked(workers: int | None) -> int:
-    if workers is None:
-        return usable_cores()
-    return whole("workers", workers, 1)
 
 
 def _affordable(recipes: list[Recipe], wanted: int) -> int:

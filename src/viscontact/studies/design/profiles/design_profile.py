@@ -33,7 +33,7 @@ from viscontact.studies.design.profiles.result_files import write_profile_design
 from viscontact.studies.design.profiles.search_runs import RowPressures, SearchRuns, search_grids
 from viscontact.studies.design.profiles.tables import finite_table, tabulated
 from viscontact.studies.design.scenarios import scenarios_of
-from viscontact.studies.sweep.recipes import refuse_import_by_a_worker
+from viscontact.studies.executors.chosen import refuse_import_by_a_worker
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import non_negative, whole
 

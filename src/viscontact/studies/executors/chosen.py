@@ -1,0 +1,98 @@
+"""Choice of the executor of the runs of a study, and of the number of runs at a time."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from viscontact.runs.machine.cores import usable_cores
+from viscontact.studies.executors.local import LocalWorkers
+from viscontact.units.numbers import whole
+
+#: Advice for a process that has ended without an answer.
+BEHIND_MAIN = 'in a script, call simulate_many behind `if __name__ == "__main__":`'
+
+
+@dataclass(frozen=True)
+class ChosenWorkers:
+    """Executor of the runs, none for this process, and the number of runs at a time."""
+
+    executor: Executor | None = None
+    count: int = 1
+
+
+#: Runs are computed one after the other, without an executor.
+IN_THIS_PROCESS: ChosenWorkers = ChosenWorkers()
+
+
+@contextmanager
+def chosen_workers(
+    workers: int | None,
+    executor: Executor | None = None,
+    client: Any = None,
+    most: int | None = None,
+) -> Iterator[ChosenWorkers]:
+    """Executor of a study: a given one, that of a Dask client, or warm processes, at most `most`.
+
+    With one process, the runs are computed in this one.
+    """
+    require_executor(executor, client, workers)
+    if client is not None:
+        yield ChosenWorkers(
+            client.get_executor(pure=False), max(1, sum(client.nthreads().values()))
+        )
+        return
+    if executor is not None:
+        # Executors of PEP 3148 do not have to tell their number of workers; most do by this name.
+        yield ChosenWorkers(executor, getattr(executor, "_max_workers", None) or 1)
+        return
+    count = number_of_workers(workers)
+    if most is not None:
+        count = min(count, most)
+    if count == 1:
+        yield IN_THIS_PROCESS
+        return
+    pool = LocalWorkers(count)
+    try:
+        yield ChosenWorkers(pool, count)
+    except BaseException:
+        pool.kill()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def number_of_workers(workers: int | None) -> int:
+    """Number of parallel processes; by default the cores that this process may use."""
+    return usable_cores() if workers is None else whole("workers", workers, 1)
+
+
+def require_executor(executor: object, client: object, workers: object) -> None:
+    """Raise TypeError or ValueError for an executor or a client that is none, or for several."""
+    given = {"executor": executor, "client": client, "workers": workers}
+    named = [name for name, value in given.items() if value is not None]
+    if len(named) > 1:
+        raise ValueError(f"{' and '.join(named)} are given together; give one of them")
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise TypeError(
+            "executor: must have a method submit, as a ProcessPoolExecutor of concurrent.futures "
+            f"has, got {executor!r}"
+        )
+    if client is not None and not callable(getattr(client, "get_executor", None)):
+        raise TypeError(
+            "client: must be a Client of dask.distributed, as Client('tcp://10.0.0.1:8786'), got "
+            f"{client!r}"
+        )
+
+
+def refuse_import_by_a_worker() -> None:
+    """Raise RuntimeError in a new process that is importing the calling script."""
+    # Set by multiprocessing, which refuses to start processes meanwhile.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise RuntimeError(
+            f"a new process has imported this file and would start others: {BEHIND_MAIN}"
+        )

@@ -1,0 +1,95 @@
+"""Journals of studies: runs by their values, locked against other writers."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from viscontact.studies.journal import JOURNAL_NAME, journal_at, journal_in
+
+ARGUMENTS = {"case": "abc", "change": {"load.force": ("1 N", "2 N")}}
+
+
+def kept(place: Path, **runs: float) -> dict[str, object]:
+    """Journal in a directory after some runs."""
+    with journal_in(place, "design", ARGUMENTS) as journal:
+        assert journal is not None
+        for key, value in runs.items():
+            journal.keep(key, {"value": value})
+        return dict(journal.recorded)
+
+
+def test_runs_are_found_again_by_their_values(tmp_path: Path) -> None:
+    kept(tmp_path / "found", a=0.1, b=math.inf)
+    assert kept(tmp_path / "found", c=1 / 3) == {
+        "a": {"value": 0.1},
+        "b": {"value": math.inf},
+        "c": {"value": 1 / 3},
+    }
+    assert kept(tmp_path / "found")["c"] == {"value": 1 / 3}
+    assert len((tmp_path / "found" / JOURNAL_NAME).read_text().splitlines()) == 1 + 3
+
+
+def test_a_line_that_a_killed_process_has_begun_is_removed(tmp_path: Path) -> None:
+    kept(tmp_path, a=1.0)
+    path = tmp_path / JOURNAL_NAME
+    whole = path.read_text()
+    path.write_text(whole + '["b", {"val')
+    assert list(kept(tmp_path)) == ["a"]
+    assert path.read_text() == whole
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    {
+        "earlier version": ('{"design": {}}\n', "is not a journal of this version of viscontact"),
+        "no JSON": ("a,b\n", ":1: is not a line of JSON; remove the file"),
+        "another study": ('{"study": "fit"}\n', "holds another design, with a different study"),
+    }.values(),
+)
+def test_a_foreign_file_is_refused_in_one_sentence(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / JOURNAL_NAME).write_text(text)
+    with pytest.raises(ValueError, match=r"\w") as refused:
+        kept(tmp_path)
+    assert message in str(refused.value)
+    assert len(str(refused.value).splitlines()) == 1
+    assert (tmp_path / JOURNAL_NAME).read_text() == text
+
+
+def test_a_damaged_line_is_named_by_its_number(tmp_path: Path) -> None:
+    kept(tmp_path, a=1.0)
+    with (tmp_path / JOURNAL_NAME).open("a") as file:
+        file.write('{"settings": {}}\n')
+    with pytest.raises(ValueError, match="jsonl:3: is not a run of a study; remove the file"):
+        kept(tmp_path)
+
+
+def test_bytes_that_are_no_text_are_refused(tmp_path: Path) -> None:
+    (tmp_path / JOURNAL_NAME).write_bytes(b"\xff\xfe\n")
+    with pytest.raises(ValueError, match="is not UTF-8 text"):
+        kept(tmp_path)
+
+
+def test_a_second_study_in_the_directory_is_refused(tmp_path: Path) -> None:
+    with journal_in(tmp_path, "design", ARGUMENTS), pytest.raises(ValueError, match="is in use"):
+        kept(tmp_path)
+    file = tmp_path / "file"
+    file.write_text("")
+    with pytest.raises(ValueError, match=r"directory: .* is a file"):
+        kept(file)
+
+
+def test_two_journals_in_files_of_one_folder_are_independent(tmp_path: Path) -> None:
+    one, other = tmp_path / "one.jsonl", tmp_path / "other.jsonl"
+    with journal_at(one, "fit", ARGUMENTS) as first, journal_at(other, "fit", ARGUMENTS) as second:
+        assert first is not None
+        assert second is not None
+        first.keep("a", {})
+        with (
+            pytest.raises(ValueError, match=r"one\.jsonl is in use by another run"),
+            journal_at(one, "fit", ARGUMENTS),
+        ):
+            pass
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["one.jsonl", "other.jsonl"]
