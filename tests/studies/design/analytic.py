@@ -3,46 +3,71 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+from typing import Any
 
-from viscontact.studies.design.evaluation import Evaluation
+from viscontact.studies.design.conclusions import notes_on
+from viscontact.studies.design.evaluated_trials import Trials
 from viscontact.studies.design.goals import Goal, Value, constraints_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
-from viscontact.studies.design.scenarios import Scenario
+from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.search import Search
-from viscontact.studies.design.trials import ScenarioResult, Trial, goal_name
-from viscontact.studies.sweep.varied_runs import VariedRun
+from viscontact.studies.design.trials import Trial, goal_name
+from viscontact.studies.evaluation import Budget, Evaluation, Level, Outcome
+from viscontact.studies.executors.chosen import ChosenWorkers
 
 #: Values of the parameters to the objective and, by name of the constraint, the other scalars.
 Function = Callable[[Mapping[str, float]], Mapping[str, Value]]
 
 
-@dataclass
-class AnalyticEvaluation(Evaluation):
-    """Evaluation of a function in place of runs, which counts its calls."""
+@dataclass(frozen=True)
+class FunctionInPlaceOfARun:
+    """Value of a function."""
 
-    function: Function = field(default=lambda values: {})
-    calls: int = 0
+    key: str
+    function: Function
+    goals: tuple[Goal, ...]
+    settings: Mapping[str, str]
 
-    rounds: int = 0  # of calls at the same time
-
-    def _results(self, runs: Sequence[VariedRun]) -> list[ScenarioResult]:
-        self.rounds += 1
-        return [self._result({key: run.settings[key] for key in run.varied}) for run in runs]
-
-    def _result(self, settings: Mapping[str, str]) -> ScenarioResult:
-        self.calls += 1
-        if not settings:
-            return ScenarioResult({}, "the case itself is not tried")
-        numbers = {key: _number(text) for key, text in settings.items()}
-        try:
-            found = self.function(numbers)
-        except ValueError as error:
-            return ScenarioResult({}, str(error))
+    def __call__(self) -> Outcome:
+        """Evaluate the function."""
+        if not self.settings:
+            return {"failure": "the case itself is not tried"}
+        found = self.function({key: _number(text) for key, text in self.settings.items()})
         names = {goal.scalar: goal_name(goal) for goal in self.goals}
-        return ScenarioResult({names.get(name, name): v for name, v in found.items()})
+        values = {names.get(name, name): [v.value, v.error] for name, v in found.items()}
+        return {"values": values, "warnings": ""}
+
+
+class Rounds(Executor):
+    """Executor that makes all calls so far when one of them is awaited, and counts that."""
+
+    def __init__(self) -> None:
+        self.rounds = 0
+        self._waiting: list[tuple[Future[Any], Any, Any]] = []
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Note the call."""
+        rounds = self
+
+        class Awaited(Future[Any]):
+            def result(self, timeout: float | None = None) -> Any:
+                if not self.done():
+                    rounds.make()
+                return super().result(timeout)
+
+        future: Future[Any] = Awaited()
+        self._waiting.append((future, fn, args))
+        return future
+
+    def make(self) -> None:
+        """Make the calls."""
+        self.rounds += 1
+        for future, call, args in self._waiting:
+            future.set_result(call(*args))
+        self._waiting.clear()
 
 
 def searched(
@@ -51,49 +76,53 @@ def searched(
     *,
     least: bool = True,
     constraints: Sequence[str] = (),
-    budget: int = 60,
-    is_coarse: bool = False,
-    workers: int = 1,
+    **options: Any,
 ) -> tuple[Search, Trial | None]:
     """Search for the best `force` of a function, and return the search and the best trial."""
     goals = (Goal("force", least),)
-    evaluation = evaluation_of(
-        function,
-        goals,
-        constraints=constraints,
-        budget=budget,
-        is_coarse=is_coarse,
-        workers=workers,
-    )
-    evaluation.evaluate({}, "case")
-    search = Search(space_of(change), evaluation, Objective(goals))
+    trials = trials_of(function, goals, change, constraints=constraints, **options)
+    trials.of_case()
+    search = search_of(trials, Objective(goals), is_coarse=options.get("is_coarse", False))
     return search, search.run()
 
 
-def evaluation_of(
+def search_of(trials: Trials, objective: Objective, *, is_coarse: bool = False) -> Search:
+    """Search for the least objective."""
+    levels: tuple[Level, ...] = ("coarse", "case") if is_coarse else ("case",)
+    cost = PenalisedCost(objective, trials.goals, trials.constraints)
+    return Search(trials.space, trials, cost, trials.budget, levels)
+
+
+def trials_of(
     function: Function,
     goals: tuple[Goal, ...],
+    change: Mapping[str, object],
     *,
     constraints: Sequence[str] = (),
     budget: int = 60,
     is_coarse: bool = False,
     workers: int = 1,
-) -> AnalyticEvaluation:
-    """Evaluation of a function in one scenario."""
-    return AnalyticEvaluation(
-        Path("case.yaml"),
-        {},
-        [Scenario("")],
-        goals,
-        constraints_of(constraints),
-        {"grid.shape": "[32, 32]"} if is_coarse else {},
-        budget,
-        None,
-        workers,
-        lambda trial: None,
-        lambda done, allowed: None,
-        function=function,
-    )
+) -> Trials:
+    """Trials of a function in one scenario."""
+
+    def runs_of(settings: Mapping[str, str], level: Level) -> list[FunctionInPlaceOfARun]:
+        return [FunctionInPlaceOfARun(f"{level} {settings}", function, goals, settings)]
+
+    executor = Rounds() if workers > 1 else None
+    evaluation = Evaluation(Budget(budget), ChosenWorkers(executor, workers))
+    return Trials(space_of(change), runs_of, goals, constraints_of(constraints), evaluation)
+
+
+def notes(best: Trial, search: Search) -> list[str]:
+    """Notes on the best trial."""
+    return list(notes_on(best, trials_in(search)[0], search))
+
+
+def trials_in(search: Search) -> list[Trial]:
+    """All trials of a search, the case itself first."""
+    trials = search.evaluate
+    assert isinstance(trials, Trials)
+    return trials.in_order()
 
 
 def _number(text: str) -> float:

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 import viscontact as vc
 from viscontact.studies.design.profiles.convex_curve import ConvexCurves
 from viscontact.studies.design.profiles.deviations import deviating
-from viscontact.studies.design.profiles.minimax import CallsSpentError, least_largest
+from viscontact.studies.design.profiles.minimax import least_largest
 from viscontact.studies.design.profiles.named import amplitude_of
+from viscontact.studies.design.profiles.profile_runs import MARGIN, search_grids
 from viscontact.studies.design.profiles.result_files import profile_csv
-from viscontact.studies.design.profiles.search_runs import MARGIN, search_grids
+from viscontact.studies.evaluation import BudgetSpentError
 from viscontact.tables import read_line
 
 Array = NDArray[np.float64]
@@ -106,7 +107,7 @@ def test_a_search_without_further_calls_keeps_its_best_point() -> None:
         nonlocal calls
         calls += len(points)
         if calls > 6:
-            raise CallsSpentError
+            raise BudgetSpentError
         return [Values(np.array([(a - 3.0) ** 2]), np.zeros(1)) for (a,) in points]
 
     found = least_largest(values, np.zeros(1), np.ones(1), np.array([-np.inf]))

@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 
 import pytest
-from tests.studies.design.analytic import searched
+from tests.studies.design.analytic import notes, searched, trials_in
 
-from viscontact.studies.design.conclusions import notes_on, why_infeasible
+from viscontact.studies.design.conclusions import why_infeasible
 from viscontact.studies.design.goals import Value
 
 TWO = {"load.x": ("0", "1"), "load.y": ("0", "1")}
@@ -19,14 +19,14 @@ def exact(number: float) -> dict[str, Value]:
 
 
 def value_of(search: object, trial: object) -> float:
-    return trial.worst(search.evaluation.goals[0]).value  # type: ignore[attr-defined,no-any-return]
+    return trial.worst(search.cost.goals[0]).value  # type: ignore[attr-defined,no-any-return]
 
 
 def test_a_parabola_is_minimised_in_less_than_forty_runs() -> None:
     search, best = searched(lambda v: exact(1 + (v["load.x"] - 0.37) ** 2), {"load.x": ("0", "1")})
     assert best is not None
     assert value_of(search, best) == pytest.approx(1.0, abs=1e-3)
-    assert search.evaluation.runs <= 40
+    assert search.budget.runs <= 40
 
 
 def test_a_logarithmic_range_is_searched_on_its_scale() -> None:
@@ -55,7 +55,7 @@ def test_a_kinked_valley_of_two_parameters_is_followed_to_within_two_per_cent() 
     search, best = searched(valley, TWO)
     assert best is not None
     assert value_of(search, best) == pytest.approx(1.625, rel=0.02)
-    assert search.evaluation.runs <= 60
+    assert search.budget.runs <= 60
 
 
 def test_the_global_one_of_two_minima_is_found() -> None:
@@ -87,7 +87,7 @@ def test_a_value_without_a_limit_is_never_the_best() -> None:
     search, best = searched(singular, {"load.x": ("0", "1")})
     assert best is not None
     assert 0.38 < float(best.settings["load.x"]) <= 0.4
-    (note,) = [each for each in notes_on(best, search) if "without a limit" in each]
+    (note,) = [each for each in notes(best, search) if "without a limit" in each]
     beside = float(note.partition("load.x=")[2].split()[0])
     assert 0.4 < beside < float(best.settings["load.x"]) + 0.02
 
@@ -108,7 +108,7 @@ def test_choices_are_tried_in_all_combinations() -> None:
     search, best = searched(lambda v: exact(abs(v["load.x"] - 2.1) + v["load.y"]), change)
     assert best is not None
     assert best.settings == {"load.x": "2", "load.y": "3"}
-    assert search.evaluation.runs == 1 + 6  # with the case itself
+    assert search.budget.runs == 1 + 6  # with the case itself
 
 
 def test_a_choice_and_a_range_are_searched_together() -> None:
@@ -122,7 +122,7 @@ def test_a_choice_and_a_range_are_searched_together() -> None:
 @pytest.mark.parametrize("budget", [1, 5, 17])
 def test_no_more_runs_are_made_than_allowed(budget: int) -> None:
     search, _ = searched(lambda v: exact(v["load.x"] * v["load.y"]), TWO, budget=budget)
-    assert search.evaluation.runs <= budget
+    assert search.budget.runs <= budget
 
 
 def test_the_best_of_the_coarse_cells_is_computed_on_those_of_the_case() -> None:
@@ -131,7 +131,7 @@ def test_the_best_of_the_coarse_cells_is_computed_on_those_of_the_case() -> None
     )
     assert best is not None
     assert best.level == "case"
-    assert {each.level for each in search.evaluation.trials} == {"coarse", "case"}
+    assert {each.level for each in trials_in(search)} == {"coarse", "case"}
 
 
 @pytest.mark.parametrize("slope", [1.0, -1.0])
@@ -139,7 +139,7 @@ def test_an_optimum_at_a_bound_is_reported_with_its_bound(slope: float) -> None:
     search, best = searched(lambda v: exact(3 + slope * v["load.x"]), {"load.x": ("0", "1")})
     assert best is not None
     assert float(best.settings["load.x"]) == (0.0 if slope > 0 else 1.0)
-    (note,) = [each for each in notes_on(best, search) if "bound" in each]
+    (note,) = [each for each in notes(best, search) if "bound" in each]
     bound = "lower bound of load.x, 0:" if slope > 0 else "upper bound of load.x, 1:"
     assert bound in note
 
@@ -150,7 +150,7 @@ def test_an_infeasible_design_names_the_constraint_and_the_closest_trial() -> No
 
     search, best = searched(far, {"load.x": ("0", "1")}, constraints=["contact_length<=1m"])
     assert best is None
-    why = why_infeasible(search.evaluation, search)
+    why = why_infeasible(search)
     assert why.startswith("no feasible design in ")
     assert "contact_length <= 1 m is not kept; the closest is 1.5" in why
 
@@ -168,7 +168,7 @@ def test_a_feasible_corner_is_found_in_a_third_of_the_runs(bound: float) -> None
     search, best = searched(long, TWO, constraints=limits, budget=20, is_coarse=True)
     assert best is not None
     assert best.level == "case"
-    assert search.evaluation.runs <= 20
+    assert search.budget.runs <= 20
     # The optimum is that of a straight line: all of the length goes to x.
     assert value_of(search, best) == pytest.approx(3 - (bound - 0.4) / 0.8, rel=0.03)
 
@@ -183,8 +183,8 @@ def test_few_runs_still_give_a_certified_trial_and_a_note(budget: int) -> None:
     )
     assert best is not None
     assert best.level == "case"
-    assert search.evaluation.runs <= budget
-    assert any(f"{budget} runs are too few" in note for note in notes_on(best, search))
+    assert search.budget.runs <= budget
+    assert any(f"{budget} runs are too few" in note for note in notes(best, search))
 
 
 @pytest.mark.parametrize("workers", [2, 3, 4])
@@ -194,10 +194,10 @@ def test_workers_compute_trials_ahead_and_do_not_change_the_search(workers: int)
 
     one, best = searched(bowl, TWO, is_coarse=True)
     several, same = searched(bowl, TWO, is_coarse=True, workers=workers)
-    assert several.evaluation.trials == one.evaluation.trials
+    assert trials_in(several) == trials_in(one)
     assert best == same
-    trials = len(one.evaluation.trials)
-    rounds = several.evaluation.rounds  # type: ignore[attr-defined]
+    trials = len(trials_in(one))
+    rounds = several.evaluate.evaluation.workers.executor.rounds  # type: ignore[attr-defined]
     # Without a wrong guess there would be 1 / workers as many rounds as trials.
     assert rounds < 1.7 * trials / workers
     assert rounds >= trials / workers

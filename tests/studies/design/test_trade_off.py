@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.studies.design.analytic import evaluation_of
+from tests.studies.design.analytic import search_of, trials_of
 from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
 from viscontact.studies.design.goals import Goal, Value
-from viscontact.studies.design.parameters import space_of
+from viscontact.studies.design.objectives import Objective
+from viscontact.studies.design.search import Point, Search
 from viscontact.studies.design.trade_off import costs_of, not_dominated, searched_trade_off
+from viscontact.studies.design.trials import Trial
 
 TWO = {"load.x": ("0", "1"), "load.y": ("-1", "1")}
 GOALS = (Goal("force", True), Goal("approach", True))
@@ -42,13 +45,19 @@ def bells(v: Mapping[str, float]) -> dict[str, Value]:
 
 def front_of(function: object, budget: int = 300) -> tuple[NDArray[np.float64], int]:
     """Costs on the front of a function, sorted by the first one, and the number of runs."""
-    evaluation = evaluation_of(function, GOALS, budget=budget)  # type: ignore[arg-type]
-    evaluation.evaluate({}, "case")
-    searched_trade_off(space_of(TWO), evaluation)
-    done = [each for each in evaluation.trials if not each.failure]
+    trials = trials_of(function, GOALS, TWO, budget=budget)  # type: ignore[arg-type]
+    trials.of_case()
+    tried: dict[tuple[str, ...], tuple[Point, Trial]] = {}
+
+    def search_for(objective: Objective, later: int) -> Search:
+        left = trials.budget.most - trials.budget.runs
+        return replace(search_of(trials, objective), tried=tried, held=left * later // (later + 1))
+
+    searched_trade_off(search_for, GOALS)
+    done = [each for each in trials.in_order() if not each.failure]
     costs = costs_of(done, GOALS)
     found = costs[not_dominated(costs)]
-    return found[found[:, 0].argsort()], evaluation.runs
+    return found[found[:, 0].argsort()], trials.budget.runs
 
 
 def exact_front(function: object) -> NDArray[np.float64]:

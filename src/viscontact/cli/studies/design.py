@@ -12,8 +12,8 @@ from viscontact.cli.studies.execution import REPORT_NAME, Records, performed, sh
 from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
 from viscontact.studies.design.design import design
-from viscontact.studies.design.history import HISTORY_NAME
 from viscontact.studies.design.result_files import BEST_NAME
+from viscontact.studies.journal import JOURNAL_NAME
 
 _CHANGE = "KEY=VALUE, with the unit, e.g. 'indenter.crown_radius=20 mm:2 m:log'"
 _SCATTER = "KEY=VALUE, with the unit, e.g. 'material.poisson_ratio=0.36:0.40'"
@@ -31,7 +31,7 @@ def execute_design(typed: Mapping[str, Any]) -> None:
 def trials_in(directory: Path) -> Records:
     """Trials in the directory of a design."""
     remedy = "continue it with --resume, or choose another directory with -o DIR"
-    place = directory / HISTORY_NAME
+    place = directory / JOURNAL_NAME
     return Records(directory, place, "the finished trials", f"holds a design already; {remedy}")
 
 

@@ -1,4 +1,4 @@
-"""Conclusions of a search: what is to be known of the best trial, or why there is none."""
+"""Conclusions of a search: notes on the best trial, or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
-from viscontact.studies.design.evaluation import Evaluation
 from viscontact.studies.design.goals import Constraint
 from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial
@@ -22,12 +21,12 @@ class InfeasibleError(ValueError):
     """No trial of a design keeps all constraints."""
 
 
-def why_infeasible(evaluation: Evaluation, search: Search) -> str:
+def why_infeasible(search: Search) -> str:
     """Reason why no trial is feasible, with the closest one."""
-    names = " or the ".join(goal.scalar for goal in evaluation.goals)
-    limits = evaluation.constraints
-    tried = [evaluation.trials[number] for number in search.points]
-    said = f"no feasible design in {evaluation.runs} runs"
+    names = " or the ".join(goal.scalar for goal in search.cost.goals)
+    limits = search.cost.constraints
+    tried = [trial for _, trial in search.tried.values()]
+    said = f"no feasible design in {search.budget.runs} runs"
     done = [trial for trial in tried if not trial.failure]
     if not done:
         reason = tried[0].failure if tried else "runs: are too few"
@@ -45,10 +44,10 @@ def why_infeasible(evaluation: Evaluation, search: Search) -> str:
     return f"{said}: {broken} is not kept; the closest is {value} at {where}"
 
 
-def notes_on(best: Trial, search: Search) -> Iterator[str]:
-    """Yield what is to be known of the best trial."""
-    evaluation, space = search.evaluation, search.space
-    goals, point = search.objective.goals, search.point(best)
+def notes_on(best: Trial, before: Trial, search: Search) -> Iterator[str]:
+    """Yield notes on the best trial, and on that of the case `before`."""
+    space, cost = search.space, search.cost
+    goals, point = cost.objective.goals, search.point(best)
     for number in space.ranges if len(goals) == 1 else ():
         goal = goals[0]
         part, key = point[number], space.parameters[number].key
@@ -60,26 +59,30 @@ def notes_on(best: Trial, search: Search) -> Iterator[str]:
                 f"{verb} for ever, there is no optimum"
             )
     yield from _beside_no_limit(best, search)
-    for limit in evaluation.constraints:
+    for limit in cost.constraints:
         yield from _undecided(best, limit)
     if search.is_cut_short:
-        yield f"{evaluation.budget} runs are too few to search until the gain is within the error"
-    before = evaluation.trials[0]
-    if before.is_feasible(evaluation.goals, evaluation.constraints):
-        own, found = (search.objective.cost(each).value for each in (before, best))
+        yield f"{search.budget.most} runs are too few to search until the gain is within the error"
+    if cost.is_feasible(before):
+        own, found = (cost.objective.cost(each).value for each in (before, best))
         if own < found:
             yield "the values of the case itself are better than the best ones that were found"
     yield from best.warnings
 
 
-def notes_on_trade_off(searches: Sequence[tuple[Search, Trial | None]]) -> Iterator[str]:
-    """Yield what is to be known of the trials of a trade-off, each note once."""
+def notes_on_trade_off(
+    searches: Sequence[tuple[Search, Trial | None]], before: Trial
+) -> Iterator[str]:
+    """Yield notes on the trials of a trade-off, each once."""
     yield (
         "the best trial is the compromise whose scalars are equally far from their best values; "
         "the table has all trials that are not dominated"
     )
     notes = (
-        note for search, best in searches if best is not None for note in notes_on(best, search)
+        note
+        for search, best in searches
+        if best is not None
+        for note in notes_on(best, before, search)
     )
     yield from dict.fromkeys(notes)
 
@@ -90,7 +93,7 @@ def _beside_no_limit(best: Trial, search: Search) -> Iterator[str]:
     def distance(trial: Trial) -> float:
         return math.dist(search.point(trial), search.point(best))
 
-    for goal in search.objective.goals:
+    for goal in search.cost.objective.goals:
         beside = [each for each in search.trials(best.level) if each.worst(goal).depends_on_mesh]
         nearest = min(beside, key=distance, default=None)
         if nearest is not None and distance(nearest) <= BESIDE:

@@ -2,46 +2,46 @@
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
-from viscontact.backend.arrays import Floats
-from viscontact.case import Case, CaseError, read_case
+from viscontact.case import Case
 from viscontact.case.errors import dotted
-from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.studies.case_values import (
+    case_with,
+    fingerprint,
+    refuse_repeated,
+    require_instant,
+    texts,
+)
 from viscontact.studies.design.conclusions import (
     InfeasibleError,
     notes_on,
     notes_on_trade_off,
     why_infeasible,
 )
-from viscontact.studies.design.evaluation import BudgetSpentError, Evaluation, coarse_cells
+from viscontact.studies.design.evaluated_trials import Trials
 from viscontact.studies.design.goals import Goal, constraints_of, goals_of
-from viscontact.studies.design.history import History
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import Space, space_of
+from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.result import DesignResult, table_of
 from viscontact.studies.design.result_files import write_result
 from viscontact.studies.design.scenarios import Scenario, scenarios_of
-from viscontact.studies.design.search import Search
+from viscontact.studies.design.search import Point, Search
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
+from viscontact.studies.design.trial_runs import CaseTrials, coarse_cells
 from viscontact.studies.design.trials import Trial
-from viscontact.studies.executors.chosen import refuse_import_by_a_worker
-from viscontact.studies.executors.local import LocalWorkers
-from viscontact.units.formatting import format_quantity
+from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation, Level, Progress
+from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.journal import journal_in
 from viscontact.units.numbers import whole
 
 #: Most runs of a search, where none are given.
 RUNS = 60
-
-#: Called with the numbers of runs, done and allowed, after each trial.
-Progress = Callable[[int, int], None]
 
 
 def design(  # noqa: PLR0913
@@ -56,7 +56,9 @@ def design(  # noqa: PLR0913
     constraints: Sequence[str] = (),
     settings: Mapping[str, Any] | None = None,
     runs: int | None = None,
-    workers: int = 1,
+    workers: int | None = None,
+    executor: Executor | None = None,
+    client: Any = None,
     directory: str | PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> DesignResult:
@@ -95,16 +97,20 @@ def design(  # noqa: PLR0913
         Most runs; a trial takes one for each scenario. By default 60, and for a trade-off 60 for
         each of its searches: 300 for two scalars, 420 for three.
     workers : int, optional
-        Number of parallel processes. They compute the scenarios of a trial and, ahead, those of
-        the trials that are likely to follow; the result does not depend on their number. With 1,
-        the runs are computed in this process. With more, a script needs
-        ``if __name__ == "__main__":``, as for `simulate_many`.
+        Number of parallel processes; by default as many as there are cores. They compute the
+        scenarios of a trial and, ahead, those of the trials that are likely to follow; the result
+        does not depend on their number. With 1, the runs are computed in this process. With more, a
+        script needs ``if __name__ == "__main__":``, as for `simulate_many`.
+    executor : concurrent.futures.Executor, optional
+        Executor of the runs in place of processes of this machine, as for `simulate_many`.
+    client : distributed.Client, optional
+        Client of a Dask cluster, in place of an executor.
     directory : path-like, optional
         Keep the trials there, in ``trials.jsonl``; the same call again goes on where the first one
         was interrupted. In the end it has the best case, ``best.yaml``, and the table,
         ``trials.nc``.
     progress : callable, optional
-        Called after each trial with the number of runs so far and the most allowed ones.
+        Called after each run with the number of runs so far and the most allowed ones.
 
     Returns
     -------
@@ -152,42 +158,29 @@ def design(  # noqa: PLR0913
     True
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
-    goals, limits, space = (
-        goals_of(minimise, maximise, at),
-        constraints_of(constraints),
-        space_of(change),
-    )
-    _refuse_repeated(space.keys, tuple(over or ()), tuple(fixed))
-    _refuse_repeated(tuple(scatter or ()), tuple(over or ()), tuple(fixed))
-    budget = whole("runs", _default_runs(len(goals)) if runs is None else runs, 1)
-    values = _own_values(_read(path, _assignments(fixed)), (*space.keys, *(scatter or {})))
+    path, fixed = Path(case), texts(settings)
+    goals, limits = goals_of(minimise, maximise, at), constraints_of(constraints)
+    space = space_of(change)
+    others = {"over": tuple(over or ()), "settings": tuple(fixed)}
+    refuse_repeated(change=space.keys, **others)
+    refuse_repeated(scatter=tuple(scatter or ()), **others)
+    budget = Budget(whole("runs", _default_runs(len(goals)) if runs is None else runs, 1))
+    values = _own_values(case_with(path, fixed), (*space.keys, *(scatter or {})))
     scenarios = scenarios_of(over, scatter, space, values)
     own = _checked(path, space, scenarios, fixed, goals[0])
     arguments = {
-        "case": hashlib.sha256(b"".join(sorted(own.digests.values()))).hexdigest(),
-        **{"change": repr(change), "goal": repr(goals), "over": repr(over)},
-        **({"scatter": repr(scatter)} if scatter else {}),
+        **{"case": fingerprint(own), "change": repr(change), "goal": repr(goals)},
+        **{"over": repr(over), "scatter": repr(scatter or None)},
         **{"constraints": repr(limits), "settings": fixed},
     }
-    count = whole("workers", workers, 1)
-    with ExitStack() as opened:
-        history = opened.enter_context(_history(directory, arguments))
-        evaluation = Evaluation(
-            path,
-            fixed,
-            scenarios,
-            goals,
-            limits,
-            coarse_cells(own),
-            budget,
-            opened.enter_context(warm_workers(count)),
-            count,
-            history.keep if history else _forget,
-            progress or silent,
-            history.recorded if history else {},
-        )
-        found = _searched(evaluation, space, values, _unused_tolerances(own, scatter))
+    of_case = CaseTrials(path, fixed, scenarios, goals, limits, coarse_cells(own))
+    with (
+        journal_in(directory, "design", arguments) as journal,
+        chosen_workers(workers, executor, client) as chosen,
+    ):
+        evaluation = Evaluation(budget, chosen, journal, progress)
+        trials = Trials(space, of_case, goals, limits, evaluation)
+        found = _searched(trials, of_case, values, _unused_tolerances(own, scatter))
         if directory is not None:
             write_result(Path(directory), found)
         return found
@@ -201,28 +194,21 @@ def _default_runs(goals: int) -> int:
 
 
 def _searched(
-    evaluation: Evaluation, space: Space, own: Mapping[str, str], known: Iterable[str]
+    trials: Trials, of_case: CaseTrials, own: Mapping[str, str], known: Iterable[str]
 ) -> DesignResult:
     """Search, and describe the best trial, with notes `known` before; ValueError if none is."""
-    goals, limits = evaluation.goals, evaluation.constraints
-    try:
-        evaluation.evaluate({}, "case")
-    except BudgetSpentError:
-        raise ValueError(
-            f"runs: {evaluation.budget} are too few for {len(evaluation.scenarios)} scenarios"
-        ) from None
-    if len(goals) == 1:
-        search = Search(space, evaluation, Objective(goals))
-        searches = [(search, search.run())]
-    else:
-        searches = searched_trade_off(space, evaluation)
+    goals, limits = trials.goals, trials.constraints
+    searches = _searches(trials, of_case)
     search, best = searches[-1]
     if best is None:
-        raise InfeasibleError(why_infeasible(evaluation, search))
-    names = [each.name or "as in the case" for each in evaluation.scenarios]
-    table = table_of(evaluation.trials, space.keys, own, names, goals, limits)
-    said = notes_on(best, search) if len(goals) == 1 else notes_on_trade_off(searches)
-    notes, number = (*known, *said), evaluation.trials.index(best)
+        raise InfeasibleError(why_infeasible(search))
+    before, *_ = made = trials.in_order()
+    names = [each.name or "as in the case" for each in of_case.scenarios]
+    table = table_of(made, trials.space.keys, own, names, goals, limits)
+    said = (
+        notes_on(best, before, search) if len(goals) == 1 else notes_on_trade_off(searches, before)
+    )
+    notes, number = (*known, *said), made.index(best)
     about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
     about["sense"] = " ".join("least" if goal.least else "largest" for goal in goals)
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
@@ -230,13 +216,34 @@ def _searched(
         table.assign_attrs(about, best=number),
         dict(best.settings),
         notes,
-        evaluation.runs,
-        evaluation.case,
-        evaluation.settings,
+        trials.budget.runs,
+        of_case.case,
+        of_case.settings,
         goals,
         number,
-        tuple(evaluation.scenarios),
+        tuple(of_case.scenarios),
     )
+
+
+def _searches(trials: Trials, of_case: CaseTrials) -> list[tuple[Search, Trial | None]]:
+    """Searches for the goals, each with its best trial; all know the trials of the others."""
+    goals, budget, size = trials.goals, trials.budget, len(of_case.scenarios)
+    tried: dict[tuple[str, ...], tuple[Point, Trial]] = {}
+
+    def search_for(objective: Objective, later: int) -> Search:
+        cost = PenalisedCost(objective, goals, trials.constraints)
+        levels: tuple[Level, ...] = ("coarse", "case") if of_case.coarse else ("case",)
+        held = (budget.most - budget.runs) * later // (later + 1)
+        return Search(trials.space, trials, cost, budget, levels, size, tried, held)
+
+    try:
+        trials.of_case()
+    except BudgetSpentError:
+        raise ValueError(f"runs: {budget.most} are too few for {size} scenarios") from None
+    if len(goals) > 1:
+        return searched_trade_off(search_for, goals)
+    search = search_for(Objective(goals), 0)
+    return [(search, search.run())]
 
 
 def _unused_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> list[str]:
@@ -249,13 +256,6 @@ def _unused_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> list[st
     return [f"tolerances of the case count in a design only as scatter, as {left[0]}"]
 
 
-def _refuse_repeated(*groups: Sequence[str]) -> None:
-    keys = [key for group in groups for key in group]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise ValueError(f"{key}: is given twice, in change, over or settings; give it once")
-
-
 def _checked(
     path: Path,
     space: Space,
@@ -266,7 +266,7 @@ def _checked(
     """Check the case at its own values, at the bounds and in all scenarios, and return it."""
 
     def read(scenario: Scenario, trial: Mapping[str, str]) -> Case:
-        return _read(path, (*_assignments(fixed), *_assignments(scenario.settings(trial))))
+        return case_with(path, {**fixed, **scenario.settings(trial)})
 
     own = read(scenarios[0], {})
     if own.steady is not None:
@@ -282,26 +282,6 @@ def _checked(
     return own
 
 
-def require_instant(instants: Floats, time: float) -> None:
-    """Raise ValueError if a time [s] is none of the instants."""
-    near = float(instants[np.abs(instants - time).argmin()])
-    if not np.isclose(near, time, rtol=1e-9, atol=0):
-        wanted, found = (format_quantity(each, "s") for each in (time, near))
-        raise ValueError(f"at: {wanted} is no instant of the case; the nearest one is {found}")
-
-
-def _read(path: Path, settings: Sequence[str]) -> Case:
-    """Read a case; CaseError without the name of an option of the command line."""
-    try:
-        return read_case(path, settings)
-    except CaseError as error:
-        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
-
-
-def _assignments(settings: Mapping[str, str]) -> list[str]:
-    return [f"{key}={value}" for key, value in settings.items()]
-
-
 def _own_values(case: Case, keys: Sequence[str]) -> dict[str, str]:
     """Values of some keys in the case, where they are plain."""
     found = {}
@@ -312,52 +292,3 @@ def _own_values(case: Case, keys: Sequence[str]) -> dict[str, str]:
         if isinstance(value, str | int | float):
             found[key] = str(value)
     return found
-
-
-@contextmanager
-def _history(
-    directory: str | PathLike[str] | None, arguments: dict[str, Any]
-) -> Iterator[History | None]:
-    with in_use(directory):
-        yield None if directory is None else History(Path(directory), arguments)
-
-
-@contextmanager
-def in_use(directory: str | PathLike[str] | None) -> Iterator[None]:
-    """Lock the directory of a design; ValueError if it is a file, or another one is at work."""
-    if directory is None:
-        yield
-        return
-    place = Path(directory)
-    if place.exists() and not place.is_dir():
-        raise ValueError(f"directory: {place} is a file; name a directory for the design")
-    place.mkdir(parents=True, exist_ok=True)
-    try:
-        with locked(place):
-            yield
-    except DirectoryInUse as error:
-        raise ValueError(str(error)) from None
-
-
-@contextmanager
-def warm_workers(count: int) -> Iterator[LocalWorkers | None]:
-    """Warm processes; none for one run at a time."""
-    if count == 1:
-        yield None
-        return
-    pool = LocalWorkers(count)
-    try:
-        yield pool
-    except BaseException:
-        pool.kill()
-        raise
-    finally:
-        pool.shutdown()
-
-
-def _forget(trial: Trial) -> None:
-    """Keep nothing."""
-
-
-def silent(done: int, allowed: int) -> None:
-    """Show nothing."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from viscontact.studies.design.goals import Constraint
+from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.trials import Trial
 
@@ -24,6 +24,7 @@ class PenalisedCost:
     """Cost of trials over the size of the objective in the first one."""
 
     objective: Objective
+    goals: tuple[Goal, ...]  # of the design, the values of which must have a limit
     constraints: tuple[Constraint, ...]
     scale: float = 0.0  # size of the first objective
     reach: float = 0.0  # first reach of a contact [m]
@@ -41,6 +42,10 @@ class PenalisedCost:
         # Less than two, and never flat, so that a search knows the way to the bound.
         bounded = excess if excess < 1 else 2 - 1 / excess
         return value.value / self.scale + PENALTY * bounded
+
+    def is_feasible(self, trial: Trial) -> bool:
+        """True if all runs of a trial have a result with a limit, and all constraints are kept."""
+        return trial.is_feasible(self.goals, self.constraints)
 
     def error(self, trial: Trial) -> float:
         """Error of the cost of a trial [-]; zero if it is not known."""

@@ -13,11 +13,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import direct, minimize
 
-from viscontact.studies.design.evaluation import BudgetSpentError, Evaluation
-from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import Choice, Space
 from viscontact.studies.design.penalised_cost import PenalisedCost
-from viscontact.studies.design.trials import Level, Trial
+from viscontact.studies.design.trials import Trial
+from viscontact.studies.evaluation import Budget, BudgetSpentError, Level
 
 Point = tuple[float, ...]
 
@@ -41,9 +40,13 @@ SIMPLEX, WIDE_SIMPLEX = 0.04, 0.1
 NEAR_END, NEAR_UNFEASIBLE_END = 0.1, 0.25
 
 
-#: Cost of a point, and points that are likely to follow, a given number of them.
+#: Points that are likely to follow, a given number of them.
+Foreseen = Callable[[int], Sequence[Point]]
+#: Trials at some points; workers that are free compute those that are likely to follow.
+#: BudgetSpentError if they would take more runs than are left.
+Evaluate = Callable[[Sequence[Point], Level, Foreseen | None], Sequence[Trial]]
+#: Cost of a point.
 _Cost = Callable[[Any], float]
-_Ahead = Callable[[int], Sequence[Point]]
 
 
 class _NothingGainedError(Exception):
@@ -56,31 +59,31 @@ class _ForeseenError(Exception):
 
 @dataclass
 class Search:
-    """Search over a space by the trials of an evaluation."""
+    """Search over a space by trials at its points."""
 
     space: Space
-    evaluation: Evaluation
-    objective: Objective
-    points: dict[int, Point] = field(default_factory=dict)  # of the trials, by their number
+    evaluate: Evaluate
+    cost: PenalisedCost
+    budget: Budget
+    levels: tuple[Level, ...] = ("case",)  # the cheap one first
+    size: int = 1  # runs of a trial
+    tried: dict[tuple[str, ...], tuple[Point, Trial]] = field(default_factory=dict)
     held: int = 0  # runs that are left to other searches
     is_cut_short: bool = False  # the runs were used up before the gain was within the error
 
-    def __post_init__(self) -> None:
-        self.cost = PenalisedCost(self.objective, self.evaluation.constraints)
-
     def run(self) -> Trial | None:
         """Return the best feasible trial on the cells of the case; None without one."""
-        evaluation = self.evaluation
-        evaluation.reserved = self.held
-        if len(evaluation.levels) > 1:
+        budget = self.budget
+        budget.reserved = self.held
+        if len(self.levels) > 1:
             # The best trials are to be computed on the cells of the case in any event.
-            most = (evaluation.budget - evaluation.runs - self.held) // RESERVED
-            evaluation.reserved += min(CANDIDATES * len(evaluation.scenarios), most)
-        first = evaluation.levels[0]
+            most = budget.left // RESERVED
+            budget.reserved += min(CANDIDATES * self.size, most)
+        first = self.levels[0]
         self._within_budget(partial(self._explore, first))
         if self.best(first) is None:
             self._within_budget(partial(self._approach, first))
-        evaluation.reserved = self.held
+        budget.reserved = self.held
         self._within_budget(self._certify)
         self._within_budget(self._refine)
         return self.best("case")
@@ -104,14 +107,12 @@ class Search:
 
     def trials(self, level: Level) -> list[Trial]:
         """Trials of a level, in their order."""
-        trials = enumerate(self.evaluation.trials)
-        return [each for number, each in trials if number in self.points and each.level == level]
+        return [trial for _, trial in self.tried.values() if trial.level == level]
 
     def _ranked(self, level: Level) -> list[Trial]:
         """Feasible trials of a level, the best first."""
-        goals, limits = self.evaluation.goals, self.evaluation.constraints
-        found = [each for each in self.trials(level) if each.is_feasible(goals, limits)]
-        return sorted(found, key=lambda each: self.objective.cost(each).value)
+        found = [each for each in self.trials(level) if self.cost.is_feasible(each)]
+        return sorted(found, key=lambda each: self.cost.objective.cost(each).value)
 
     def _explore(self, level: Level) -> None:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
@@ -120,12 +121,12 @@ class Search:
             self._try_all(list(product(*(_middles(len(each.values)) for each in choices))), level)
             return
         bounds = [(0.0, 1.0)] * len(self.space.parameters)
-        most = 100 * self.evaluation.budget
+        most = 100 * self.budget.most
 
         def minimise(cost: _Cost) -> None:
             direct(cost, bounds, maxfun=most, vol_tol=0, len_tol=1e-4)
 
-        left = (self.evaluation.budget - self.evaluation.reserved) // len(self.evaluation.scenarios)
+        left = (self.budget.most - self.budget.reserved) // self.size
         patience = PATIENCE * (1 + len(self.space.parameters))
         _Watched(self, level, patience, minimise, left // UNFEASIBLE_PART).run()
         self._try_ends(level)
@@ -163,25 +164,25 @@ class Search:
 
     def _certify(self) -> None:
         """Compute the best coarse trials on the cells of the case."""
-        if self.evaluation.levels[0] == "case":
+        if self.levels[0] == "case":
             return
         certified: list[Trial] = []
         ranked = self._ranked("coarse")
         if not ranked and (closest := self.closest("coarse")) is not None:
             # It may be feasible on smaller cells.
-            self._try(self.point(closest), "case", _first_of([]))
+            self.trial_at(self.point(closest), "case", _first_of([]))
         for rank, coarse in enumerate(ranked, 1):
-            value = self.objective.cost(coarse)
+            value = self.cost.objective.cost(coarse)
             best = self.best("case")
             if best is not None:
                 # The others are worse by more than the cells can explain.
                 known = value.error if math.isfinite(value.error) else 0.0
-                if value.value - known > self.objective.cost(best).value:
+                if value.value - known > self.cost.objective.cost(best).value:
                     return
                 if len(certified) >= CANDIDATES:
                     return
             others = [self.point(each) for each in ranked[rank:CANDIDATES]]
-            certified.append(self._try(self.point(coarse), "case", _first_of(others)))
+            certified.append(self.trial_at(self.point(coarse), "case", _first_of(others)))
 
     def _refine(self) -> None:
         """Search around the best certified trial on the cells of the case, by Nelder and Mead."""
@@ -212,21 +213,17 @@ class Search:
 
     def point(self, trial: Trial) -> Point:
         """Coordinates of a trial."""
-        return self.points[self.evaluation.trials.index(trial)]
+        return self.tried[trial.key][0]
 
     def _try_all(self, points: Sequence[Point], level: Level) -> None:
         for number, point in enumerate(points, 1):
-            self._try(point, level, _first_of(points[number:]))
+            self.trial_at(point, level, _first_of(points[number:]))
 
-    def _try(self, point: Point, level: Level, ahead: _Ahead) -> Trial:
+    def trial_at(self, point: Point, level: Level, ahead: Foreseen) -> Trial:
         """Return the trial of a point; `ahead` are the points that are likely to follow."""
-
-        def likely(count: int) -> list[dict[str, str]]:
-            return [self.space.settings(each) for each in ahead(count)]
-
-        trial = self.evaluation.evaluate(self.space.settings(point), level, likely)
-        number = self.evaluation.trials.index(trial)
-        self.points.setdefault(number, tuple(float(np.clip(part, 0, 1)) for part in point))
+        (trial,) = self.evaluate([point], level, ahead)
+        clipped = tuple(float(np.clip(part, 0, 1)) for part in point)
+        self.tried.setdefault(trial.key, (clipped, trial))
         return trial
 
 
@@ -253,10 +250,10 @@ class _Watched:
             self._minimise(self)
 
     def __call__(self, given: Any) -> float:
-        before, point = len(self._search.evaluation.trials), tuple(map(float, np.ravel(given)))
-        trial = self._search._try(point, self._level, self._foreseen)
+        before, point = len(self._search.tried), tuple(map(float, np.ravel(given)))
+        trial = self._search.trial_at(point, self._level, self._foreseen)
         cost = self._known[point] = self._search.cost(trial)
-        self._watch(trial, cost, is_new=len(self._search.evaluation.trials) > before)
+        self._watch(trial, cost, is_new=len(self._search.tried) > before)
         return cost
 
     def _foreseen(self, count: int) -> list[Point]:
@@ -295,7 +292,7 @@ class _Watched:
             raise _NothingGainedError
 
 
-def _first_of(points: Sequence[Point]) -> _Ahead:
+def _first_of(points: Sequence[Point]) -> Foreseen:
     return lambda count: points[:count]
 
 

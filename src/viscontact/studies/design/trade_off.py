@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.studies.design.evaluation import Evaluation
 from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.objectives import Objective
-from viscontact.studies.design.parameters import Space
-from viscontact.studies.design.search import Point, Search
+from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial
 
 #: Weights of the compromises are multiples of its inverse.
@@ -31,21 +29,19 @@ def compromises(count: int) -> list[tuple[float, ...]]:
     return [*(row for row in found if not np.allclose(row, equal)), equal]
 
 
-def searched_trade_off(space: Space, evaluation: Evaluation) -> list[tuple[Search, Trial | None]]:
+def searched_trade_off(
+    search_for: Callable[[Objective, int], Search], goals: Sequence[Goal]
+) -> list[tuple[Search, Trial | None]]:
     """Search for the best trial of each goal, then for compromises; the equal one is the last.
 
-    All searches know the trials of the others. If a goal has no feasible trial, its search is the
-    last.
+    `search_for` makes a search for an objective that leaves some runs to others. If a goal has no
+    feasible trial, its search is the last.
     """
-    goals = evaluation.goals
     weights = compromises(len(goals))
     found: list[tuple[Search, Trial | None]] = []
-    points: dict[int, Point] = {}
 
     def search(objective: Objective) -> Trial | None:
-        left = len(goals) + len(weights) - len(found) - 1
-        held = (evaluation.budget - evaluation.runs) * left // (left + 1)
-        made = Search(space, evaluation, objective, points, held)
+        made = search_for(objective, len(goals) + len(weights) - len(found) - 1)
         found.append((made, made.run()))
         return found[-1][1]
 
@@ -57,7 +53,7 @@ def searched_trade_off(space: Space, evaluation: Evaluation) -> list[tuple[Searc
     least = costs.min(axis=0)
     spans = np.maximum(costs.max(axis=0) - least, 1e-6 * abs(least) + 1e-300)
     for each in weights:
-        search(Objective(goals, each, tuple(least), tuple(spans)))
+        search(Objective(tuple(goals), each, tuple(least), tuple(spans)))
     return found
 
 

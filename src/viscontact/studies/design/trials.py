@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 from viscontact.studies.design.goals import Constraint, Goal, Value
+from viscontact.studies.evaluation import Level
 
 #: Scalar that shows how far a contact reaches, where it reaches a sharp end.
 REACH = "contact_length"
-
-#: Cells of a run: coarse ones of the search, or those of the case.
-Level = Literal["coarse", "case"]
 
 
 @dataclass(frozen=True)
@@ -32,6 +29,11 @@ class Trial:
     settings: Mapping[str, str]  # by key
     level: Level
     results: tuple[ScenarioResult, ...]
+
+    @property
+    def key(self) -> tuple[str, ...]:
+        """Values and cells, which are the same in an equal trial."""
+        return (self.level, *(f"{key}={value}" for key, value in sorted(self.settings.items())))
 
     @property
     def failure(self) -> str:

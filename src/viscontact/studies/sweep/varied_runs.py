@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from viscontact.case import CaseError, read_case
+from viscontact.case import Case, CaseError, read_case
 from viscontact.runs.command_error import CommandError
 from viscontact.runs.single import simulate
 from viscontact.studies.sweep.common_cells import (
@@ -66,9 +66,7 @@ class VariedRun:
     @property
     def arguments(self) -> dict[str, Any]:
         """Arguments of `simulate` by name."""
-        case = read_case(self.case, self.assignments)
-        given = signature(simulate).parameters.keys() - {"threads", "progress"}
-        return {name: getattr(case, name) for name in given}
+        return arguments_of(read_case(self.case, self.assignments))
 
 
 def vary(
@@ -159,6 +157,12 @@ def vary(
         )
         for row in range(len(chosen.rows))
     ]
+
+
+def arguments_of(case: Case) -> dict[str, Any]:
+    """Arguments of `simulate` for a case, by name."""
+    given = signature(simulate).parameters.keys() - {"threads", "progress"}
+    return {name: getattr(case, name) for name in given}
 
 
 def sweep_run(number: int, run: VariedRun, case: str, earlier: Sequence[SweepRun] = ()) -> SweepRun:

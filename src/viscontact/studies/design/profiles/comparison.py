@@ -15,8 +15,8 @@ from viscontact.results.formatting import format_with_error
 from viscontact.studies.design.goals import Value
 from viscontact.studies.design.profiles.deviations import deviating
 from viscontact.studies.design.profiles.named import NamedProfile
+from viscontact.studies.design.profiles.profile_runs import MARGIN, ProfileRuns
 from viscontact.studies.design.profiles.result import CASE, ELASTIC, FREE, ProfileDesign
-from viscontact.studies.design.profiles.search_runs import MARGIN, SearchRuns
 from viscontact.studies.design.profiles.tables import tabulated
 from viscontact.units.formatting import format_quantity
 
@@ -36,7 +36,7 @@ class FoundProfiles:
 
 
 def compared(
-    search: SearchRuns, found: FoundProfiles, case: Path, settings: Mapping[str, str]
+    search: ProfileRuns, found: FoundProfiles, case: Path, settings: Mapping[str, str]
 ) -> ProfileDesign:
     """Compute the peak pressures of all profiles on the cells of the case, with their errors."""
     profiles: dict[str, Profile | None] = {CASE: None}
@@ -48,20 +48,19 @@ def compared(
     table = _table(search, found, profiles, values)
     if found.tolerance:
         table = table.assign(_deviations(search, found, values[list(profiles).index(FREE)]))
-    design = ProfileDesign(
-        table, (), search.runs, case, dict(settings), tuple(search.scenarios), profiles
-    )
+    runs = search.evaluation.budget.runs
+    design = ProfileDesign(table, (), runs, case, dict(settings), tuple(search.scenarios), profiles)
     notes = (*_notes(design, found), *warned[list(profiles).index(FREE)])
     about = {"goal": _PEAK, "at": str(search.at), "drop_tolerance": found.tolerance}
     about |= {"best_named": design.best_named, "notes": "\n".join(notes)}
     return ProfileDesign(
-        *(table.assign_attrs(about), notes, search.runs, case, dict(settings)),
+        *(table.assign_attrs(about), notes, runs, case, dict(settings)),
         *(tuple(search.scenarios), profiles),
     )
 
 
 def _table(
-    search: SearchRuns,
+    search: ProfileRuns,
     found: FoundProfiles,
     profiles: Mapping[str, Profile | None],
     values: Sequence[Sequence[Value]],
@@ -86,7 +85,7 @@ def _table(
 
 
 def _deviations(
-    search: SearchRuns, found: FoundProfiles, as_drawn: Sequence[Value]
+    search: ProfileRuns, found: FoundProfiles, as_drawn: Sequence[Value]
 ) -> Mapping[str, xr.Variable | xr.DataArray]:
     """Peak pressures of the free profile within the production tolerance."""
     u = found.x / search.scenarios[0].end

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -13,27 +13,22 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import LogarithmicProfile
-from viscontact.runs.machine.cores import usable_cores
-from viscontact.studies.design.design import (
-    in_use,
-    require_instant,
-    silent,
-    warm_workers,
-)
+from viscontact.studies.case_values import fingerprint, require_instant, require_place, texts
 from viscontact.studies.design.parameters import Space
 from viscontact.studies.design.profiles.comparison import FoundProfiles, compared
 from viscontact.studies.design.profiles.convex_curve import ConvexCurves
 from viscontact.studies.design.profiles.deviations import deviating
-from viscontact.studies.design.profiles.journal import Journal
 from viscontact.studies.design.profiles.loaded_roller import loaded_rollers, without_creep
 from viscontact.studies.design.profiles.minimax import Minimum, cost, least_largest
 from viscontact.studies.design.profiles.named import NamedProfile, amplitude_of, best_named
+from viscontact.studies.design.profiles.profile_runs import ProfileRuns, RowPressures, search_grids
 from viscontact.studies.design.profiles.result import ProfileDesign
 from viscontact.studies.design.profiles.result_files import write_profile_design
-from viscontact.studies.design.profiles.search_runs import RowPressures, SearchRuns, search_grids
 from viscontact.studies.design.profiles.tables import finite_table, tabulated
 from viscontact.studies.design.scenarios import scenarios_of
-from viscontact.studies.executors.chosen import refuse_import_by_a_worker
+from viscontact.studies.evaluation import Budget, Evaluation
+from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.journal import journal_in
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import non_negative, whole
 
@@ -52,6 +47,8 @@ def design_profile(  # noqa: PLR0913
     settings: Mapping[str, Any] | None = None,
     runs: int = 2000,
     workers: int | None = None,
+    executor: Executor | None = None,
+    client: Any = None,
     directory: str | PathLike[str] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> ProfileDesign:
@@ -80,6 +77,10 @@ def design_profile(  # noqa: PLR0913
     workers : int, optional
         Number of parallel processes; by default as many as there are cores. With 1, the runs are
         computed in this process.
+    executor : concurrent.futures.Executor, optional
+        Executor of the runs in place of processes of this machine, as for `simulate_many`.
+    client : distributed.Client, optional
+        Client of a Dask cluster, in place of an executor.
     directory : path-like, optional
         Keep the runs there, in ``trials.jsonl``; the same call again goes on where the first one
         was interrupted. In the end it has the best case, ``best.yaml``, the profile as
@@ -127,38 +128,35 @@ def design_profile(  # noqa: PLR0913
     1.03
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
+    path, fixed = Path(case), texts(settings)
     count = whole("knots", knots, FEWEST_KNOTS, MOST_KNOTS)
     tolerance = non_negative("drop_tolerance", drop_tolerance, "m")
-    budget = whole("runs", runs, 1)
+    budget = Budget(whole("runs", runs, 1))
     scenarios = scenarios_of(over, None, Space(()), {})
     rollers = loaded_rollers(path, fixed, scenarios)
-    if not isinstance(at, str):
-        for each in rollers:
-            require_instant(each.case.instants, at)
-    elif at not in ("worst", "end"):
-        raise ValueError(f"at: must be 'worst', 'end' or a time [s], got {at!r}")
+    require_place(at)
+    for each in rollers if not isinstance(at, str) else ():
+        require_instant(each.case.instants, float(at))
     curves = ConvexCurves(
         rollers[0].end, count, symmetric, not symmetric and rollers[0].has_given_tilt
     )
-    digests = sorted(rollers[0].case.digests.values())
     arguments = {
-        "case": hashlib.sha256(b"".join(digests)).hexdigest(),
+        "case": fingerprint(rollers[0].case),
         **{"profile": repr(curves), "at": str(at), "over": repr(scenarios)},
-        **{"drop_tolerance": repr(tolerance), "settings": fixed, "runs": budget},
+        **{"drop_tolerance": repr(tolerance), "settings": fixed, "runs": budget.most},
     }
-    place = None if directory is None else Path(directory)
-    processes = usable_cores() if workers is None else whole("workers", workers, 1)
-    with in_use(place), warm_workers(processes) as executor:
-        journal = Journal(place, arguments)
-        search = SearchRuns(rollers, at, journal, executor, progress or silent, budget)
-        found = compared(search, _found(search, curves, tolerance), path, fixed)
-        if place is not None:
-            write_profile_design(place, found)
+    with (
+        journal_in(directory, "design", arguments) as journal,
+        chosen_workers(workers, executor, client) as chosen,
+    ):
+        made = ProfileRuns(rollers, at, Evaluation(budget, chosen, journal, progress))
+        found = compared(made, _found(made, curves, tolerance), path, fixed)
+        if directory is not None:
+            write_profile_design(Path(directory), found)
         return found
 
 
-def _found(search: SearchRuns, curves: ConvexCurves, tolerance: float) -> FoundProfiles:
+def _found(search: ProfileRuns, curves: ConvexCurves, tolerance: float) -> FoundProfiles:
     """Search for the free profile, from the best of the named ones."""
     search.amplitude, grids = _amplitude_and_grids(search)
     search.grid = grids[0]
@@ -183,10 +181,10 @@ def _found(search: SearchRuns, curves: ConvexCurves, tolerance: float) -> FoundP
     )
 
 
-def _amplitude_and_grids(search: SearchRuns) -> tuple[float, tuple[Grid, ...]]:
+def _amplitude_and_grids(search: ProfileRuns) -> tuple[float, tuple[Grid, ...]]:
     """Amplitude of an even line load [m], and the grids of the search."""
     own = search.scenarios[0]
-    amplitude = amplitude_of(search.own_widths()[1], own.roller.radius)
+    amplitude = amplitude_of(search.widths()[1], own.roller.radius)
     half_width = 2 * np.sqrt(own.roller.radius * amplitude)
     if 2 * half_width >= own.end:
         raise ValueError(
@@ -208,7 +206,7 @@ def _size(best: NamedProfile, curves: ConvexCurves, amplitude: float) -> float:
 
 
 def _start(
-    search: SearchRuns, curves: ConvexCurves, named: Sequence[NamedProfile], tolerance: float
+    search: ProfileRuns, curves: ConvexCurves, named: Sequence[NamedProfile], tolerance: float
 ) -> Floats:
     """Coefficients of the best curve that approximates a named profile other than the cylinder."""
     x = curves.table()
@@ -219,7 +217,7 @@ def _start(
 
 
 def _least(
-    search: SearchRuns,
+    search: ProfileRuns,
     curves: ConvexCurves,
     grids: Sequence[Grid],
     start: Floats,

@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from viscontact.case import Case, CaseError, read_case
+from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.indenters import Roller
 from viscontact.indenters.profile import Profile
 from viscontact.laws import Elastic
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
+from viscontact.studies.case_values import case_with
 from viscontact.studies.design.scenarios import Scenario
 
 
@@ -66,7 +67,7 @@ def loaded_rollers(
 ) -> tuple[LoadedRoller, ...]:
     """Rollers of the scenarios; ValueError names what a free profile cannot be designed for."""
     found = tuple(
-        LoadedRoller(each.name, _read(case, {**settings, **each.values})) for each in scenarios
+        LoadedRoller(each.name, case_with(case, {**settings, **each.values})) for each in scenarios
     )
     for each in found:
         _require_roller(each.case, case)
@@ -77,19 +78,12 @@ def loaded_rollers(
 
 def case_with_table(case: Path, settings: Mapping[str, str], end: float, table: str) -> Case:
     """The case with a table as its profile, a file next to the case file or an absolute path."""
-    own = _read(case, settings)
+    own = case_with(case, settings)
     data = dict(own.document.data["indenter"])
     for key in ("crown_radius", "profile"):
         data.pop(key, None)
     data |= {"half_length": f"{end * 1e3:.12g} mm", "profile": {"kind": "table", "file": table}}
-    return _read(case, {**settings, "indenter": json.dumps(data)})
-
-
-def _read(case: Path, settings: Mapping[str, str]) -> Case:
-    try:
-        return read_case(case, [f"{key}={value}" for key, value in settings.items()])
-    except CaseError as error:
-        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
+    return case_with(case, {**settings, "indenter": json.dumps(data)})
 
 
 def _require_roller(case: Case, path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.studies.evaluation import BudgetSpentError
 
 #: Cost of a forbidden value over that of a value: an exact penalty.
 PENALTY = 10.0
@@ -45,11 +46,7 @@ class Minimum:
     is_cut_short: bool  # the calls were used up before the gain was small
 
 
-class CallsSpentError(Exception):
-    """The next points would need more calls than are allowed."""
-
-
-#: Responses at several points; None where there is none. CallsSpentError if they are too many.
+#: Responses at several points; None where there is none. BudgetSpentError if they are too many.
 Responses = Callable[[Sequence[Floats]], Sequence[Response | None]]
 
 
@@ -105,7 +102,7 @@ def least_largest(responses: Responses, start: Floats, sizes: Floats, lowest: Fl
                 radius /= 4 if gained < 0 else 2
             if gained > 0:
                 point, here, jacobian = point + step, there, None
-    except CallsSpentError:
+    except BudgetSpentError:
         return Minimum(point, cost(here), True)
     return Minimum(point, cost(here), False)
 

@@ -13,7 +13,7 @@ from viscontact.indenters.logarithmic import JOHNS_GOHAR
 from viscontact.indenters.profile import Profile
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.profiles.minimax import cost
-from viscontact.studies.design.profiles.search_runs import SearchRuns
+from viscontact.studies.design.profiles.profile_runs import ProfileRuns
 from viscontact.units.formatting import format_quantity
 
 #: Amplitudes that are tried, over that of an even line load.
@@ -43,7 +43,7 @@ def amplitude_of(width: float, radius: float) -> float:
     return (width / 2) ** 2 / (4 * radius)
 
 
-def best_named(runs: SearchRuns) -> list[NamedProfile]:
+def best_named(runs: ProfileRuns) -> list[NamedProfile]:
     """Cylinder, and best crown, Lundberg and Johns-Gohar profile."""
     own, amplitude = runs.scenarios[0], runs.amplitude
     (rows,) = runs.pressures([[CylindricalProfile()]])
@@ -79,7 +79,7 @@ def _families(own: LoadedRoller) -> Mapping[str, Callable[[float], Profile | Non
     }
 
 
-def _best_part(runs: SearchRuns, family: Callable[[float], Profile | None]) -> tuple[float, float]:
+def _best_part(runs: ProfileRuns, family: Callable[[float], Profile | None]) -> tuple[float, float]:
     """Best amplitude over that of an even line load, and the cost there."""
     tried: dict[float, float] = {}
 

@@ -1,0 +1,231 @@
+"""Runs of a profile design: largest pressures along a roller, and certified peak pressures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from hashlib import sha256
+from typing import Any, Literal
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.grid import Grid
+from viscontact.indenters.profile import Profile
+from viscontact.runs.single import simulate
+from viscontact.studies.design.goals import Value, magnitude
+from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
+from viscontact.studies.design.sharp_ends import reaches_sharp_end
+from viscontact.studies.evaluation import Evaluation, Outcome
+
+#: Coarse cells from the middle of the roller to its end, and beyond it.
+CELLS, BEYOND = 50, 4
+#: Finer cells on the smallest half width of the contact: over this length pressure changes at the
+#: ends of a roller. Most of them for one coarse cell.
+ON_HALF_WIDTH, MOST_FINER = 5, 6
+#: Cells across the smallest contact, and the most cells across the grid.
+ACROSS, MOST_ACROSS = 11, 101
+#: Cells of the certified runs for one of the search, along and across.
+CERTIFIED = 2
+#: Width of the grid over that of the largest contact.
+WIDTH = 1.6
+#: Part of the half length next to an end that is to carry no pressure: it has no limit at the end.
+MARGIN = 1 / CELLS
+#: Tolerance of the solver in the search.
+TOLERANCE = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class RowPressures:
+    """Largest pressures on the rows of cells across a roller, at all instants [Pa]."""
+
+    values: Floats  # rows that may carry pressure
+    forbidden: Floats  # rows at the ends; where the gap is open, minus its size as a pressure
+
+
+@dataclass
+class ProfileRuns:
+    """Runs of the profiles that are tried, in all scenarios."""
+
+    scenarios: Sequence[LoadedRoller]
+    at: Literal["worst", "end"] | float
+    evaluation: Evaluation
+    grid: Grid | None = None
+    amplitude: float = 1.0  # drop that counts as much as the peak pressure, where a gap is open [m]
+    materials: Mapping[str, Any] = field(default_factory=dict)  # in place of those of the case
+
+    def pressures(self, profiles: Sequence[Sequence[Profile]]) -> list[RowPressures | None]:
+        """Pressures under groups of profiles, all of a group together; None where a run fails.
+
+        BudgetSpentError if they would take too many runs.
+        """
+        runs = [self._search_run(each) for group in profiles for each in group]
+        found = iter(self.evaluation.outcomes([run for each in runs for run in each]))
+        return [
+            _joined([next(found) for _ in range(len(group) * len(self.scenarios))])
+            for group in profiles
+        ]
+
+    def _search_run(self, profile: Profile) -> list[RowPeaks]:
+        common = {"grid": self.grid, "tolerance": TOLERANCE, "errors": False, **self.materials}
+        cells = f"{self.grid!r} {'elastic' if self.materials else ''}"
+        return [
+            RowPeaks(
+                f"rows {number} {_described(profile)} {cells}",
+                {**each.arguments(profile), **common, "fields": self._instants(each)},
+                self.scenarios[0].end,
+                self.amplitude,
+            )
+            for number, each in enumerate(self.scenarios)
+        ]
+
+    def widths(self, profile: Profile | None = None) -> tuple[float, float]:
+        """Smallest and largest width of the loaded contact [m], by default that of the case.
+
+        ValueError if a run fails.
+        """
+        cells = {} if self.grid is None else {"grid": self.grid}
+        common = {**cells, "fields": "none", "errors": False}
+        runs = [
+            Widths(
+                f"widths {number} {_described(profile)} {self.grid!r}",
+                {**each.arguments(profile), **common},
+            )
+            for number, each in enumerate(self.scenarios)
+        ]
+        found = self.evaluation.outcomes(runs, is_limited=False)
+        for each in found:
+            if "failure" in each:
+                raise ValueError(each["failure"])
+        return min(each["least"] for each in found), max(each["largest"] for each in found)
+
+    def certified(
+        self, profiles: Sequence[Profile | None]
+    ) -> list[tuple[list[Value], tuple[str, ...]]]:
+        """Peak pressures with errors in all scenarios, on fine cells, and warnings."""
+        assert self.grid is not None
+        cells = fine_grid(self.grid)
+        runs = [
+            CertifiedPeak(
+                f"peak {number} {_described(profile)} {cells!r}",
+                each.certifying(profile, cells) | {"fields": "none"},
+                self.at,
+            )
+            for profile in profiles
+            for number, each in enumerate(self.scenarios)
+        ]
+        found = iter(self.evaluation.outcomes(runs, is_limited=False))
+        return [_values([next(found) for _ in self.scenarios]) for _ in profiles]
+
+    def _instants(self, scenario: LoadedRoller) -> str | list[float]:
+        if self.at == "worst":
+            return "all"
+        return [float(scenario.case.instants[-1] if self.at == "end" else self.at)]
+
+
+@dataclass(frozen=True, eq=False)
+class RowPeaks:
+    """Run of the search: largest pressures on rows inside, and at the ends less open gaps [Pa]."""
+
+    key: str
+    recipe: Mapping[str, Any]  # arguments of `simulate`
+    end: float  # half of the length of the roller [m]
+    amplitude: float
+
+    def __call__(self) -> Outcome:
+        """Simulate the run."""
+        found, x = simulate(**self.recipe), np.abs(self.recipe["grid"].x)
+        margin = (1 - MARGIN) * self.end
+        rows, gaps = found["pressure"].values.max(axis=2), found["gap"].values.min(axis=2)
+        inside, at_end = x < margin, (x > margin) & (x < self.end)
+        forbidden = (rows - rows.max() / self.amplitude * gaps)[:, at_end]
+        return {"rows": rows[:, inside].ravel().tolist(), "forbidden": forbidden.ravel().tolist()}
+
+
+@dataclass(frozen=True, eq=False)
+class Widths:
+    """Run for the least and the largest width of the loaded contact [m]."""
+
+    key: str
+    recipe: Mapping[str, Any]
+
+    def __call__(self) -> Outcome:
+        """Simulate the run."""
+        found = simulate(**self.recipe)
+        loaded = found["force"].values > 0.5 * found["force"].values.max()
+        widths = found["contact_width"].values[loaded]
+        return {"least": float(widths.min()), "largest": float(widths.max())}
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedPeak:
+    """Run for the peak pressure, its error, and the warnings."""
+
+    key: str
+    recipe: Mapping[str, Any]
+    at: Literal["worst", "end"] | float
+
+    def __call__(self) -> Outcome:
+        """Simulate the run."""
+        found = simulate(**self.recipe)
+        value = magnitude(found, "peak_pressure", self.at, largest=True)
+        warned = str(found.attrs.get("warnings", ""))
+        is_sharp = reaches_sharp_end(self.recipe["indenter"], warned)
+        bar = np.inf if is_sharp else value.error
+        return {"value": value.value, "error": float(bar), "warnings": warned}
+
+
+def _described(profile: Profile | None) -> str:
+    """Text that is the same for equal profiles."""
+    if profile is None:
+        return "case"
+    values = (getattr(profile, each.name) for each in fields(profile))  # type: ignore[arg-type]
+    texts = (
+        sha256(each.tobytes()).hexdigest() if isinstance(each, np.ndarray) else repr(each)
+        for each in values
+    )
+    return f"{type(profile).__name__}({', '.join(texts)})"
+
+
+def search_grids(end: float, widths: tuple[float, float]) -> tuple[Grid, ...]:
+    """Grids of the search, the coarse one first, for a half length and widths of contacts [m].
+
+    Their cells end where the roller does, and where the part without pressure begins.
+
+    >>> [grid.shape for grid in search_grids(10e-3, (0.5e-3, 1e-3))]
+    [(108, 37), (432, 37)]
+    """
+    small, large = widths
+    count = int(np.clip(np.ceil(ACROSS * WIDTH * large / small), 35, MOST_ACROSS))
+    across = count + 1 - count % 2  # a cell on the axis
+    along = 2 * (CELLS + BEYOND)
+    size = (along * end / CELLS, WIDTH * large)
+    finer = int(np.clip(np.ceil(2 * ON_HALF_WIDTH * end / (small * CELLS)), 1, MOST_FINER))
+    return tuple(Grid((each * along, across), size) for each in sorted({1, finer}))
+
+
+def fine_grid(grid: Grid) -> Grid:
+    """Grid of the certified runs, for the last one of the search.
+
+    >>> fine_grid(Grid((108, 37), (1.0, 1.0))).shape
+    (216, 75)
+    """
+    along, across = grid.shape
+    return Grid((CERTIFIED * along, CERTIFIED * across + 1), grid.size)
+
+
+def _values(found: Sequence[Mapping[str, Any]]) -> tuple[list[Value], tuple[str, ...]]:
+    values = [Value(each.get("value", np.nan), each.get("error", np.nan)) for each in found]
+    lines = [line for each in found for line in each.get("warnings", "").splitlines()]
+    failures = [each["failure"] for each in found if "failure" in each]
+    return values, tuple(dict.fromkeys([*failures, *lines]))
+
+
+def _joined(outcomes: Sequence[Outcome]) -> RowPressures | None:
+    if any("failure" in each for each in outcomes):
+        return None
+    rows, forbidden = (
+        np.concatenate([np.array(each[name]) for each in outcomes])
+        for name in ("rows", "forbidden")
+    )
+    return RowPressures(rows, forbidden)

@@ -1,0 +1,96 @@
+"""Runs of the trials of a design, on coarse cells or on those of the case."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from viscontact.case import Case
+from viscontact.grid import Grid
+from viscontact.runs.single import simulate
+from viscontact.studies.case_values import case_with
+from viscontact.studies.design.goals import Constraint, Goal, magnitude
+from viscontact.studies.design.scenarios import Scenario
+from viscontact.studies.design.sharp_ends import reaches_sharp_end
+from viscontact.studies.design.trials import REACH, goal_name
+from viscontact.studies.evaluation import Level, Outcome
+from viscontact.studies.sweep.varied_runs import arguments_of
+
+#: Relative error of an automatic grid in the search, unless the case allows more.
+COARSE_TOLERANCE = 0.05
+#: Least number of cells along an edge, and cells from which a given grid is made coarser.
+LEAST_CELLS, MOST_CELLS = 32, 2**12
+
+#: Scalar without a limit at a sharp end, also where the cells do not resolve that.
+PEAK = "peak_pressure"
+
+
+@dataclass(frozen=True)
+class CaseTrials:
+    """Case of a design: makes the runs of the trials, one for each scenario."""
+
+    case: Path
+    settings: Mapping[str, str]  # of all runs
+    scenarios: Sequence[Scenario]
+    goals: tuple[Goal, ...]
+    constraints: tuple[Constraint, ...]
+    coarse: Mapping[str, str]  # settings of the coarse cells
+
+    def __call__(self, settings: Mapping[str, str], level: Level) -> list[TrialRun]:
+        """Runs of a trial with some values, in the order of the scenarios."""
+        cells = self.coarse if level == "coarse" else {}
+        fixed = {**self.settings, **cells, "output.fields": "none"}
+        values = ", ".join(f"{key}={value}" for key, value in sorted(settings.items()))
+        return [
+            TrialRun(
+                f"{level} {number} {values}",
+                self.case,
+                {**fixed, **each.settings(settings)},
+                self.goals,
+                self.constraints,
+            )
+            for number, each in enumerate(self.scenarios)
+        ]
+
+
+@dataclass(frozen=True)
+class TrialRun:
+    """Run of a trial in a scenario: the goals, the constraints, and the reach of the contact."""
+
+    key: str
+    case: Path
+    settings: Mapping[str, str]
+    goals: tuple[Goal, ...]
+    constraints: tuple[Constraint, ...]
+
+    def __call__(self) -> Outcome:
+        """Simulate the run; values with their errors, by name."""
+        case = case_with(self.case, self.settings)
+        found = simulate(**arguments_of(case))
+        values = {goal_name(goal): goal.value(found) for goal in self.goals}
+        values |= {str(each): each.value(found) for each in self.constraints}
+        values[REACH] = magnitude(found, REACH, "worst", largest=True)
+        warned = str(found.attrs.get("warnings", ""))
+        outcome = {name: [each.value, each.error] for name, each in values.items()}
+        if reaches_sharp_end(case.indenter, warned):
+            peaks = [goal_name(goal) for goal in self.goals if goal.scalar == PEAK]
+            peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
+            outcome |= {name: [outcome[name][0], math.inf] for name in peaks}
+        return {"values": outcome, "warnings": warned}
+
+
+def coarse_cells(case: Case) -> dict[str, str]:
+    """Settings of the coarse cells of a case; none if its own cells are coarse."""
+    if isinstance(case.grid, Grid):
+        shape, least = case.grid.shape, LEAST_CELLS
+        while math.prod(shape) > MOST_CELLS and min(shape) >= 2 * least:
+            shape = (shape[0] // 2, shape[1] // 2)
+        return {} if shape == case.grid.shape else {"grid.shape": f"[{shape[0]}, {shape[1]}]"}
+    automatic = case.automatic_grid
+    if automatic is None or automatic.largest_cell is not None:
+        return {}
+    if automatic.tolerance >= COARSE_TOLERANCE:
+        return {}
+    return {"grid.tolerance": f"{100 * COARSE_TOLERANCE:g} %"}
