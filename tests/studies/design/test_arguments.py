@@ -31,7 +31,10 @@ def ball(tmp_path: Path) -> Path:
 
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no parameter": ({"change": {}}, "change: name a key"),
-    "no tuple": ({"change": {"load.force": "1 N"}}, "change: load.force: must be a tuple"),
+    "no tuple": (
+        {"change": {"load.force": "1 N"}},
+        "change: load.force: must be two bounds, as ('9 kN'",
+    ),
     "reversed": ({"change": {"load.force": ("2 N", "1 N")}}, "the lower bound comes first"),
     "log from zero": (
         {"change": {"load.force": ("0 N", "1 N", "log")}},
@@ -69,11 +72,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no list": ({"over": {"indenter.radius": "5 mm"}}, "must be a list of values"),
     "scatter of no sense": (
         {"scatter": {"load.force": "1 N"}},
-        "scatter: load.force: must be two bounds, or a number with its tolerance",
+        "scatter: load.force: must be two bounds, as ('9 kN', '11 kN'), or a number with its tol",
     ),
     "scatter of one bound": (
         {"scatter": {"load.force": ("1 N",)}},
-        "scatter: load.force: must be a tuple of two bounds",
+        "scatter: load.force: must be two bounds, as ('9 kN', '11 kN'), or a number with its tol",
     ),
     "reversed scatter": (
         {"scatter": {"material.poisson_ratio": ("0.4", "0.3")}},

@@ -78,10 +78,10 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "equal": (("3 N", "3000 mN"), "the lower bound comes first, and differs"),
     "no number": (("pmma", "epdm"), "'pmma' is not a number"),
     "units": (("3 N", "4 mm"), "the units of '3 N' and '4 mm' do not fit"),
-    "one bound": (("3 N",), "must be two bounds, or a number with its tolerance, as '12 mm ±"),
+    "one bound": (("3 N",), "('9 kN', '11 kN'), or a number with its tolerance, as '10 kN ±"),
     "three bounds": (("3 N", "4 N", "5 N"), "must be two bounds, as ('9 kN', '11 kN'), or a"),
     "another tolerance": ("3 N ± 1 mm", "the unit of 1 mm does not fit 3 N"),
-    "word": (("3 N", "4 N", "gauss"), "'log' or 'normal'"),
+    "word": (("3 N", "4 N", "gauss"), "and 'log' for a logarithmic scale or 'normal'"),
     "zero": (("0 N", "4 N", "log"), "a logarithmic range needs bounds above zero"),
 }
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from viscontact.case.yaml_source import SourceError, parse_value
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.processes.request import no_option
+from viscontact.studies.space import Range, read_range
 from viscontact.studies.sweep.design_table import read_design
 from viscontact.studies.sweep.designs import (
     NOTHING_VARIED,
@@ -21,7 +22,7 @@ from viscontact.studies.sweep.designs import (
     grid_design,
     paired_design,
 )
-from viscontact.studies.sweep.sampling import Method, Range, read_range, sample_design
+from viscontact.studies.sweep.sampling import Method, sample_design
 
 _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from viscontact.backend.arrays import Floats
 from viscontact.case import Case
 from viscontact.case.aliases import value_at
 from viscontact.case.overrides import key_path
-from viscontact.studies.sweep.sampling import Range, bounded
+from viscontact.studies.space import Range, given_range
 from viscontact.units.parsing import parse_any_quantity, parse_quantity
 
 #: Unknowns that are no keys of the case.
@@ -69,10 +69,11 @@ def unknowns_of(
     if contact_point is not None:
         names = [f"{CONTACT_POINT}[{n + 1}]" for n in range(records)]
         for name in names if records > 1 else [CONTACT_POINT]:
-            bounds = _range(CONTACT_POINT, name, contact_point, "length")
+            bounds = _of_dimension(CONTACT_POINT, name, contact_point, "length")
             found.append(Unknown(bounds, _MIDDLE))
     if machine_stiffness is not None:
-        bounds = _range(MACHINE_STIFFNESS, MACHINE_STIFFNESS, machine_stiffness, "stiffness")
+        name = MACHINE_STIFFNESS
+        bounds = _of_dimension(name, name, machine_stiffness, "stiffness")
         if parse_any_quantity(bounds.value(0.0))[0] <= 0:
             raise ValueError(f"{MACHINE_STIFFNESS}: must be above zero, got {bounds.value(0.0)}")
         found.append(Unknown(bounds, _MIDDLE))
@@ -105,25 +106,19 @@ def _of_case(key: str, given: Any, case: Case) -> Unknown:
         )
     if not key_path(key):
         raise ValueError(f"change: {key}: is no key; write e.g. material.shear_modulus")
-    bounds = _range("change", key, given)
+    bounds = given_range("change", key, given)
     return Unknown(bounds, _own_part(bounds, value_at(case.document.data, key_path(key))))
 
 
-def _range(argument: str, name: str, given: Any, dimension: str = "") -> Range:
-    bounds = [str(each) for each in given] if isinstance(given, tuple | list) else []
-    place = argument if argument != "change" else f"change: {name}"
-    if len(bounds) not in (2, 3) or bounds[2:] not in ([], ["log"]):
-        raise ValueError(
-            f"{place}: must be two bounds, as ('1 MPa', '1 GPa'), and 'log' for a logarithmic "
-            f"scale, got {given!r}"
-        )
+def _of_dimension(name: str, key: str, given: Any, dimension: str) -> Range:
+    """Range of an unknown that is no key of the case."""
+    found = given_range(name, name, given)
     try:
-        if dimension:
-            for text in bounds[:2]:
-                parse_quantity(text, dimension)
-        return bounded(name, *bounds[:2], logarithmic=bool(bounds[2:]))
+        for text in list(given)[:2]:
+            parse_quantity(str(text), dimension)
     except ValueError as error:
-        raise ValueError(f"{place}: {error}") from None
+        raise ValueError(f"{name}: {error}") from None
+    return replace(found, key=key)
 
 
 def _own_part(bounds: Range, own: Any) -> float:

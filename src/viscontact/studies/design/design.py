@@ -26,7 +26,7 @@ from viscontact.studies.design.conclusions import (
 from viscontact.studies.design.evaluated_trials import Trials
 from viscontact.studies.design.goals import Goal, constraints_of, goals_of
 from viscontact.studies.design.objectives import Objective
-from viscontact.studies.design.parameters import Space, space_of
+from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.result import DesignResult, table_of
 from viscontact.studies.design.result_files import write_result
@@ -38,6 +38,7 @@ from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation, Level, Progress
 from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
+from viscontact.studies.space import Space
 from viscontact.units.numbers import whole
 
 #: Most runs of a search, where none are given.

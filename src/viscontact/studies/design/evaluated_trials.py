@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from viscontact.studies.design.goals import Constraint, Goal, Value
-from viscontact.studies.design.parameters import Space
 from viscontact.studies.design.search import Foreseen, Point
 from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level, Outcome, StudyRun
+from viscontact.studies.space import Space
 
 #: Runs of a trial with some values, on cells of a level, one for each scenario.
 RunsOf = Callable[[Mapping[str, str], Level], Sequence[StudyRun]]

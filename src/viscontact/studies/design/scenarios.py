@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
 
-from viscontact.studies.design.parameters import Choice, Space
+from viscontact.studies.space import Choice, Range, Space, given_scatter
 from viscontact.studies.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
-from viscontact.studies.sweep.sampling import Range, range_of
 from viscontact.units.parsing import parse_any_quantity
 from viscontact.units.tolerances import read_toleranced
 
@@ -102,28 +101,14 @@ def _scattered(
     choices = {each.key for each in space.parameters if isinstance(each, Choice)}
     found = []
     for key, bounds in given.items():
-        try:
-            found.append(range_of(key, _bounds(bounds, is_changed=key in space.keys)))
-        except ValueError as error:
-            raise ValueError(f"scatter: {key}: {error}") from None
+        if key in space.keys and isinstance(bounds, str) and (own_one := read_toleranced(bounds)):
+            bounds = f"± {own_one.deviation}"  # which of a parameter is all
+        found.append(given_scatter("scatter", key, bounds, is_sampled=False).bounds)
         if key in choices:
             raise ValueError(f"scatter: {key}: is a choice between values, which cannot deviate")
         if key in space.keys:
             _require_deviations(found[-1], own)
     return found
-
-
-def _bounds(given: Any, *, is_changed: bool) -> tuple[str, ...]:
-    """Texts of both bounds, or of a number with its tolerance, which of a parameter is all."""
-    if isinstance(given, str):
-        toleranced = read_toleranced(given) if is_changed else None
-        return (f"± {toleranced.deviation}" if toleranced else given,)
-    if not isinstance(given, tuple) or len(given) != 2:
-        raise ValueError(
-            "must be a tuple of two bounds, as ('0.36', '0.40'), or a number with its tolerance, "
-            f"as '0.38 ± 0.02', got {given!r}"
-        )
-    return tuple(map(str, given))
 
 
 def _require_deviations(found: Range, own: Mapping[str, str]) -> None:

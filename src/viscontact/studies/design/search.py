@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import direct, minimize
 
-from viscontact.studies.design.parameters import Choice, Space
 from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Level
+from viscontact.studies.space import Choice, Space
 
 Point = tuple[float, ...]
 

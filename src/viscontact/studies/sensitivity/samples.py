@@ -4,56 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from scipy.stats import norm, qmc
+from scipy.stats import qmc
 
 from viscontact.backend.arrays import Floats
 from viscontact.studies.sensitivity.inputs import NO_INPUTS
-from viscontact.studies.sweep.sampling import Range, range_of
+from viscontact.studies.space import Scatter, given_scatter
 from viscontact.units.numbers import whole
 
-Shape = Literal["uniform", "log", "normal"]
-
-#: Part of a normal distribution between its bounds.
-BETWEEN = 0.95
 #: Largest number of samples.
 MOST_SAMPLES = 2**14
-
-
-@dataclass(frozen=True)
-class Scattered:
-    """Input that scatters: uniform between two bounds, also of its logarithm, or normal.
-
-    >>> middle = Scattered(Range("load.force", 1.0, 4.0, "kN"), "uniform")
-    >>> middle.value(0.5), replace(middle, shape="log").value(0.5)
-    ('2.5 kN', '2 kN')
-    >>> replace(middle, shape="normal").value(0.025)  # 95 % lie between the bounds
-    '1 kN'
-    """
-
-    bounds: Range
-    shape: Shape
-
-    @property
-    def key(self) -> str:
-        """Key of the case."""
-        return self.bounds.key
-
-    def value(self, part: float) -> str:
-        """Value below which a part of the distribution lies, as ``--set`` takes it."""
-        if self.shape != "normal":
-            return replace(self.bounds, logarithmic=self.shape == "log").value(part)
-        tail = (1 - BETWEEN) / 2
-        within = float(norm.ppf(min(max(part, 1e-12), 1 - 1e-12)) / norm.ppf(1 - tail))
-        return self.bounds.value((within + 1) / 2)
-
-    def __str__(self) -> str:
-        low, high = self.bounds.value(0.0), self.bounds.value(1.0)
-        said = {"uniform": "", "log": ", uniform logarithm", "normal": ", normal (95 %)"}
-        return f"{low} to {high}{said[self.shape]}"
 
 
 @dataclass(frozen=True)
@@ -63,7 +26,7 @@ class Samples:
     Points of one scrambled Sobol' sequence of twice as many dimensions (Saltelli and others 2010).
     """
 
-    inputs: tuple[Scattered, ...]
+    inputs: tuple[Scatter, ...]
     count: int  # of each sample, a power of two
     seed: int
 
@@ -112,24 +75,9 @@ def samples_of(
     return Samples(inputs, count, start), [note] if count != wanted else []
 
 
-def _scattered(key: str, given: Any) -> Scattered:
-    texts = [given] if isinstance(given, str) else given if isinstance(given, tuple | list) else []
-    texts = [str(each) for each in texts]
-    shape: Shape = "uniform"
-    if len(texts) > 1 and texts[-1] in ("log", "normal"):
-        shape = "log" if texts[-1] == "log" else "normal"
-        texts.pop()
-    if len(texts) not in (1, 2):
-        raise ValueError(
-            f"scatter: {key}: must be two bounds, as ('9 kN', '11 kN'), or a number with its "
-            "tolerance, as '10 kN ± 1 kN', and 'log' or 'normal' for another distribution than a "
-            f"uniform one, got {given!r}"
-        )
+def _scattered(key: str, given: Any) -> Scatter:
     if key.partition(".")[0] in NO_INPUTS:
         raise ValueError(
             f"scatter: {key}: cells, steps and output of a case are no inputs of the contact"
         )
-    try:
-        return Scattered(range_of(key, texts, logarithmic=shape == "log"), shape)
-    except ValueError as error:
-        raise ValueError(f"scatter: {key}: {error}") from None
+    return given_scatter("scatter", key, given, is_sampled=True)

@@ -18,6 +18,8 @@ import xarray as xr
 from viscontact.case import Case, CaseError, read_case
 from viscontact.runs.command_error import CommandError
 from viscontact.runs.single import simulate
+from viscontact.studies.case_values import without_option
+from viscontact.studies.space import given_range
 from viscontact.studies.sweep.common_cells import (
     KEY,
     common_cells,
@@ -32,8 +34,6 @@ from viscontact.studies.sweep.sampling import (
     METHODS,
     MOST_RUNS,
     Method,
-    Range,
-    bounded,
     sample_design,
 )
 from viscontact.units.numbers import whole
@@ -226,22 +226,8 @@ def _sample(values: Mapping[str, Any], runs: int | None, seed: int, method: str)
     if method not in METHODS:
         raise ValueError(f"method: must be {' or '.join(map(repr, METHODS))}, got {method!r}")
     number, start = whole("runs", runs, 1, MOST_RUNS), whole("seed", seed, 0)
-    ranges = [_range(key, given) for key, given in values.items()]
+    ranges = [given_range("values", key, given) for key, given in values.items()]
     return sample_design(ranges, number, start, method)
-
-
-def _range(key: str, given: Any) -> Range:
-    is_list = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str)
-    bounds = list(map(_text, given)) if is_list else []
-    if len(bounds) not in (2, 3) or bounds[2:] not in ([], ["log"]):
-        raise ValueError(
-            f"values: {key}: must be two bounds of the sample, as ('1 N', '1 kN'), and 'log' for a "
-            f"logarithmic scale, got {given!r}"
-        )
-    try:
-        return bounded(key, *bounds[:2], logarithmic=bool(bounds[2:]))
-    except ValueError as error:
-        raise ValueError(f"values: {key}: {error}") from None
 
 
 def _texts(key: str, given: Sequence[Any]) -> list[str]:
@@ -281,11 +267,7 @@ def _case_errors(place: str = "") -> Iterator[None]:
     try:
         yield
     except CommandError as error:
-        raise CaseError(*(f"{place}{_without_option(line)}" for line in error.lines)) from None
+        raise CaseError(*(f"{place}{without_option(line)}" for line in error.lines)) from None
     except CaseError as error:
-        lines = (f"{place}{_without_option(line)}" for line in error.problems)
+        lines = (f"{place}{without_option(line)}" for line in error.problems)
         raise CaseError(*lines) from None
-
-
-def _without_option(problem: str) -> str:
-    return problem.removeprefix("--set ")

@@ -14,7 +14,6 @@ from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import LogarithmicProfile
 from viscontact.studies.case_values import fingerprint, require_instant, require_place, texts
-from viscontact.studies.design.parameters import Space
 from viscontact.studies.design.profiles.comparison import FoundProfiles, compared
 from viscontact.studies.design.profiles.convex_curve import ConvexCurves
 from viscontact.studies.design.profiles.deviations import deviating
@@ -29,6 +28,7 @@ from viscontact.studies.design.scenarios import scenarios_of
 from viscontact.studies.evaluation import Budget, Evaluation
 from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
+from viscontact.studies.space import Space
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import non_negative, whole
 
