@@ -4,14 +4,40 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
+import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.case import Case, CaseError, read_case
-from viscontact.units.formatting import format_quantity
+from viscontact.results.run_axis import SPEED, TIME, RunAxis
+from viscontact.runs.single import simulate
+from viscontact.steady.run import steady
+
+
+def case_path(case: str | PathLike[str]) -> Path:
+    """Path of the case file of a study; ValueError for objects in its place."""
+    if isinstance(case, str | PathLike):
+        return Path(case)
+    raise ValueError(
+        "case: must be the path of a case file, whose keys the study changes, got "
+        f"{type(case).__name__}; simulate_many takes runs of Python objects"
+    )
+
+
+def result_of(case: Case) -> xr.Dataset:
+    """Result of a case, over time or over speed."""
+    names = ["indenter", "material", "load", "grid", "indenter_material"]
+    names += ["tolerance", "fields", "errors"]
+    given: dict[str, Any] = {name: getattr(case, name) for name in names}
+    if (motion := case.steady) is None:
+        given |= {"times": case.times, "motion": case.motion}
+        return simulate(**given)
+    given |= {"speed": motion.speeds, "along": motion.along, "rolling": motion.rolling}
+    return steady(**given)
 
 
 def texts(settings: Mapping[str, Any] | None) -> dict[str, str]:
@@ -45,22 +71,29 @@ def refuse_repeated(**groups: Sequence[str]) -> None:
     ValueError: load.force: is given twice, in change or settings; give it once
     """
     *others, last = groups
+    where = f", in {', '.join(others)} or {last}" if others else ""
     keys = [key for group in groups.values() for key in group]
     for key in keys:
         if keys.count(key) > 1:
-            where = f"{', '.join(others)} or {last}"
-            raise ValueError(f"{key}: is given twice, in {where}; give it once")
+            raise ValueError(f"{key}: is given twice{where}; give it once")
 
 
-def require_instant(instants: Floats, time: float) -> None:
-    """Raise ValueError if a time [s] is none of the instants."""
-    near = float(instants[np.abs(instants - time).argmin()])
-    if not np.isclose(near, time, rtol=1e-9, atol=0):
-        wanted, found = (format_quantity(each, "s") for each in (time, near))
-        raise ValueError(f"at: {wanted} is no instant of the case; the nearest one is {found}")
+def places_of(case: Case) -> tuple[RunAxis, Floats]:
+    """Instants [s] of a case, those that adaptive steps are known to have, or its speeds [m/s]."""
+    if case.steady is not None:
+        return SPEED, np.array(case.steady.speeds)
+    return TIME, case.instants if case.adaptive is None else np.array([0.0, case.adaptive.end])
 
 
-def require_place(at: Any) -> None:
-    """Raise ValueError unless an instant is "worst", "end" or a time."""
-    if isinstance(at, str) and at not in ("worst", "end"):
-        raise ValueError(f"at: must be 'worst', 'end' or a time [s], got {at!r}")
+def require_instant(case: Case, at: Literal["worst", "end"] | float) -> None:
+    """Raise ValueError unless a place is "worst", "end", or an instant [s] or speed of the case."""
+    axis, places = places_of(case)
+    if isinstance(at, str):
+        if at not in ("worst", "end"):
+            raise ValueError(f"at: must be 'worst', 'end' or a {axis.name}, got {at!r}")
+        return
+    near = float(places[np.abs(places - at).argmin()])
+    # Adaptive steps end at instants that are not known before.
+    if case.adaptive is None and not np.isclose(near, at, rtol=1e-9, atol=0):
+        wanted, found = axis.quantity(at), axis.quantity(near)
+        raise ValueError(f"at: {wanted} is no {axis.row} of the case; the nearest one is {found}")

@@ -20,8 +20,8 @@ Progress = Callable[[int, int], None]
 
 #: Cells of a run: coarse ones of a search, or those of the case.
 Level = Literal["coarse", "case"]
-#: Outcome of a run, as JSON has it.
-Outcome = Mapping[str, Any]
+#: Entry of a run in a journal, as JSON has it.
+Entry = Mapping[str, Any]
 
 
 class BudgetSpentError(Exception):
@@ -35,7 +35,7 @@ class StudyRun(Protocol):
     def key(self) -> str:
         """Values that the outcome depends on, as text."""
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Compute the outcome.
 
         ValueError, ConvergenceError or DomainError if the run fails.
@@ -73,12 +73,12 @@ class Evaluation:
     workers: ChosenWorkers = IN_THIS_PROCESS
     journal: Journal | None = None
     progress: Progress | None = None
-    known: dict[str, Outcome] = field(default_factory=dict)
-    _begun: dict[str, Callable[[], Outcome]] = field(default_factory=dict)
+    known: dict[str, Entry] = field(default_factory=dict)
+    _begun: dict[str, Callable[[], Entry]] = field(default_factory=dict)
 
     def outcomes(
         self, runs: Sequence[StudyRun], ahead: Ahead | None = None, *, is_limited: bool = True
-    ) -> list[Outcome]:
+    ) -> list[Entry]:
         """Outcomes of some runs; BudgetSpentError if they are too many and the number is limited.
 
         Workers that are free compute groups of runs that are likely to follow. Those that are never
@@ -123,7 +123,7 @@ class Evaluation:
         else:
             self._begun[run.key] = partial(_awaited, executor.submit(_attempt, run))
 
-    def _outcome(self, key: str) -> Outcome:
+    def _outcome(self, key: str) -> Entry:
         if self.journal is None:
             return self._begun.pop(key)()
         if key not in self.journal.recorded:
@@ -131,7 +131,7 @@ class Evaluation:
         return self.journal.recorded[key]
 
 
-def _attempt(run: StudyRun) -> Outcome:
+def _attempt(run: StudyRun) -> Entry:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # they are kept with the outcome
         try:
@@ -140,7 +140,7 @@ def _attempt(run: StudyRun) -> Outcome:
             return {"failure": str(error).splitlines()[0]}
 
 
-def _awaited(future: Future[Outcome]) -> Outcome:
+def _awaited(future: Future[Entry]) -> Entry:
     try:
         return future.result()
     except BrokenExecutor as error:

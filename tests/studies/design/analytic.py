@@ -15,7 +15,7 @@ from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial, goal_name
-from viscontact.studies.evaluation import Budget, Evaluation, Level, Outcome
+from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level
 from viscontact.studies.executors.chosen import ChosenWorkers
 
 #: Values of the parameters to the objective and, by name of the constraint, the other scalars.
@@ -31,7 +31,7 @@ class FunctionInPlaceOfARun:
     goals: tuple[Goal, ...]
     settings: Mapping[str, str]
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Evaluate the function."""
         if not self.settings:
             return {"failure": "the case itself is not tried"}

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import viscontact as vc
+from viscontact.case import read_case
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.scenarios import scenarios_of
 
@@ -145,9 +146,40 @@ def test_a_tolerance_of_the_case_that_does_not_scatter_is_noted(ball: Path) -> N
     assert not any("tolerances" in note for note in found.notes)
 
 
-def test_steady_motion_is_refused_by_name(tmp_path: Path) -> None:
+STEADY = """
+indenter: {shape: sphere, radius: 5 mm}
+material: {law: zener, shear_modulus: 4 MPa, delayed_modulus: 2 MPa, viscosity: 1 MPa s,
+  poisson_ratio: 0.45}
+load: {kind: step, force: 0.5 N, tilt_x: 0 rad, tilt_y: 0 rad}
+motion: {kind: steady, speed: [0.01 m/s, 0.1 m/s], along: x, rolling: true}
+grid: {shape: [32, 32], size: [3.2 mm, 3.2 mm]}
+"""
+
+
+def test_a_design_of_a_rolling_body_counts_the_resistance_at_a_speed(tmp_path: Path) -> None:
     path = tmp_path / "rolling.yaml"
-    moved = "motion: {kind: steady, speed: 0.5 m/s, along: y, rolling: true}"
-    path.write_text(BALL.replace("time: {end: 1 s, steps: 1}", moved))
-    with pytest.raises(ValueError, match="is in steady motion; a design takes a case over time"):
-        vc.design(path, {"indenter.radius": ("4 mm", "6 mm")}, minimise="approach", workers=1)
+    path.write_text(STEADY)
+    change = {"indenter.radius": ["4 mm", "6 mm"]}
+    found = vc.design(path, change, minimise="friction_coefficient", at=0.01, workers=1)
+    case = read_case(path)
+    contact = (vc.Sphere(6e-3), case.material, case.load, case.steady.speeds)  # type: ignore[union-attr]
+    ds = vc.steady(*contact, along="x", rolling=True, grid=case.grid)  # type: ignore[arg-type]
+    assert found.settings == {"indenter.radius": "6 mm"}
+    assert float(found.best.friction_coefficient) == float(ds.friction_coefficient[0])
+    with pytest.raises(ValueError, match="at: 500 mm/s is no speed of the case; the nearest one"):
+        vc.design(path, change, minimise="friction_coefficient", at=0.5, workers=1)
+
+
+@pytest.mark.parametrize(
+    "study",
+    [
+        lambda body: vc.design(body, FORCE, minimise="approach"),
+        vc.design_profile,
+        lambda body: vc.sensitivity(body, "approach"),
+        lambda body: vc.fit_case(body, [], FORCE),
+    ],
+)
+def test_objects_in_place_of_a_case_file_are_refused_by_name(study: Any) -> None:
+    with pytest.raises(ValueError, match="case: must be the path of a case file") as refusal:
+        study(vc.Sphere(0.01))
+    assert "got Sphere; simulate_many takes runs of Python objects" in str(refusal.value)

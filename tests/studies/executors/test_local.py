@@ -26,7 +26,7 @@ from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.executors import task as tasks
 from viscontact.studies.executors.driver import drive
 from viscontact.studies.executors.local import LocalTasks, LocalWorkers
-from viscontact.studies.executors.task import Outcome, Task, perform
+from viscontact.studies.executors.task import Task, TaskEnd, perform
 from viscontact.studies.executors.worker import WorkerRequests, perform_in_worker
 
 CASE = (
@@ -331,9 +331,9 @@ def test_file_requests_a_task_to_stop_and_no_further_one_begins(
 
     threading.Thread(target=ask, daemon=True).start()
     outcome = perform(Task(request, case.parent / "a", "", stop))
-    assert outcome == Outcome("interrupted", 130)
+    assert outcome == TaskEnd("interrupted", 130)
     with xr.open_dataset(case.parent / "a" / RESULT_NAME) as ds:
         assert 2 < ds.sizes["time"] == lines(log) < 4001
-    assert perform(Task(request, case.parent / "b", "", stop)) == Outcome("not begun", 130)
+    assert perform(Task(request, case.parent / "b", "", stop)) == TaskEnd("not begun", 130)
     assert not (case.parent / "b").exists()
     assert not (case.parent / "a" / FAILURE_NAME).exists()

@@ -111,7 +111,7 @@ REFUSED = {
     "scattered key": ({"scatter": {"load.farce": ("1 N", "2 N")}}, "farce"),
     "twice scattered": (
         {"scatter": {"load.force": ("1 N", "2 N")}, "settings": {"load.force": "1 N"}},
-        "scatter: load.force: is given twice",
+        "load.force: is given twice, in scatter or settings",
     ),
     "adaptive": (
         {"settings": {"time": "{end: 1 s, spacing: adaptive}"}},

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from os import PathLike
-from pathlib import Path
 from typing import Any, Literal
 from warnings import warn
 
@@ -25,7 +24,13 @@ from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.result import CaseFit, result_of
 from viscontact.studies.calibration.search import Optimum, search
 from viscontact.studies.calibration.unknowns import Unknown, unknowns_of
-from viscontact.studies.case_values import case_with, fingerprint, refuse_repeated, texts
+from viscontact.studies.case_values import (
+    case_path,
+    case_with,
+    fingerprint,
+    refuse_repeated,
+    texts,
+)
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
 from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_at
@@ -158,7 +163,7 @@ def fit_case(  # noqa: PLR0913
     '2e-06 m'
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), texts(settings)
+    path, fixed = case_path(case), texts(settings)
     if not 0 < confidence < 1:
         raise ValueError(f"confidence: must lie between 0 and 1, got {confidence!r}")
     if drive not in (None, "force", "approach", "case"):

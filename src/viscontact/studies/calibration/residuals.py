@@ -17,7 +17,7 @@ from viscontact.studies.calibration.unknowns import (
     is_of_machine,
     values_at,
 )
-from viscontact.studies.evaluation import Evaluation, Level, Outcome
+from viscontact.studies.evaluation import Entry, Evaluation, Level
 from viscontact.units.parsing import parse_any_quantity
 
 #: Part of the largest force below which the approach may be that of a body without contact.
@@ -63,7 +63,7 @@ class Residuals:
         return np.concatenate(parts)
 
     def _compared(
-        self, responses: Sequence[Response], outcomes: Sequence[Outcome], values: Mapping[str, str]
+        self, responses: Sequence[Response], outcomes: Sequence[Entry], values: Mapping[str, str]
     ) -> list[tuple[Floats, Bools]] | str:
         try:
             return [
@@ -94,7 +94,7 @@ class Residuals:
         return Mounting(point, 1.0 / parse_any_quantity(values[MACHINE_STIFFNESS])[0])
 
     def _one(
-        self, run: Response, outcome: Outcome, values: Mapping[str, str]
+        self, run: Response, outcome: Entry, values: Mapping[str, str]
     ) -> tuple[Floats, Bools]:
         """Fitted values of a record, and the mask of the rows that count."""
         if "failure" in outcome:

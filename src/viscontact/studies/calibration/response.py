@@ -21,7 +21,7 @@ from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.studies.calibration.record import ContactRecord, Drive, compared_column
 from viscontact.studies.case_values import case_with
-from viscontact.studies.evaluation import Level, Outcome
+from viscontact.studies.evaluation import Entry, Level
 
 #: Cells of the search across the longer and the shorter edge of the grid, at least, if the case has
 #: more.
@@ -82,7 +82,7 @@ class Response:
         point, compliance = self.mounting.contact_point, self.mounting.compliance
         return f"{self.level} {self.experiment.number} {point!r} {compliance!r} {values}"
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Simulate the run."""
         test = self.experiment
         cells = test.own_cells if self.level == "case" else test.coarse_cells

@@ -11,6 +11,7 @@ from typing import Any, Literal
 from viscontact.case import Case
 from viscontact.case.errors import dotted
 from viscontact.studies.case_values import (
+    case_path,
     case_with,
     fingerprint,
     refuse_repeated,
@@ -159,7 +160,7 @@ def design(  # noqa: PLR0913
     True
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), texts(settings)
+    path, fixed = case_path(case), texts(settings)
     goals, limits = goals_of(minimise, maximise, at), constraints_of(constraints)
     space = space_of(change)
     others = {"over": tuple(over or ()), "settings": tuple(fixed)}
@@ -270,10 +271,7 @@ def _checked(
         return case_with(path, {**fixed, **scenario.settings(trial)})
 
     own = read(scenarios[0], {})
-    if own.steady is not None:
-        raise ValueError(f"{path}: is in steady motion; a design takes a case over time")
-    if own.adaptive is None and not isinstance(goal.at, str):
-        require_instant(own.instants, goal.at)
+    require_instant(own, goal.at)
     for corner in space.corners():
         for each in scenarios:
             if each is scenarios[0] or each.deviations:

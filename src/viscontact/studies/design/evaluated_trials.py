@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from viscontact.studies.design.goals import Constraint, Goal, Value
 from viscontact.studies.design.search import Foreseen, Point
 from viscontact.studies.design.trials import ScenarioResult, Trial
-from viscontact.studies.evaluation import Budget, Evaluation, Level, Outcome, StudyRun
+from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level, StudyRun
 from viscontact.studies.space import Space
 
 #: Runs of a trial with some values, on cells of a level, one for each scenario.
@@ -65,7 +65,7 @@ class Trials:
         return trial
 
 
-def _result(outcome: Outcome) -> ScenarioResult:
+def _result(outcome: Entry) -> ScenarioResult:
     if "failure" in outcome:
         return ScenarioResult({}, outcome["failure"])
     values = {name: Value(*each) for name, each in outcome["values"].items()}

@@ -12,12 +12,13 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS, scalars_with_error
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_any_quantity
 
-#: Instant of a goal: that of the worst value, the last one, or a time [s].
+#: Instant of a goal: that of the worst value, the last one, or a time [s] or speed [m/s].
 At = Literal["worst", "end"] | float
 #: Scalars that are to be least, or largest.
 Names = str | Sequence[str] | None
@@ -110,12 +111,12 @@ def magnitude(results: xr.Dataset, scalar: str, at: At, *, largest: bool) -> Val
         # A value without a limit at any instant is the worst, whatever its number is here.
         unlimited = bool(largest and np.isposinf(errors).any())
         return Value(float(sizes[row]), math.inf if unlimited else float(errors[row]))
-    times = np.asarray(results["time"].values, dtype=float)
-    row = len(times) - 1 if at == "end" else int(np.abs(times - float(at)).argmin())
-    if at != "end" and not math.isclose(times[row], float(at), rel_tol=1e-9, abs_tol=1e-15):
-        near = format_quantity(float(times[row]), "s")
-        wanted = format_quantity(float(at), "s")
-        raise ValueError(f"at: {wanted} is no instant of the run; the nearest one is {near}")
+    axis = run_axis(results)
+    places = axis.values(results)
+    row = len(places) - 1 if at == "end" else int(np.abs(places - float(at)).argmin())
+    if at != "end" and not math.isclose(places[row], float(at), rel_tol=1e-9, abs_tol=1e-15):
+        near, wanted = axis.quantity(places[row]), axis.quantity(float(at))
+        raise ValueError(f"at: {wanted} is no {axis.row} of the run; the nearest one is {near}")
     return Value(float(sizes[row]), float(errors[row]))
 
 

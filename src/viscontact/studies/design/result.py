@@ -16,6 +16,7 @@ from viscontact.display import write_study_report
 from viscontact.errors import AccuracyWarning
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS, error_name
+from viscontact.studies.case_values import places_of
 from viscontact.studies.design.goals import Constraint, Goal, Value
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.trade_off import costs_of, not_dominated
@@ -160,9 +161,9 @@ class DesignResult:
 
     def _run(self, settings: Mapping[str, str]) -> xr.Dataset:
         run = self._varied(settings)
-        instants = read_case(self.case, run.assignments).instants
-        ends = dict.fromkeys((float(instants[0]), float(instants[-1])))
-        fields = f"[{', '.join(f'{time!r} s' for time in ends)}]"
+        axis, places = places_of(read_case(self.case, run.assignments))
+        ends = dict.fromkeys((float(places[0]), float(places[-1])))
+        fields = f"[{', '.join(f'{place!r} {axis.unit}' for place in ends)}]"
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
             return replace(run, settings={**run.settings, "output.fields": fields})()

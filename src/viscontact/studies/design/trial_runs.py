@@ -9,14 +9,12 @@ from pathlib import Path
 
 from viscontact.case import Case
 from viscontact.grid import Grid
-from viscontact.runs.single import simulate
-from viscontact.studies.case_values import case_with
+from viscontact.studies.case_values import case_with, result_of
 from viscontact.studies.design.goals import Constraint, Goal, magnitude
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.design.trials import REACH, goal_name
-from viscontact.studies.evaluation import Level, Outcome
-from viscontact.studies.sweep.varied_runs import arguments_of
+from viscontact.studies.evaluation import Entry, Level
 
 #: Relative error of an automatic grid in the search, unless the case allows more.
 COARSE_TOLERANCE = 0.05
@@ -65,10 +63,10 @@ class TrialRun:
     goals: tuple[Goal, ...]
     constraints: tuple[Constraint, ...]
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Simulate the run; values with their errors, by name."""
         case = case_with(self.case, self.settings)
-        found = simulate(**arguments_of(case))
+        found = result_of(case)
         values = {goal_name(goal): goal.value(found) for goal in self.goals}
         values |= {str(each): each.value(found) for each in self.constraints}
         values[REACH] = magnitude(found, REACH, "worst", largest=True)

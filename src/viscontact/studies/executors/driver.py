@@ -19,7 +19,7 @@ from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.progress import Course
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED
-from viscontact.studies.executors.task import Outcome, RecordedTask, Task
+from viscontact.studies.executors.task import RecordedTask, Task, TaskEnd
 
 #: Time between two looks at the progress of the runs [s], and number of runs in each look.
 PAUSE, LOOKS = 0.05, 64
@@ -31,7 +31,7 @@ class Active:
 
     job: Job
     course: Course
-    future: Future[Outcome]
+    future: Future[TaskEnd]
 
 
 class Display(Protocol):
@@ -51,7 +51,7 @@ class Workers(Protocol):
     def most(self) -> int:
         """Largest number of tasks that are submitted at the same time."""
 
-    def submit(self, task: RecordedTask, memory: float) -> Future[Outcome]:
+    def submit(self, task: RecordedTask, memory: float) -> Future[TaskEnd]:
         """Submit a task, whose memory is given in bytes."""
 
     def ask_to_stop(self) -> None:
@@ -93,8 +93,8 @@ class _Driver:
         task_of: MakeTask,
     ) -> None:
         self._waiting, self._token = deque(jobs), uuid.uuid4().hex
-        self._active: dict[Future[Outcome], Active] = {}
-        self._finished: SimpleQueue[Future[Outcome]] = SimpleQueue()
+        self._active: dict[Future[TaskEnd], Active] = {}
+        self._finished: SimpleQueue[Future[TaskEnd]] = SimpleQueue()
         self._ended: list[Ended] = []
         self._workers, self._stops, self._display = workers, stops, display
         self._task_of = task_of

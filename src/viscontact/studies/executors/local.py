@@ -14,7 +14,7 @@ from functools import partial
 from multiprocessing import resource_tracker
 from typing import Any
 
-from viscontact.studies.executors.task import ATTEMPTS, Outcome, RecordedTask
+from viscontact.studies.executors.task import ATTEMPTS, RecordedTask, TaskEnd
 from viscontact.studies.executors.worker import GROUP_SIGNALS, begin_worker, perform_in_worker
 
 #: A fork would copy threads' locks.
@@ -193,7 +193,7 @@ class LocalTasks:
         """As many tasks as workers, and one more that need not wait for its submission."""
         return self.count + 1
 
-    def submit(self, task: RecordedTask, memory: float) -> Future[Outcome]:
+    def submit(self, task: RecordedTask, memory: float) -> Future[TaskEnd]:
         """Submit a task."""
         return self.workers.submit(perform_in_worker, task)
 

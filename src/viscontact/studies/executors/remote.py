@@ -12,7 +12,7 @@ from typing import Self
 
 from viscontact.run_files import STOP_NAME
 from viscontact.runs.machine.threads import limit_threads
-from viscontact.studies.executors.task import Outcome, RecordedTask, perform
+from viscontact.studies.executors.task import RecordedTask, TaskEnd, perform
 
 #: Largest number of tasks that are submitted at the same time.
 _MOST = 10_000
@@ -32,7 +32,7 @@ class RemoteTasks:
     ) -> None:
         self._remedy = remedy
         self._executor, self._stop = executor, directory.absolute() / STOP_NAME
-        self._futures: set[Future[Outcome]] = set()
+        self._futures: set[Future[TaskEnd]] = set()
         self._requests = 0
 
     def __enter__(self) -> Self:
@@ -50,7 +50,7 @@ class RemoteTasks:
         """Largest number of tasks that are submitted at the same time."""
         return _MOST
 
-    def submit(self, task: RecordedTask, memory: float) -> Future[Outcome]:
+    def submit(self, task: RecordedTask, memory: float) -> Future[TaskEnd]:
         """Submit a task with absolute paths."""
         whole = task.elsewhere(self._stop)
         future = self._executor(memory).submit(perform_elsewhere, whole, os.getpid())
@@ -58,7 +58,7 @@ class RemoteTasks:
         future.add_done_callback(self._forget)
         return future
 
-    def _forget(self, future: Future[Outcome]) -> None:
+    def _forget(self, future: Future[TaskEnd]) -> None:
         if not future.cancelled():  # a cancelled task may be at work
             self._futures.discard(future)
 
@@ -81,7 +81,7 @@ class RemoteTasks:
         return "stopped", f"the run could not be computed: {type(error).__name__}: {said}"
 
 
-def perform_elsewhere(task: RecordedTask, submitter: int) -> Outcome:
+def perform_elsewhere(task: RecordedTask, submitter: int) -> TaskEnd:
     """Perform a task in a process that other work may share, unless it is the submitting one."""
     if os.getpid() == submitter:
         with limit_threads():

@@ -28,9 +28,9 @@ from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.request import DONE, INTERRUPTED, STOPPED
 from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.setup import prepare_run
-from viscontact.studies.executors.task import ONE_AT_A_TIME, Outcome
+from viscontact.studies.executors.task import ONE_AT_A_TIME, TaskEnd
 
-_INTERRUPTED = Outcome("interrupted", INTERRUPTED)
+_INTERRUPTED = TaskEnd("interrupted", INTERRUPTED)
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class SimulationTask:
     directory: Path
     stop: Path | None = None
 
-    def compute(self, stops: StopRequests) -> Outcome:
+    def compute(self, stops: StopRequests) -> TaskEnd:
         """Compute the run, or what is left of it."""
         try:
             with ONE_AT_A_TIME:
@@ -49,24 +49,24 @@ class SimulationTask:
         except KeyboardInterrupt:
             return _INTERRUPTED
         except CommandError as end:
-            return Outcome("refused", STOPPED, end.lines)
+            return TaskEnd("refused", STOPPED, end.lines)
         except (ConvergenceError, DomainError, OSError, MemoryError) as error:
-            return Outcome("stopped", STOPPED, (_said(error),))
+            return TaskEnd("stopped", STOPPED, (_said(error),))
         except (ValueError, TypeError) as error:
-            return Outcome("refused", STOPPED, (_said(error),))
+            return TaskEnd("refused", STOPPED, (_said(error),))
 
     def elsewhere(self, stop: Path) -> Self:
         """Return the task with an absolute path, which the file may stop."""
         return replace(self, directory=self.directory.absolute(), stop=stop)
 
-    def _compute(self, stops: StopRequests) -> Outcome:
+    def _compute(self, stops: StopRequests) -> TaskEnd:
         recorded = recorded_simulation(self.arguments, self.directory)
         refuse_no_directory(self.directory)
         with reserved(self.directory) as check:
             remove_failure(self.directory)
             if _is_finished(recorded):
                 remove_restart_files(self.directory)
-                return Outcome("done", DONE)
+                return TaskEnd("done", DONE)
             with closing(_opened(recorded, check)) as record, stops.marching():
                 return _marched(recorded, record, stops)
 
@@ -149,7 +149,7 @@ def _opened(recorded: RecordedRun, check: LockCheck) -> Recorder:
         return Recorder(held)
 
 
-def _marched(recorded: RecordedRun, record: Recorder, stops: StopRequests) -> Outcome:
+def _marched(recorded: RecordedRun, record: Recorder, stops: StopRequests) -> TaskEnd:
     end = recorded.run.problem.end
     try:
         for state in record.steps():
@@ -161,7 +161,7 @@ def _marched(recorded: RecordedRun, record: Recorder, stops: StopRequests) -> Ou
         raise
     record.finish(record.estimate_errors(partial(_stop_if_requested, stops)))
     stops.over = True
-    return Outcome("done", DONE)
+    return TaskEnd("done", DONE)
 
 
 def _stop_if_requested(stops: StopRequests) -> None:

@@ -50,7 +50,7 @@ class Task:
     stop: Path | None = None
     digests: Digests = field(default_factory=dict)  # of the case; empty if it may change
 
-    def compute(self, stops: StopRequests) -> Outcome:
+    def compute(self, stops: StopRequests) -> TaskEnd:
         """Compute the run, or what is left of it, unless its case has changed."""
         pairs = (text.partition("=") for text in self.request.settings)
         settings = {key.strip(): value for key, _, value in pairs}
@@ -59,7 +59,7 @@ class Task:
                 f"{self.request.case}: has changed since the first run began: {', '.join(parts)}; "
                 "compute the changed case in a new directory, or undo the change and continue"
             )
-            return Outcome("refused", STOPPED, (why,))
+            return TaskEnd("refused", STOPPED, (why,))
         return _attempted(self, stops)
 
     def elsewhere(self, stop: Path) -> Self:
@@ -70,7 +70,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class TaskEnd:
     """End of a run: one word, exit code, and lines of its error output."""
 
     word: str  # "done", "refused", "stopped", "killed", "interrupted" or "not begun"
@@ -89,14 +89,14 @@ class RecordedTask(Protocol):
     def stop(self) -> Path | None:
         """File that asks the run to save and end."""
 
-    def compute(self, stops: StopRequests) -> Outcome:
+    def compute(self, stops: StopRequests) -> TaskEnd:
         """Compute the run, or what is left of it."""
 
     def elsewhere(self, stop: Path) -> Self:
         """Return the task with absolute paths, which the file may stop."""
 
 
-def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
+def perform(task: RecordedTask, stops: StopRequests | None = None) -> TaskEnd:
     """Compute a run in its directory, or what is left of it; a failure is written there.
 
     Short runs are computed in this process, one at a time; others are processes of their own.
@@ -105,11 +105,11 @@ def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
     while is_locked(task.directory) and not stops.requested:
         clock.sleep(PAUSE)  # the process of an earlier attempt, or of the run itself, is saving
     if stops.requested:
-        return Outcome("not begun", INTERRUPTED)
+        return TaskEnd("not begun", INTERRUPTED)
     above = task.directory.parent
     if not _is_there(above):  # not made again, without the manifest that it held
         why = f"{task.directory}: cannot be made: {above} has been removed meanwhile"
-        return Outcome("refused", STOPPED, (why,))
+        return TaskEnd("refused", STOPPED, (why,))
     outcome = task.compute(stops)
     if is_locked(task.directory):
         return outcome  # another run has taken it over: its files are left alone
@@ -129,7 +129,7 @@ def _is_there(directory: Path) -> bool:
     return directory.is_dir()
 
 
-def _attempted(task: Task, stops: StopRequests) -> Outcome:
+def _attempted(task: Task, stops: StopRequests) -> TaskEnd:
     """Resume an earlier attempt of this task, or begin."""
     request, mark = task.request, task.directory / ATTEMPT_NAME
     if request.resume:
@@ -146,37 +146,37 @@ def _attempted(task: Task, stops: StopRequests) -> Outcome:
         mark.write_text(task.token, encoding="utf-8")
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
-        return Outcome("refused", STOPPED, (f"{task.directory}: cannot be written: {why}",))
+        return TaskEnd("refused", STOPPED, (f"{task.directory}: cannot be written: {why}",))
     return _computed(request, task.directory, stops)
 
 
-def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Outcome:
+def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> TaskEnd:
     try:
         with ONE_AT_A_TIME:
             checked = checked_run(replace(request, output=directory, quiet=True))
             if checked.recorded.seconds <= LONGEST_WARM:
                 execute_checked(checked, Monitor(stops, _ignore, _no_progress))
-                return Outcome("done", DONE)
+                return TaskEnd("done", DONE)
         return _in_process(checked, stops)
     except CommandError as end:
         return _ended(end)
     except KeyboardInterrupt:
-        return Outcome("interrupted", INTERRUPTED)
+        return TaskEnd("interrupted", INTERRUPTED)
     except MemoryError:
-        return Outcome("stopped", STOPPED, (f"{directory}: there is too little memory",))
+        return TaskEnd("stopped", STOPPED, (f"{directory}: there is too little memory",))
     except Exception as error:
         why = f"{directory}: unexpected {type(error).__name__}: {error}"
-        return Outcome("stopped", STOPPED, (why, "this is a fault of viscontact; report it"))
+        return TaskEnd("stopped", STOPPED, (why, "this is a fault of viscontact; report it"))
 
 
-def _ended(end: CommandError) -> Outcome:
+def _ended(end: CommandError) -> TaskEnd:
     if end.code == INTERRUPTED:
-        return Outcome("interrupted", INTERRUPTED)
+        return TaskEnd("interrupted", INTERRUPTED)
     # Not the exit code of a refusal: other runs of the command have begun.
-    return Outcome("refused" if end.code == REFUSED else "stopped", STOPPED, end.lines)
+    return TaskEnd("refused" if end.code == REFUSED else "stopped", STOPPED, end.lines)
 
 
-def _in_process(checked: CheckedRun, stops: StopRequests) -> Outcome:
+def _in_process(checked: CheckedRun, stops: StopRequests) -> TaskEnd:
     """Compute a run in a process of its own, which is resumed once if it is killed."""
     job = checked.job(Standing.NEW)
     for _ in range(ATTEMPTS):
@@ -187,7 +187,7 @@ def _in_process(checked: CheckedRun, stops: StopRequests) -> Outcome:
     return ended
 
 
-def _waited_for(child: Child, stops: StopRequests) -> Outcome:
+def _waited_for(child: Child, stops: StopRequests) -> TaskEnd:
     with stops.marching():
         ended = None
         while ended is None:
@@ -198,7 +198,7 @@ def _waited_for(child: Child, stops: StopRequests) -> Outcome:
                 ended = child.ended()
             except KeyboardInterrupt:
                 child.ask_to_stop()
-    return Outcome(ended.outcome, ended.code, ended.said)
+    return TaskEnd(ended.outcome, ended.code, ended.said)
 
 
 def _ignore(line: str) -> None:

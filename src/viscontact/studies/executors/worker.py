@@ -11,7 +11,7 @@ from types import FrameType
 
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.machine.threads import limit_threads
-from viscontact.studies.executors.task import Outcome, RecordedTask, perform
+from viscontact.studies.executors.task import RecordedTask, TaskEnd, perform
 
 #: Signals that a terminal or a batch system sends to all its processes.
 GROUP_SIGNALS = tuple(
@@ -85,7 +85,7 @@ def _listen(parent: Connection) -> None:
         os._exit(1)
 
 
-def perform_in_worker(task: RecordedTask) -> Outcome:
+def perform_in_worker(task: RecordedTask) -> TaskEnd:
     """Perform a task, which the parent process may stop."""
     _REQUESTS.begin()
     try:

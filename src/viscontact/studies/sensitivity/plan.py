@@ -7,12 +7,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
-from viscontact.case import Case, CaseError, read_case
+from viscontact.case import Case, CaseError
 from viscontact.grid import Grid
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.preparation import PreparedRun, prepared
+from viscontact.studies.case_values import case_with
+from viscontact.studies.evaluation import Level
 from viscontact.studies.sensitivity.common_grid import coarser, covering, grid_setting
 from viscontact.studies.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
 from viscontact.studies.sensitivity.inputs import Input
@@ -26,9 +27,6 @@ HALVINGS = 3
 EXTREMES = (1e-4, 1 - 1e-4)
 #: Name of the run with the values of the case.
 NOMINAL = "nominal"
-
-#: Cells of a run: those of the case, or twice as long ones, which show the error of the cells.
-Cells = Literal["case", "coarse"]
 
 _WITHOUT_ERRORS = {"output.errors": "false"}
 
@@ -45,12 +43,12 @@ class Derivative:
         """Setting of the case at a point."""
         return {self.given.key: self.given.at(point * self.step)}
 
-    def run_name(self, point: int, cells: Cells = "case") -> str:
+    def run_name(self, point: int, cells: Level = "case") -> str:
         """Name of the run at a point; the nominal one has the values of the case."""
         return named(f"{self.given.key}{point:+d}" if point else NOMINAL, cells)
 
 
-def named(name: str, cells: Cells) -> str:
+def named(name: str, cells: Level) -> str:
     """Name of a run on the cells of the case, or on coarser ones."""
     return name if cells == "case" else f"{name}, coarse"
 
@@ -61,7 +59,7 @@ class Plan:
 
     case: Path
     settings: Mapping[str, str]  # of all runs
-    cells: Mapping[Cells, Mapping[str, str]]  # settings of the common grid, by kind
+    cells: Mapping[Level, Mapping[str, str]]  # settings of the common grid, by kind
     derivatives: tuple[Derivative, ...]
     samples: Samples | None = None
 
@@ -82,7 +80,7 @@ class Plan:
             yield self._run(name, {**_WITHOUT_ERRORS, **settings}, tuple(settings), "case")
 
     def _run(
-        self, name: str, own: Mapping[str, str], varied: tuple[str, ...], cells: Cells
+        self, name: str, own: Mapping[str, str], varied: tuple[str, ...], cells: Level
     ) -> VariedRun:
         settings = {**self.settings, **self.cells[cells], "output.fields": "none", **own}
         directory = re.sub(r"[^\w.+-]+", "-", name)
@@ -131,7 +129,7 @@ def _of_samples(path: Path, settings: Mapping[str, str], samples: Samples) -> li
     """Grids of the bounds of each input, and of those together that have large or small grids."""
 
     def grid(values: Mapping[str, str]) -> Grid:
-        return prepared(read_plainly(path, {**settings, **values})).run.grid
+        return prepared(case_with(path, {**settings, **values})).run.grid
 
     found, corners = [], ({}, {})  # type: tuple[list[Grid], tuple[dict[str, str], dict[str, str]]]
     for each in samples.inputs:
@@ -145,7 +143,7 @@ def _of_samples(path: Path, settings: Mapping[str, str], samples: Samples) -> li
     return [*found, *(map(grid, corners) if len(samples.inputs) > 1 else ())]
 
 
-def _settings_of(case: Case, grid: Grid) -> dict[Cells, Mapping[str, str]]:
+def _settings_of(case: Case, grid: Grid) -> dict[Level, Mapping[str, str]]:
     """Settings of the common grid; the case may have given one."""
     if isinstance(case.grid, Grid):
         nx, ny = coarser(case.grid).shape
@@ -164,7 +162,7 @@ def _derivative(
         outer = {min(each.stencil.points), max(each.stencil.points)}
         try:
             runs = [
-                prepared(read_plainly(path, {**settings, **each.settings(point)}))
+                prepared(case_with(path, {**settings, **each.settings(point)}))
                 for point in sorted(outer)
             ]
         except CaseError as error:
@@ -175,19 +173,11 @@ def _derivative(
     raise problem
 
 
-def read_plainly(path: Path, settings: Mapping[str, str]) -> Case:
-    """Read a case; CaseError without the name of an option of the command line."""
-    try:
-        return read_case(path, [f"{key}={value}" for key, value in settings.items()])
-    except CaseError as error:
-        raise CaseError(*(line.removeprefix("--set ") for line in error.problems)) from None
-
-
 def _recorded_grid(path: Path, settings: Mapping[str, str], directory: Path | None) -> Grid | None:
     """Grid of the runs that a directory holds; None without any."""
     if directory is None or not (directory / MANIFEST_NAME).exists():
         return None
     first = recorded_runs(directory)[0].settings
     kept = {key: value for key, value in first.items() if key.partition(".")[0] == "grid"}
-    grid = read_plainly(path, {**settings, **kept}).grid
+    grid = case_with(path, {**settings, **kept}).grid
     return grid if isinstance(grid, Grid) else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
@@ -15,18 +16,24 @@ import xarray as xr
 from viscontact.case import Case
 from viscontact.case.errors import dotted
 from viscontact.results.netcdf import open_results
+from viscontact.studies.case_values import (
+    case_path,
+    case_with,
+    refuse_repeated,
+    require_instant,
+    texts,
+)
+from viscontact.studies.evaluation import Progress
 from viscontact.studies.executors.chosen import refuse_import_by_a_worker
 from viscontact.studies.sensitivity.inputs import Input, input_of, inputs_of
-from viscontact.studies.sensitivity.outcomes import Outcomes, checked_outputs
-from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned, read_plainly
+from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
+from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned
 from viscontact.studies.sensitivity.result import SensitivityResult
-from viscontact.studies.sensitivity.samples import Samples, samples_of
+from viscontact.studies.sensitivity.samples import samples_of
 from viscontact.studies.sensitivity.table import derivative_table, scatter_table
 from viscontact.studies.sweep.many import simulate_many
+from viscontact.studies.sweep.varied_runs import VariedRun
 from viscontact.units.numbers import positive
-
-#: Called with the numbers of runs, done and planned, after each run.
-Progress = Callable[[int, int], None]
 
 #: Step in the logarithm of an input. Errors of cells vary with the size of the contact within a
 #: cell; steps over which the contact grows by a few cells average them.
@@ -51,6 +58,8 @@ def sensitivity(  # noqa: PLR0913
     step: float = STEP,
     settings: Mapping[str, Any] | None = None,
     workers: int | None = None,
+    executor: Executor | None = None,
+    client: Any = None,
     directory: str | PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> SensitivityResult:
@@ -87,6 +96,11 @@ def sensitivity(  # noqa: PLR0913
         Values of other keys, the same in all runs.
     workers : int, optional
         Number of parallel processes; by default as many as there are cores.
+    executor : concurrent.futures.Executor, optional
+        Executor of the runs in place of processes of this machine, as for `simulate_many`. Its
+        workers must see the directory.
+    client : distributed.Client, optional
+        Client of a Dask cluster, in place of an executor.
     directory : path-like, optional
         Keep the runs there; the same call again computes only what is left, with other outputs
         nothing. By default a temporary directory.
@@ -137,13 +151,12 @@ def sensitivity(  # noqa: PLR0913
     0.67
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), {key: str(value) for key, value in (settings or {}).items()}
+    path, fixed = case_path(case), texts(settings)
     outputs, length = checked_outputs(of), positive("step", step)
     if length > MOST_STEP:
         raise ValueError(f"step: must be {MOST_STEP} at most, got {step!r}")
-    if isinstance(at, str) and at not in ("worst", "end"):
-        raise ValueError(f"at: must be 'worst', 'end' or a time [s], got {at!r}")
-    own = read_plainly(path, fixed)
+    own = case_with(path, fixed)
+    require_instant(own, at)
     if own.steady is None and own.adaptive is not None:
         raise ValueError(
             f"{path}: time.spacing: adaptive steps differ from run to run, and so do their errors; "
@@ -153,12 +166,25 @@ def sensitivity(  # noqa: PLR0913
     inputs = _inputs(own, change)
     wanted, toleranced = _with_tolerances(own, scatter)
     sampled, rounded = samples_of(wanted, samples, seed)
-    _refuse_repeated(fixed, sampled)
+    scattered = [each.key for each in sampled.inputs] if sampled else []
+    refuse_repeated(scatter=scattered, settings=list(fixed))
     plan, notes = planned(
         path, own, fixed, inputs, length, place, sampled, chosen=change is not None
     )
     notes = [*(toleranced if sampled else ()), *rounded, *notes]
-    return _computed(plan, outputs, at, notes, place, workers, progress)
+
+    def joint(runs: Sequence[VariedRun], folder: Path) -> xr.Dataset:
+        return simulate_many(
+            runs,
+            executor=executor,
+            client=client,
+            directory=folder,
+            workers=workers,
+            progress=lambda run, done, total: progress(done, total) if progress else None,
+            return_exceptions=True,
+        )
+
+    return _computed(plan, outputs, at, notes, place, joint)
 
 
 def _inputs(case: Case, change: Sequence[str] | None) -> list[Input]:
@@ -168,10 +194,8 @@ def _inputs(case: Case, change: Sequence[str] | None) -> list[Input]:
             raise ValueError("change: the case has no numbers to change; name a key")
         return found
     keys = [change] if isinstance(change, str) else list(change)
-    for key in keys:
-        if keys.count(key) > 1:
-            raise ValueError(f"change: {key}: is given twice; give it once")
     try:
+        refuse_repeated(change=keys)
         return [input_of(case, key) for key in keys]
     except ValueError as error:
         raise ValueError(f"change: {error}") from None
@@ -192,41 +216,27 @@ def _with_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> tuple[Any
     return {**given, **found}, notes
 
 
-def _refuse_repeated(settings: Mapping[str, str], sampled: Samples | None) -> None:
-    for each in sampled.inputs if sampled else ():
-        if each.key in settings:
-            raise ValueError(f"scatter: {each.key}: is given twice, also in settings; give it once")
-
-
 def _computed(
     plan: Plan,
     outputs: Sequence[str],
     at: Literal["worst", "end"] | float,
     notes: Sequence[str],
     place: Path | None,
-    workers: int | None,
-    progress: Progress | None,
+    joint: Callable[[Sequence[VariedRun], Path], xr.Dataset],
 ) -> SensitivityResult:
-    """Compute what is left of the runs, and evaluate them."""
+    """Compute what is left of the runs, whose joint result is given, and evaluate them."""
     runs = plan.runs()
     with _directory(place) as folder:
-        joint = simulate_many(
-            runs,
-            directory=folder,
-            workers=workers,
-            progress=lambda run, done, total: progress(done, total) if progress else None,
-            return_exceptions=True,
-        )
-        outcomes = Outcomes(joint, at)
-        if why := outcomes.failures.get(NOMINAL):
+        scalars = OutputScalars(joint(runs, folder), at)
+        if why := scalars.failures.get(NOMINAL):
             raise RuntimeError(f"the run with the values of the case failed: {why}")
         with open_results(folder / runs[0].directory) as ds:
             about = {"title": str(ds.attrs.get("title", "")), "at": str(at)}
             warned = str(ds.attrs.get("warnings", "")).splitlines()
-    table = derivative_table(plan, outcomes, outputs)
+    table = derivative_table(plan, scalars, outputs)
     if plan.samples is not None:
-        table = table.merge(scatter_table(plan.samples, outcomes, outputs))
-    said = (*notes, *_failures(outcomes, len(runs)), *_unknown(table), *warned)
+        table = table.merge(scatter_table(plan.samples, scalars, outputs))
+    said = (*notes, *_failures(scalars, len(runs)), *_unknown(table), *warned)
     about["notes"] = "\n".join(said)
     return SensitivityResult(table.assign_attrs(about), said, len(runs))
 
@@ -240,9 +250,9 @@ def _directory(place: Path | None) -> Iterator[Path]:
         yield Path(folder)
 
 
-def _failures(outcomes: Outcomes, count: int) -> Iterator[str]:
+def _failures(scalars: OutputScalars, count: int) -> Iterator[str]:
     """Yield the number of failed runs, and names and reasons of the first ones."""
-    failed = outcomes.failures
+    failed = scalars.failures
     if failed:
         yield f"{len(failed)} of {count} runs failed; what needs them is NaN"
     for name in list(failed)[:MOST_NAMED]:

@@ -10,26 +10,27 @@ import xarray as xr
 
 from viscontact.backend.arrays import Integers
 from viscontact.results.variables import SCALARS
+from viscontact.studies.evaluation import Level
 from viscontact.studies.sensitivity.differences import Slopes
-from viscontact.studies.sensitivity.outcomes import Outcomes
-from viscontact.studies.sensitivity.plan import Cells, Derivative, Plan
+from viscontact.studies.sensitivity.outputs import OutputScalars
+from viscontact.studies.sensitivity.plan import Derivative, Plan
 from viscontact.studies.sensitivity.samples import Samples
 from viscontact.studies.sensitivity.variance import indices_of, percentiles_of
 
 
-def derivative_table(plan: Plan, outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
+def derivative_table(plan: Plan, scalars: OutputScalars, outputs: Sequence[str]) -> xr.Dataset:
     """Table over (output, input) of the derivatives and elasticities, each with its error."""
     inputs = [each.given for each in plan.derivatives]
-    values = np.array([outcomes.values(name)[0] for name in outputs])
-    errors = np.array([outcomes.nominal_error(name) for name in outputs])
+    values = np.array([scalars.values(name)[0] for name in outputs])
+    errors = np.array([scalars.nominal_error(name) for name in outputs])
     shape = (len(outputs), len(inputs))
     slopes, bars = np.full(shape, np.nan), np.full(shape, np.nan)
     for column, each in enumerate(plan.derivatives):
-        found = _slopes(each, outcomes, outputs)
+        found = _slopes(each, scalars, outputs)
         slope = found.extrapolated
         of_cells = np.nan_to_num(np.abs(slope) * errors / values, nan=0.0, posinf=np.inf)
         if "coarse" in plan.cells:
-            coarse = _slopes(each, outcomes, outputs, "coarse")
+            coarse = _slopes(each, scalars, outputs, "coarse")
             of_cells = np.maximum(of_cells, found.distance(coarse))
         slopes[:, column], bars[:, column] = slope, found.error + of_cells
     nominal, given = values[:, None], np.array([each.value for each in inputs])
@@ -60,13 +61,13 @@ _ERROR = "estimated error: of the step, and of cells and time steps"
 
 
 def _slopes(
-    given: Derivative, outcomes: Outcomes, outputs: Sequence[str], cells: Cells = "case"
+    given: Derivative, scalars: OutputScalars, outputs: Sequence[str], cells: Level = "case"
 ) -> Slopes:
     """Derivatives of the outputs by the logarithm of an input."""
     runs = {
-        point: outcomes.place(given.run_name(point, cells)) for point in (0, *given.stencil.points)
+        point: scalars.place(given.run_name(point, cells)) for point in (0, *given.stencil.points)
     }
-    found = [outcomes.values(name) for name in outputs]
+    found = [scalars.values(name) for name in outputs]
     values = {point: np.array([each[run] for each in found]) for point, run in runs.items()}
     return given.stencil.slopes(values, given.step)
 
@@ -76,16 +77,16 @@ PERCENTS = np.array([5.0, 50.0, 95.0])
 _ENDS = ("", "_low", "_high")
 
 
-def scatter_table(samples: Samples, outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
+def scatter_table(samples: Samples, scalars: OutputScalars, outputs: Sequence[str]) -> xr.Dataset:
     """Table of the scatter of the outputs: Sobol' indices, percentiles, and values of the samples.
 
     Percentiles are those of both independent samples, A and B.
     """
     labels, count = samples.labels, samples.count
     runs = np.array(
-        [[outcomes.place(samples.run_name(label, n)) for n in range(count)] for label in labels]
+        [[scalars.place(samples.run_name(label, n)) for n in range(count)] for label in labels]
     )
-    values = np.array([outcomes.values(name)[runs] for name in outputs])
+    values = np.array([scalars.values(name)[runs] for name in outputs])
     found = [indices_of(each, samples.seed) for each in values]
     over = ("output", "scattered")
     data: dict[str, Any] = {
@@ -102,15 +103,15 @@ def scatter_table(samples: Samples, outcomes: Outcomes, outputs: Sequence[str]) 
         "distribution": ("scattered", [str(each) for each in samples.inputs]),
         "percent": PERCENTS,
     }
-    return xr.Dataset(data, coords).merge(_over_rows(runs[:2].ravel(), outcomes, outputs))
+    return xr.Dataset(data, coords).merge(_over_rows(runs[:2].ravel(), scalars, outputs))
 
 
-def _over_rows(runs: Integers, outcomes: Outcomes, outputs: Sequence[str]) -> xr.Dataset:
+def _over_rows(runs: Integers, scalars: OutputScalars, outputs: Sequence[str]) -> xr.Dataset:
     """Percentiles at each instant or speed, and the values of the case, if all runs share them."""
-    axis = outcomes.shared_axis
+    axis = scalars.shared_axis
     if axis is None:
         return xr.Dataset()
-    whole = [outcomes.over(name) for name in outputs]
+    whole = [scalars.over(name) for name in outputs]
     percentiles = [percentiles_of(each[runs], PERCENTS) for each in whole]
     over = ("output", "percent", axis.name)
     return xr.Dataset(
@@ -118,7 +119,7 @@ def _over_rows(runs: Integers, outcomes: Outcomes, outputs: Sequence[str]) -> xr
             "band": (over, percentiles, {"long_name": f"{_PERCENTILE} over {axis.name}"}),
             "nominal": (("output", axis.name), [each[0] for each in whole]),
         },
-        {axis.name: outcomes.joint[axis.name].values},
+        {axis.name: scalars.joint[axis.name].values},
     )
 
 

@@ -15,10 +15,10 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from viscontact.case import Case, CaseError, read_case
+from viscontact.case import CaseError, read_case
 from viscontact.runs.command_error import CommandError
 from viscontact.runs.single import simulate
-from viscontact.studies.case_values import without_option
+from viscontact.studies.case_values import result_of, without_option
 from viscontact.studies.space import given_range
 from viscontact.studies.sweep.common_cells import (
     KEY,
@@ -61,12 +61,14 @@ class VariedRun:
 
     def __call__(self) -> xr.Dataset:
         """Simulate the run."""
-        return simulate(**self.arguments)
+        return result_of(read_case(self.case, self.assignments))
 
     @property
     def arguments(self) -> dict[str, Any]:
         """Arguments of `simulate` by name."""
-        return arguments_of(read_case(self.case, self.assignments))
+        case = read_case(self.case, self.assignments)
+        given = signature(simulate).parameters.keys() - {"threads", "progress"}
+        return {name: getattr(case, name) for name in given}
 
 
 def vary(
@@ -157,12 +159,6 @@ def vary(
         )
         for row in range(len(chosen.rows))
     ]
-
-
-def arguments_of(case: Case) -> dict[str, Any]:
-    """Arguments of `simulate` for a case, by name."""
-    given = signature(simulate).parameters.keys() - {"threads", "progress"}
-    return {name: getattr(case, name) for name in given}
 
 
 def sweep_run(number: int, run: VariedRun, case: str, earlier: Sequence[SweepRun] = ()) -> SweepRun:

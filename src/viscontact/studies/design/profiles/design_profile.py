@@ -13,7 +13,12 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters import LogarithmicProfile
-from viscontact.studies.case_values import fingerprint, require_instant, require_place, texts
+from viscontact.studies.case_values import (
+    case_path,
+    fingerprint,
+    require_instant,
+    texts,
+)
 from viscontact.studies.design.profiles.comparison import FoundProfiles, compared
 from viscontact.studies.design.profiles.convex_curve import ConvexCurves
 from viscontact.studies.design.profiles.deviations import deviating
@@ -128,15 +133,14 @@ def design_profile(  # noqa: PLR0913
     1.03
     """
     refuse_import_by_a_worker()
-    path, fixed = Path(case), texts(settings)
+    path, fixed = case_path(case), texts(settings)
     count = whole("knots", knots, FEWEST_KNOTS, MOST_KNOTS)
     tolerance = non_negative("drop_tolerance", drop_tolerance, "m")
     budget = Budget(whole("runs", runs, 1))
     scenarios = scenarios_of(over, None, Space(()), {})
     rollers = loaded_rollers(path, fixed, scenarios)
-    require_place(at)
-    for each in rollers if not isinstance(at, str) else ():
-        require_instant(each.case.instants, float(at))
+    for each in rollers:
+        require_instant(each.case, at)
     curves = ConvexCurves(
         rollers[0].end, count, symmetric, not symmetric and rollers[0].has_given_tilt
     )

@@ -16,7 +16,7 @@ from viscontact.runs.single import simulate
 from viscontact.studies.design.goals import Value, magnitude
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
-from viscontact.studies.evaluation import Evaluation, Outcome
+from viscontact.studies.evaluation import Entry, Evaluation
 
 #: Coarse cells from the middle of the roller to its end, and beyond it.
 CELLS, BEYOND = 50, 4
@@ -132,7 +132,7 @@ class RowPeaks:
     end: float  # half of the length of the roller [m]
     amplitude: float
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Simulate the run."""
         found, x = simulate(**self.recipe), np.abs(self.recipe["grid"].x)
         margin = (1 - MARGIN) * self.end
@@ -149,7 +149,7 @@ class Widths:
     key: str
     recipe: Mapping[str, Any]
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Simulate the run."""
         found = simulate(**self.recipe)
         loaded = found["force"].values > 0.5 * found["force"].values.max()
@@ -165,7 +165,7 @@ class CertifiedPeak:
     recipe: Mapping[str, Any]
     at: Literal["worst", "end"] | float
 
-    def __call__(self) -> Outcome:
+    def __call__(self) -> Entry:
         """Simulate the run."""
         found = simulate(**self.recipe)
         value = magnitude(found, "peak_pressure", self.at, largest=True)
@@ -221,7 +221,7 @@ def _values(found: Sequence[Mapping[str, Any]]) -> tuple[list[Value], tuple[str,
     return values, tuple(dict.fromkeys([*failures, *lines]))
 
 
-def _joined(outcomes: Sequence[Outcome]) -> RowPressures | None:
+def _joined(outcomes: Sequence[Entry]) -> RowPressures | None:
     if any("failure" in each for each in outcomes):
         return None
     rows, forbidden = (

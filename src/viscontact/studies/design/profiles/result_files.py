@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.runs.directory.atomic_files import fresh_name, put_in_place, replacing
+from viscontact.runs.directory.atomic_files import replacing
 from viscontact.studies.design.profiles.result import ProfileDesign
 from viscontact.studies.design.profiles.tables import RESOLUTION
 from viscontact.studies.design.result_files import BEST_NAME, TRIALS_NAME
+from viscontact.studies.study_files import write_case, write_table
 
 #: The profile as a table, which a case takes as well, and as a drawing.
 CSV_NAME, DXF_NAME = "profile.csv", "profile.dxf"
@@ -22,19 +23,8 @@ def write_profile_design(directory: Path, found: ProfileDesign) -> None:
     """Write the profile as CSV, the best case with it, and the table of all profiles."""
     with replacing(directory / CSV_NAME) as file:
         file.write(profile_csv(found.x, found.drop).encode())
-    case = found.best_case(directory / CSV_NAME)
-    with replacing(directory / BEST_NAME) as file:
-        file.write(case.text.encode())
-    for source, name in case.file_names.items():
-        if name != CSV_NAME:
-            with replacing(directory / name) as file:
-                file.write(source.read_bytes())
-    fresh = fresh_name(directory / TRIALS_NAME)
-    try:
-        found.table.to_netcdf(fresh.absolute(), format="NETCDF4", engine="netcdf4")
-        put_in_place(fresh, directory / TRIALS_NAME)
-    finally:
-        fresh.unlink(missing_ok=True)
+    write_case(directory / BEST_NAME, found.best_case(directory / CSV_NAME))
+    write_table(directory / TRIALS_NAME, found.table)
 
 
 def profile_csv(x: Floats, drop: Floats) -> str:

@@ -1,4 +1,4 @@
-"""Outcomes: scalars of all runs of a sensitivity, at an instant or at their worst."""
+"""OutputScalars: scalars of all runs of a sensitivity, at an instant or at their worst."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ At = Literal["worst", "end"] | float
 
 
 @dataclass(frozen=True, eq=False)
-class Outcomes:
+class OutputScalars:
     """Joint result of the runs, the first of which has the values of the case."""
 
     joint: xr.Dataset  # as of `open_many`, along `run`

@@ -1,0 +1,31 @@
+"""Files in the directory of a study: its table, and the best case."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from viscontact.case import Case
+from viscontact.runs.directory.atomic_files import fresh_name, put_in_place, replacing
+
+
+def write_table(path: Path, table: xr.Dataset) -> None:
+    """Write a table as netCDF-4, atomically."""
+    fresh = fresh_name(path)
+    try:
+        table.to_netcdf(fresh.absolute(), format="NETCDF4", engine="netcdf4")
+        put_in_place(fresh, path)
+    finally:
+        fresh.unlink(missing_ok=True)
+
+
+def write_case(path: Path, case: Case) -> None:
+    """Write a case, and the files that it names next to it, unless they are those there."""
+    with replacing(path) as file:
+        file.write(case.text.encode())
+    for source, name in case.file_names.items():
+        copy = path.parent / name
+        if source.resolve() != copy.resolve():
+            with replacing(copy) as file:
+                file.write(source.read_bytes())
