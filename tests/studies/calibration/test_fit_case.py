@@ -97,33 +97,6 @@ def test_stated_discretisation_error_is_that_of_the_values_and_falls(tmp_path: P
     assert stated[2] < stated[1] / 2 < stated[0] / 4  # of first order at least
 
 
-@IGNORED
-def test_inseparable_unknowns_are_named(tmp_path: Path) -> None:
-    # A rigid sphere sees 2 G/(1 - nu) only.
-    force = np.linspace(0.0, 0.1, 9)
-    record = vc.ContactRecord(
-        np.arange(9.0), force, hertz_depth(force) + noise(0, np.array([1e-6]))
-    )
-    change = {**MODULUS, "material.poisson_ratio": ("0.2", "0.5")}
-    found = vc.fit_case(written(tmp_path, ELASTIC_BALL), record, change)
-    assert "material.shear_modulus and material.poisson_ratio cannot" in found.notes[0]
-    assert abs(found.correlation[0, 1]) > 0.99
-    together = 2 * found.parameters["material.shear_modulus"]
-    together /= 1 - found.parameters["material.poisson_ratio"]
-    assert together == pytest.approx(8e6, rel=0.02)
-
-
-def test_a_value_at_its_bound_is_named(tmp_path: Path) -> None:
-    force = np.linspace(0.0, 0.1, 9)
-    record = vc.ContactRecord(np.arange(9.0), force, hertz_depth(force))
-    with pytest.warns(vc.AccuracyWarning, match="lies at its bound 1.5 MPa; widen its range"):
-        vc.fit_case(
-            written(tmp_path, ELASTIC_BALL),
-            record,
-            {"material.shear_modulus": ("0.5 MPa", "1.5 MPa")},
-        )
-
-
 def test_an_interrupted_fit_goes_on_from_its_log(tmp_path: Path) -> None:
     force = np.linspace(0.0, 0.1, 9)
     record = vc.ContactRecord(np.arange(9.0), force, hertz_depth(force))
@@ -162,12 +135,9 @@ def test_a_second_fit_on_the_same_log_is_refused(tmp_path: Path) -> None:
     assert [each.name for each in tmp_path.iterdir() if "lock" in each.name] == []
 
 
-def test_spent_runs_leave_the_best_values_with_a_note(tmp_path: Path) -> None:
+def test_runs_that_are_too_few_for_any_values_are_refused(tmp_path: Path) -> None:
     force = np.linspace(0.0, 0.1, 9)
     record = vc.ContactRecord(np.arange(9.0), force, hertz_depth(force))
-    with pytest.warns(vc.AccuracyWarning, match="ended after 7 runs"):
-        found = vc.fit_case(written(tmp_path, ELASTIC_BALL), record, MODULUS, runs=7)
-    assert found.parameters["material.shear_modulus"] == pytest.approx(2e6, rel=0.2)
     with pytest.raises(ValueError, match="runs: 1 are too few"):
         vc.fit_case(written(tmp_path, ELASTIC_BALL), record, MODULUS, runs=1)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, TypeVar
 
 from viscontact.cli.sweep.plan_options import key_of, split_values
@@ -71,11 +72,15 @@ def bounds(text: str) -> tuple[str, ...]:
 
 
 def instant(text: str) -> Any:
-    """Instant of a scalar: worst, end or a time [s]."""
-    return text if text in ("worst", "end") else quantity("--at", text, "time", _OR_WORDS)
+    """Place of a scalar: worst, end, a speed [m/s] or a time [s]."""
+    if text in ("worst", "end"):
+        return text
+    with suppress(ValueError):
+        return parse_quantity(text, "speed")
+    return quantity("--at", text, "time", _OR_WORDS)
 
 
-_OR_WORDS = "write worst, end or a time: "
+_OR_WORDS = "write worst, end, a time, or in steady motion a speed: "
 
 
 def quantity(option: str, text: str | None, kind: str, remedy: str = "") -> float | None:
