@@ -23,7 +23,7 @@ from viscontact.studies.calibration.preparation import (
 )
 from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.result import CaseFit, result_of
-from viscontact.studies.calibration.search import search
+from viscontact.studies.calibration.search import Optimum, search
 from viscontact.studies.calibration.unknowns import unknowns_of
 from viscontact.studies.case_values import (
     case_path,
@@ -194,11 +194,16 @@ def fit_case(  # noqa: PLR0913
     ):
         evaluation = Evaluation(Budget(most), chosen, journal, progress)
         residuals = Residuals(experiments, unknowns, evaluation)
-        try:
-            found = search(residuals, np.array([each.start for each in unknowns]))
-        except BudgetSpentError:
-            raise ValueError(f"runs: {most} are too few for this fit; give more") from None
+        found = _searched(residuals, most)
         notes = tuple(notes_on(unknowns, found, confidence, most))
         for note in notes:
             warn(f"fit_case: {note}", AccuracyWarning, stacklevel=2)
         return result_of(residuals, found, confidence, notes, path, fixed)
+
+
+def _searched(residuals: Residuals, most: int) -> Optimum:
+    """Least squares; ValueError if the runs are too few for any values."""
+    try:
+        return search(residuals, np.array([each.start for each in residuals.unknowns]))
+    except BudgetSpentError:
+        raise ValueError(f"runs: {most} are too few for this fit; give more") from None

@@ -1,4 +1,4 @@
-"""Result of a design: the best trial, all trials as a table, and what is to be known of them."""
+"""Result of a design: the best trial, all trials as a table, and notes on them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class DesignResult:
     settings : mapping of str to str
         Best values by key, as ``--set`` takes them.
     notes : tuple of str
-        What is to be known of the optimum: that it lies at a bound, that a constraint is kept only
+        Notes on the optimum: that it lies at a bound, that a constraint is kept only
         within the error, that the runs were used up, and the warnings of its runs.
     runs : int
         Number of runs of the trials.

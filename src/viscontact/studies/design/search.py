@@ -39,7 +39,6 @@ SIMPLEX, WIDE_SIMPLEX = 0.04, 0.1
 #: none is feasible, for the one that is closest to being so.
 NEAR_END, NEAR_UNFEASIBLE_END = 0.1, 0.25
 
-
 #: Points that are likely to follow, a given number of them.
 Foreseen = Callable[[int], Sequence[Point]]
 #: Trials at some points; workers that are free compute those that are likely to follow.
@@ -97,13 +96,12 @@ class Search:
 
     def best(self, level: Level) -> Trial | None:
         """Best feasible trial of a level."""
-        found = self._ranked(level)
-        return found[0] if found else None
+        return next(iter(self._ranked(level)), None)
 
     def closest(self, level: Level) -> Trial | None:
         """Trial of a level with the least cost, feasible or not; None if all of them failed."""
-        trials = [each for each in self.trials(level) if not each.failure]
-        return min(trials, key=self.cost, default=None)
+        done = (each for each in self.trials(level) if not each.failure)
+        return min(done, key=self.cost, default=None)
 
     def trials(self, level: Level) -> list[Trial]:
         """Trials of a level, in their order."""

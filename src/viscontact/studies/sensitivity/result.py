@@ -1,4 +1,4 @@
-"""Result of a sensitivity: its table, what is to be known of it, and its report."""
+"""Result of a sensitivity: its table, notes on it, and its report."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class SensitivityResult:
         output in all points (output, point), NaN where a run failed. `distribution` describes each
         input that scatters.
     notes : tuple of str
-        What is to be known of the numbers: failed runs, inputs that were left out, values that
+        Notes on the numbers: failed runs, inputs that were left out, values that
         depend on the mesh, and warnings of the run of the case.
     runs : int
         Number of runs.

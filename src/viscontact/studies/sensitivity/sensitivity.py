@@ -262,7 +262,7 @@ def _failures(scalars: OutputScalars, count: int) -> Iterator[str]:
 
 
 def _unknown(table: xr.Dataset) -> Iterator[str]:
-    """Yield what is to be known of outputs whose error is not known, or not finite."""
+    """Yield notes on outputs whose error is not known, or not finite."""
     for name, error in zip(table["output"].values, table["value_error"].values, strict=True):
         if np.isnan(error) and table.sizes["input"]:
             yield f"{name}: its error is not known; the errors are those of the step only"

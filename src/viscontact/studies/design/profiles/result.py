@@ -43,7 +43,7 @@ class ProfileDesign:
         pressure has no limit); ``parameter`` of the named ones. With a production tolerance,
         ``peak_pressure_of_deviations`` of the free profile over ``deviation``.
     notes : tuple of str
-        What is to be known of the profile.
+        Notes on the profile.
     runs : int
         Number of runs.
     """
