@@ -80,7 +80,7 @@ def instant(text: str) -> Any:
     return quantity("--at", text, "time", _OR_WORDS)
 
 
-_OR_WORDS = "write worst, end, a time, or in steady motion a speed: "
+_OR_WORDS = "write worst, end or a time, or in steady motion a speed: "
 
 
 def quantity(option: str, text: str | None, kind: str, remedy: str = "") -> float | None:
