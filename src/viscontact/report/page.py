@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -23,21 +24,6 @@ from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
 from viscontact.results.run_axis import in_order, run_axis
-
-#: Titles of the chapters, by their places.
-CHAPTERS = {
-    "allowable": "Allowable values",
-    "pressure": "Pressure",
-    "spots": "Contact spots",
-    "stress": "Stress below the surface",
-    "histories": "Over time",
-    "inputs": "Inputs",
-    "geometry": "Geometry",
-    "material": "Material",
-    "accuracy": "Accuracy",
-    "limits": "Limits of the theory",
-    "about": "Versions and citation",
-}
 
 
 def write_report(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
@@ -117,27 +103,43 @@ def _over_surface(ds: xr.Dataset, maps: Maps | None) -> list[Figure]:
 
 def _body(
     name: str, ds: xr.Dataset, maps: Maps | None, over_run: tuple[list[Figure], ...]
-) -> Iterable[Element]:
-    histories = result_chapters.history_chapter(ds, *over_run)
-    titles = CHAPTERS | {"histories": run_axis(ds).heading}
-    if not run_axis(ds).is_history:
-        histories = chain(input_chapters.speed_table(ds), histories)
-    chapters: dict[str, Iterable[Element]] = {
-        "allowable": verdict_chapter(ds),
-        "pressure": result_chapters.pressure_chapter(ds, maps),
-        "spots": spots_chapter(ds),
-        "stress": stress_chapter(ds),
-        "histories": histories,
-        "inputs": input_chapters.inputs_chapter(ds),
-        "geometry": input_chapters.geometry_chapter(ds),
-        "material": input_chapters.material_chapter(ds),
-        "accuracy": input_chapters.accuracy_chapter(ds),
-        "limits": input_chapters.limits_chapter(ds),
-        "about": input_chapters.about_chapter(ds),
-    }
-    contents = {place: found for place, parts in chapters.items() if (found := list(parts))}
+) -> Iterator[Element]:
+    pressure = result_chapters.pressure_chapter(ds, maps)
+    chapters = run_chapters(ds, pressure, result_chapters.history_chapter(ds, *over_run))
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
     yield from title_lines(ds)
-    yield result_chapters.opening(name, ds, {place: titles[place] for place in contents})
-    for place, parts in contents.items():
-        yield element("section", element("h2", titles[place]), *parts, id=place)
+    yield result_chapters.opening(name, ds, {each.place: each.title for each in chapters})
+    for each in chapters:
+        yield element("section", element("h2", each.title), *each.parts, id=each.place)
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """Chapter of the report of a run: its place, to which a link leads, title and content."""
+
+    place: str
+    title: str
+    parts: list[Element]
+
+
+def run_chapters(
+    ds: xr.Dataset, pressure: Iterable[Element], history: Iterable[Element]
+) -> list[Chapter]:
+    """Chapters of a run that have content, with those of pressure and history as given."""
+    axis = run_axis(ds)
+    speeds = () if axis.is_history else input_chapters.speed_table(ds)
+    chapters = (
+        ("allowable", "Allowable values", verdict_chapter(ds)),
+        ("pressure", "Pressure", pressure),
+        ("spots", "Contact spots", spots_chapter(ds)),
+        ("stress", "Stress below the surface", stress_chapter(ds)),
+        ("histories", axis.heading, chain(speeds, history)),
+        ("inputs", "Inputs", input_chapters.inputs_chapter(ds)),
+        ("geometry", "Geometry", input_chapters.geometry_chapter(ds)),
+        ("material", "Material", input_chapters.material_chapter(ds)),
+        ("accuracy", "Accuracy", input_chapters.accuracy_chapter(ds)),
+        ("limits", "Limits of the theory", input_chapters.limits_chapter(ds)),
+        ("about", "Versions and citation", input_chapters.about_chapter(ds)),
+    )
+    found = (Chapter(place, title, list(parts)) for place, title, parts in chapters)
+    return [each for each in found if each.parts]

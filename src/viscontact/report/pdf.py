@@ -27,15 +27,12 @@ from viscontact.plot import (
     pressure_profile,
 )
 from viscontact.plot.histories.history import history_with_load
-from viscontact.report import input_chapters, result_chapters
+from viscontact.report import result_chapters
 from viscontact.report.drawings import drawn
-from viscontact.report.page import CHAPTERS
+from viscontact.report.page import run_chapters
 from viscontact.report.pdf_blocks import blocks
-from viscontact.report.spots_chapter import spots_chapter
-from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.sweep_page import sweep_content
 from viscontact.report.title_block import title_lines
-from viscontact.report.verdict_chapter import verdict_chapter
 from viscontact.results.filed_case import started_at, title_block
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import is_long
@@ -100,27 +97,12 @@ def _write(
 
 
 def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
-    axis = run_axis(ds)
     yield from title_lines(ds)
     yield result_chapters.opening(name, ds, {})
-    chapters: dict[str, Callable[[xr.Dataset], Iterable[Element]]] = {
-        "allowable": verdict_chapter,
-        "pressure": _pressure,
-        "spots": spots_chapter,
-        "stress": stress_chapter,
-        "histories": _history if axis.is_history else _over_speed,
-        "inputs": input_chapters.inputs_chapter,
-        "geometry": input_chapters.geometry_chapter,
-        "material": input_chapters.material_chapter,
-        "accuracy": input_chapters.accuracy_chapter,
-        "limits": input_chapters.limits_chapter,
-        "about": input_chapters.about_chapter,
-    }
-    titles = CHAPTERS | {"histories": axis.heading}
-    for place, chapter in chapters.items():
-        if parts := list(chapter(ds)):
-            yield element("h2", titles[place])
-            yield from parts
+    history = _history(ds) if run_axis(ds).is_history else _over_speed(ds)
+    for each in run_chapters(ds, _pressure(ds), history):
+        yield element("h2", each.title)
+        yield from each.parts
 
 
 def _pressure(ds: xr.Dataset) -> Iterator[Element]:
@@ -141,7 +123,6 @@ def _history(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def _over_speed(ds: xr.Dataset) -> Iterator[Element]:
-    yield from input_chapters.speed_table(ds)
     yield _figure(motion_profile, ds, "Pressure along the motion")
 
 
