@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 from viscontact.cli.run.execution import execute
-from viscontact.cli.sweep.own_settings import changed_run, write_changed
+from viscontact.cli.sweep.plan_options import key_of, share_a_branch
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import (
@@ -21,29 +22,35 @@ from viscontact.cli.terminal.messages import (
 )
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME, STOP_NAME
 from viscontact.runs.directory.failure import write_failure
-from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.directory.lock import DirectoryInUse, is_locked, locked
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.processes.request import RunRequest, command, no_option
-from viscontact.studies.sweep.case_digests import case_path, changed_since
-from viscontact.studies.sweep.manifest import SweepRun, read_manifest
+from viscontact.studies.sweep.case_digests import case_path, changed_since, with_digests
+from viscontact.studies.sweep.common_cells import KEY
+from viscontact.studies.sweep.continuation import has_begun
+from viscontact.studies.sweep.equal_values import comparable
+from viscontact.studies.sweep.manifest import SweepRun, read_manifest, write_manifest
+
+#: Keys of a grid that is not automatic, and the key of the common cells of automatic ones.
+_OWN_GRID, _CELLS = {"grid", "grid.shape", "grid.size"}, f"grid.{KEY}"
 
 
-def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
+def execute_task(request: ManyRequest, array: Path | None, number: int) -> None:
     """Compute the run of a manifest that has a number, or what is left of it.
 
     The manifest is in the place of a case file. Settings replace those of the run there. A failure
     is written to the run's directory.
     """
-    common = asked.common
+    common = request.common
     if common.overwrite and common.resume:
         refuse("--resume continues a run and --overwrite starts it again: give one of them")
-    is_plain = asked == ManyRequest(asked.cases, asked.common) and array is None
-    if len(asked.cases) > 1 or not is_plain or common.output is not None:
+    is_plain = request == ManyRequest(request.cases, request.common) and array is None
+    if len(request.cases) > 1 or not is_plain or common.output is not None:
         refuse(
             f"--task {number}: takes the manifest of a sweep, which names the case, the settings "
             f"and the directory of the run: viscontact run --task {number} DIR/{MANIFEST_NAME}"
         )
-    (manifest,) = asked.cases
+    (manifest,) = request.cases
     path = manifest / MANIFEST_NAME if manifest.is_dir() else manifest
     if path.is_file() and path.suffix != Path(MANIFEST_NAME).suffix:
         refuse(
@@ -145,3 +152,48 @@ def _numbered(path: Path, number: int) -> SweepRun:
     if found is None:
         refuse(f"--task {number}: {path} has the runs 0 to {last}")
     return found
+
+
+def changed_run(
+    run: SweepRun, settings: Sequence[str], directory: Path, *, overwrite: bool
+) -> SweepRun:
+    """Return a run with other settings, each KEY=VALUE; one with results is refused.
+
+    `directory` is that of the run, whose results may be overwritten. The run itself is returned if
+    nothing differs.
+    """
+    given = {key_of(text): text.partition("=")[2].strip() for text in settings}
+    for key in given:
+        if any(share_a_branch(key, varied) for varied in run.varied):
+            refuse(
+                f"--set {key}: differs between the runs of this sweep; correct the value where "
+                "the runs are given, and repeat that command with --resume"
+            )
+    before = {key: run.settings.get(key) for key in given}
+    if all(value is not None and _same(key, value, given[key]) for key, value in before.items()):
+        return run
+    if not overwrite and has_begun(directory):
+        refuse(
+            f"{directory}: has results with other settings; replace them with --overwrite, or "
+            "leave --set out"
+        )
+    # A grid of its own has no common cells.
+    dropped = {_CELLS} & run.settings.keys() if _OWN_GRID & given.keys() else set()
+    kept = {key: value for key, value in run.settings.items() if key not in dropped}
+    changed = tuple(dict.fromkeys((*run.changed, *dropped, *given)))
+    return replace(run, settings={**kept, **given}, changed=changed)
+
+
+def write_changed(manifest: Path, run: SweepRun) -> None:
+    """Replace a run in its manifest."""
+    try:
+        with locked(manifest.parent):
+            runs = list(read_manifest(manifest))
+            [runs[run.run]] = with_digests(manifest.parent, [run])
+            write_manifest(manifest.parent, runs)
+    except (DirectoryInUse, OSError, ValueError) as error:
+        refuse(f"{manifest}: cannot be changed: {error}")
+
+
+def _same(key: str, one: str, other: str) -> bool:
+    return comparable(key, one) == comparable(key, other)
