@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from viscontact.cli.quick_imports import quick_imports
-from viscontact.cli.terminal.messages import refuse, say
-from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.cli.terminal.messages import refuse
 
 RunDirectory = Annotated[
     Path, typer.Argument(metavar="DIR", help="Run directory, or its .nc file.")
@@ -73,31 +72,9 @@ def report(
     ] = None,
 ) -> None:
     """Write a report on a run, or on all runs of a sweep, as one HTML page or as PDF."""
-    from viscontact.cli.results.stored import early_end, opened
-    from viscontact.cli.results.sweep_report import write_page
+    from viscontact.cli.results.reports import write_report
 
-    if output is not None and output.suffix.lower() not in (".html", ".htm", ".pdf"):
-        stem = output.stem
-        refuse(f"{output}: a report is a page or a PDF; name it {stem}.html or {stem}.pdf")
-    as_pdf = output is not None and output.suffix.lower() == ".pdf"
-    package = _pdf_package() if as_pdf else _report_package()
-    is_file = directory.suffix == ".nc" and not directory.is_dir()
-    page = output or (directory.with_suffix(".html") if is_file else directory / "report.html")
-    if output is not None and not page.parent.is_dir():
-        refuse(f"{page}: there is no directory {page.parent}")
-    if (directory / MANIFEST_NAME).is_file():
-        write_page(package, directory, page)
-        print(page)
-        return
-    with opened(directory) as ds:
-        if ended := early_end(ds):
-            say(ended)
-        try:
-            write = package.write_pdf if as_pdf else package.write_report
-            write(ds, page, label=_run_label(directory.resolve()))
-        except (ValueError, OSError) as error:
-            refuse(f"{page}: {error}")
-    print(page)
+    print(write_report(directory, output))
 
 
 def verify(
@@ -113,33 +90,3 @@ def verify(
     from viscontact.cli.results.verification_table import print_verification
 
     print_verification(fast=fast, output=output)
-
-
-def _report_package() -> Any:
-    """Return `viscontact.report`, or name the missing package."""
-    try:
-        from viscontact import report as package
-    except ModuleNotFoundError as error:
-        if error.name not in ("matplotlib", "contourpy", "plotly"):
-            raise
-        refuse(f"a report needs {error.name}: pip install 'viscontact[plot]'")
-    return package
-
-
-def _pdf_package() -> Any:
-    """Return `viscontact.report.pdf`, or name the missing package."""
-    _report_package()
-    try:
-        from viscontact.report import pdf as package
-    except ModuleNotFoundError as error:
-        if error.name != "typst":
-            raise
-        refuse("a PDF needs typst: pip install 'viscontact[pdf]'")
-    return package
-
-
-def _run_label(place: Path) -> str:
-    """Name of a run's directory, or of a file that is not in a run directory."""
-    if place.is_dir() or place.suffix != ".nc":
-        return place.name
-    return place.parent.name if place.name == RESULT_NAME else place.stem
