@@ -29,7 +29,7 @@ class Pace:
     def seconds_left(self, part: float) -> float | None:
         """Time left after a part of the work [s]; None if no line is due."""
         now = clock.perf_counter()
-        is_due = part >= self._next - 1e-9 or now - self._line_at >= _LINE_SECONDS
+        is_due = part >= min(self._next - 1e-9, 1.0) or now - self._line_at >= _LINE_SECONDS
         if part <= 0 or not is_due:
             return None
         self._next, self._line_at = part + LINE_PART, now
