@@ -16,6 +16,7 @@ import xarray as xr
 from viscontact import __version__
 from viscontact.notebook.html import element
 from viscontact.report import accuracy, drawings, limits
+from viscontact.report.blocks import remark, stacked_table
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.report.measured import measured_lines
 from viscontact.report.title_block import file_lines
@@ -37,9 +38,9 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
         yield element("div", *tables, class_="inputs")
         if typed_case(ds):
             text = "An empty field: computed with the typed value, or with what follows from it."
-            yield element("p", text, class_="faint")
+            yield remark(text)
     else:
-        yield element("p", "This result does not contain its case.", class_="faint")
+        yield remark("This result does not contain its case.")
     yield from file_lines(ds)
     if text := case_file(ds):
         source = f"data:application/yaml;charset=utf-8,{quote(text)}"
@@ -53,12 +54,10 @@ def geometry_chapter(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the drawing of the indenter."""
     yield element("figure", drawings.geometry(ds))
     if drawings.is_drawn_from_fields(ds):
-        yield element(
-            "p",
+        yield remark(
             "A result does not keep a measured surface. Drawn is the body as the grid of this run "
             "resolves it, from the stored gap, displacement and approach; its lowest point is at "
             "zero.",
-            class_="faint",
         )
 
 
@@ -68,11 +67,9 @@ def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
         yield element("h3", title)
         yield element("figure", drawing)
         yield from measured_lines(ds, title)
-    yield element(
-        "p",
+    yield remark(
         "Φ is the strain deviator per unit stress deviator, so that Φ(0) = 1/(2 G(0)); G is the "
         "shear modulus.",
-        class_="faint",
     )
 
 
@@ -86,7 +83,7 @@ def speed_table(ds: xr.Dataset) -> Iterator[Element]:
         [SPEED.place(float(speed)), *(format_scalar(ds, name, row) for name in names)]
         for row, speed in enumerate(SPEED.values(ds))
     ]
-    yield _table(heads, rows)
+    yield stacked_table(heads, rows, numbers=range(1, len(heads)))
 
 
 def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
@@ -94,8 +91,8 @@ def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
     axis = run_axis(ds)
     ends = (axis.place(float(ds[axis.name][k])) for k in (0, -1))
     heads = ("", *ends, "largest", "largest error", "when" if axis.is_history else "at")
-    yield _table(heads, accuracy.error_rows(ds))
-    yield element("p", legend(ds), class_="faint")
+    yield stacked_table(heads, accuracy.error_rows(ds), numbers=range(1, len(heads)))
+    yield remark(legend(ds))
     yield _account(accuracy.accuracy_lines(ds))
 
 
@@ -162,27 +159,6 @@ def _part(title: str, given: Sequence[Input]) -> Element:
     return element("table", caption, element("thead", head), element("tbody", *rows))
 
 
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Element:
-    head = element("tr", *(element("th", text, class_="number" if text else "") for text in heads))
-    body = (
-        element(
-            "tr",
-            element("th", row[0], scope="row"),
-            *(
-                element("td", text, class_="number", data_head=head)
-                for head, text in zip(heads[1:], row[1:], strict=True)
-            ),
-        )
-        for row in rows
-    )
-    table = element("table", element("thead", head), element("tbody", *body), class_="stacked")
-    return _scrolled(table)
-
-
 def _account(lines: Iterable[tuple[str, str]]) -> Element:
     said = [part for name, text in lines for part in (element("dt", name), element("dd", text))]
     return element("dl", *said, class_="account")
-
-
-def _scrolled(table: Element) -> Element:
-    return element("div", table, class_="scroll")

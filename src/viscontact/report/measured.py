@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from viscontact.notebook.html import element
 from viscontact.plot.layout import style
 from viscontact.plot.layout.log_time import label_log_time
+from viscontact.report.blocks import remark
 from viscontact.report.drawings import BODIES, drawn
 from viscontact.results.filed_case import measured_tables
 from viscontact.units.formatting import readable_unit
@@ -37,7 +38,7 @@ def measured_lines(ds: xr.Dataset, body: str) -> Iterator[Element]:
             # Of one quantity, besides time or frequency, the figure is narrow.
             look = "single" if len(record["columns"]) == 2 else "several"
             yield element("figure", drawing, class_=look)
-            yield element("p", measured_text(record), class_="faint")
+            yield remark(measured_text(record))
 
 
 def measured_text(record: Mapping[str, Any]) -> str:

@@ -19,6 +19,7 @@ from viscontact.drawing.content.section import Lines, line_load, section
 from viscontact.figures.histories import LINEAR, LOGARITHMIC
 from viscontact.figures.pressure_map import map_remarks
 from viscontact.notebook.html import element
+from viscontact.report.blocks import remark
 from viscontact.report.limits import notices
 from viscontact.report.section_csv import lines_csv
 from viscontact.results.formatting import format_scalar
@@ -72,7 +73,7 @@ def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
 def pressure_chapter(ds: xr.Dataset, maps: Maps | None) -> Iterator[Element]:
     """Yield map, sections and outlines, or why there are none."""
     if maps is None:
-        yield element("p", _without_fields(ds), class_="faint")
+        yield remark(_without_fields(ds))
         return
     yield _map(maps)
     yield element("h3", "Sections through the pressure")
@@ -122,7 +123,7 @@ def history_chapter(
         legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
     for number, event in enumerate(recorded_events(ds), start=1):
         legend += f"Dotted line {number}: {event.text}. "
-    yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
+    yield remark(legend + "All numbers are in the CSV file, in SI units.")
     if loops:
         yield element("h3", "Loops")
         yield element("div", *map(_loop, loops), class_="panels")

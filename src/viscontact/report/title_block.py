@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element
 import xarray as xr
 
 from viscontact.notebook.html import element
+from viscontact.report.blocks import remark
 from viscontact.results.filed_case import input_files, started_at, title_block
 
 
@@ -49,4 +50,4 @@ def file_lines(ds: xr.Dataset) -> Iterator[Element]:
     )
     table = element("table", element("thead", head), element("tbody", *rows))
     yield element("div", table, class_="scroll files")
-    yield element("p", "As they were when the run was made.", class_="faint")
+    yield remark("As they were when the run was made.")
