@@ -31,17 +31,18 @@ def moved() -> xr.Dataset:
 def test_profile_marks_the_leading_edge_in_the_direction_of_motion(moved: xr.Dataset) -> None:
     axes = pressure_profile(moved, times=[0.3]).axes[0]
     assert axes.get_xlabel() == "y [µm]"
-    leading, trailing = axes.collections
-    ahead, behind = (np.asarray(each.get_offsets())[0, 0] for each in (leading, trailing))
+    leading, trailing = axes.get_lines()[1:]
+    ahead, behind = (np.asarray(each.get_xdata())[0] for each in (leading, trailing))
     pressed = moved.y.values[(moved.pressure.sel(time=0.3).values > 0).any(axis=0)] * 1e6
     assert ahead == pytest.approx(pressed.min() - 50)
     assert behind == pytest.approx(pressed.max() + 50)
-    assert to_hex(trailing.get_facecolor()[0]) == "#ffffff" != to_hex(leading.get_facecolor()[0])
+    faces = [to_hex(each.get_markerfacecolor()) for each in (leading, trailing)]
+    assert faces[1] == "#ffffff" != faces[0]
 
 
 def test_body_at_rest_has_no_edges_marked(moved: xr.Dataset) -> None:
-    assert not pressure_profile(moved, times=[0.9]).axes[0].collections
-    assert not pressure_profile(moved, times=[0.3], along="x").axes[0].collections
+    assert len(pressure_profile(moved, times=[0.9]).axes[0].get_lines()) == 1
+    assert len(pressure_profile(moved, times=[0.3], along="x").axes[0].get_lines()) == 1
 
 
 def test_map_has_an_arrow_along_the_motion(moved: xr.Dataset) -> None:

@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.compared_runs import Runs
+from viscontact.drawing.content.contact_curve import ContactCurve
 from viscontact.plot.layout.page import Width
-from viscontact.plot.pressure.contact_curves import ContactCurve, draw_curves
+from viscontact.plot.pressure.contact_curves import draw_curves
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.variables import MESH_DEPENDENT
 

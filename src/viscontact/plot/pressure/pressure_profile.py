@@ -12,12 +12,9 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.compared_runs import Runs, runs_of
+from viscontact.drawing.content.contact_curve import ContactCurve, cut_at_ends
 from viscontact.plot.layout.page import Width
-from viscontact.plot.pressure.contact_curves import (
-    ContactCurve,
-    cut_at_ends,
-    draw_curves,
-)
+from viscontact.plot.pressure.contact_curves import draw_curves
 from viscontact.results.recorded_case import across_period
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.snapshots import Snapshot
