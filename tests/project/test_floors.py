@@ -45,7 +45,7 @@ DEFERRED = {"runs/directory/recorder.py": "results"}  # xarray and pandas: a thi
 COMPUTES = ("simulation", "accuracy", "steady", "runs")
 # Other packages, and the rooms from whose floor on they may be imported.
 OTHERS = {
-    "numpy": "errors", "scipy": "errors", "ducc0": "backend",
+    "numpy": "errors", "scipy": "errors", "lazy_loader": "errors", "ducc0": "backend",
     "xarray": "results", "netCDF4": "results", "filelock": "results",
     "python_calamine": "tables",
     "psutil": "runs", "threadpoolctl": "runs",
