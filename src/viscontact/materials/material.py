@@ -49,7 +49,7 @@ class Material(Displayable):
     warning : str, optional
         Warning about the law, such as a fit that misses its data; each run issues it.
     shift : WLF, Arrhenius or TabulatedShift, optional
-        Time-temperature shift, for `at`. The law, and `measured_until`, are those at its reference
+        Time-temperature shift, for `at`. The law and its measured range are those at its reference
         temperature; a run uses them unshifted.
 
     Raises
@@ -101,7 +101,7 @@ class Material(Displayable):
         Returns
         -------
         Material
-            The material whose law and `measured_until` have all their times multiplied by the
+            The material whose law and measured range have all their times multiplied by the
             shift factor a_T. It has no shift: its law no longer holds at the reference temperature.
 
         Raises
