@@ -59,7 +59,7 @@ def solver(
         load = vc.step(LOAD, eccentricity_x=ECCENTRICITY * length, tilt_y=0.0)
         body = vc.Roller(RADIUS, STRAIGHT * length, CROWN * RADIUS, cross_section="parabola")
     contact = Problem(body, material, load, grid)
-    problem = steady_problem(contact, speeds, "y" if roller else "x", None, "none")
+    problem = steady_problem(contact, speeds, "y" if roller else "x", None)
     law = moving_law(problem, (1.0, 1.0))
     return SteadySolver(problem, law, transforms_by(fastest_transforms()))
 

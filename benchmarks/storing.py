@@ -13,11 +13,13 @@ import argparse
 import os
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from importlib.resources import as_file, files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from viscontact.case import read_case
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.preparation import prepared
@@ -37,10 +39,14 @@ def march(run: RunSetup) -> int:
     return 0
 
 
+def _keeping(run: RunSetup, fields: str) -> RunSetup:
+    return replace(run, problem=replace(run.problem, kept=KeptFields(fields)))
+
+
 def record(run: RunSetup, fields: str) -> int:
     """Record a run in a directory of its own; return the size of the result [bytes]."""
     with TemporaryDirectory() as folder:
-        recording = Recorder(RecordedRun(Path(folder), run, fields))
+        recording = Recorder(RecordedRun(Path(folder), _keeping(run, fields)))
         for _ in recording.steps():
             pass
         recording.finish()

@@ -20,6 +20,7 @@ import numpy as np
 import xarray as xr
 
 import viscontact as vc
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from written_states import GRID, faults_of, state
@@ -27,7 +28,7 @@ from written_states import GRID, faults_of, state
 ROWS = 3000
 TIMES = np.arange(ROWS) / 7.0
 SOME = [float(time) for time in TIMES[::5]]
-CONTENTS = Contents(GRID, TIMES, SOME)
+CONTENTS = Contents(GRID, TIMES, KeptFields(SOME))
 
 
 def write(path: Path, place: Path) -> None:

@@ -47,7 +47,7 @@ def leased(directory: Path, duration: float) -> Iterator[LockCheck]:
 
 def opened(directory: Path, check: LockCheck) -> Recorder:
     """The run at its beginning, or at its last checkpoint."""
-    recorded = RecordedRun(directory, sphere_run(), "all", check=check)
+    recorded = RecordedRun(directory, sphere_run(), check=check)
     is_begun = (directory / STATE_NAME).exists()
     return Recorder.resume(recorded) if is_begun else Recorder(recorded)
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import Grid
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.results.variables import FIELDS, LINES, scalars_of
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
@@ -73,12 +74,12 @@ def faults_of(
 
 def begun(path: Path, fields: Any = SOME) -> ResultWriter:
     """A writer of a new result."""
-    return ResultWriter(path, Contents(GRID, TIMES, fields, GIVEN))
+    return ResultWriter(path, Contents(GRID, TIMES, KeptFields(fields), GIVEN))
 
 
 def resumed(path: Path, position: dict[str, Any], fields: Any = SOME) -> ResultWriter:
     """A writer that goes on."""
-    return ResultWriter.resume(path, Contents(GRID, TIMES, fields, GIVEN), position)
+    return ResultWriter.resume(path, Contents(GRID, TIMES, KeptFields(fields), GIVEN), position)
 
 
 def write(writer: ResultWriter, end: int = len(TIMES)) -> None:

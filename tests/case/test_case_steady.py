@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from viscontact.case import CaseError, case_schema, read_case
+from viscontact.loads.motion import STANDING
 
 CASE = """\
 indenter: {shape: paraboloid, radius_x: 10 mm, radius_y: 10 mm}
@@ -34,7 +35,7 @@ def test_speed_is_one_a_list_or_a_range(speed: str, speeds: list[float], tmp_pat
     case = read_case(write(tmp_path, speed))
     assert case.steady is not None
     assert case.steady.speeds == pytest.approx(speeds)
-    assert (case.steady.along, case.steady.rolling, case.motion) == ("y", None, None)
+    assert (case.steady.along, case.steady.rolling, case.motion) == ("y", None, STANDING)
 
 
 def test_fields_are_kept_at_speeds(tmp_path: Path) -> None:

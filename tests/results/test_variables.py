@@ -22,6 +22,7 @@ from viscontact.cli.sweep.table import print_table
 from viscontact.figures.histories import histories, panel_names
 from viscontact.notebook.result_overview import result_overview
 from viscontact.plot import history
+from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
 from viscontact.results import variables
@@ -84,14 +85,14 @@ def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> N
     names = [name for name, variable in SCALARS.items() if variable.moving]
     moving = dataclasses.replace(standing, **dict.fromkeys(names, 0.5))
     path = tmp_path / "result.nc"
-    with ResultWriter(path, Contents(grid, np.zeros(1), "none", moving=True)) as writer:
+    with ResultWriter(path, Contents(grid, np.zeros(1), NO_FIELDS, moving=True)) as writer:
         writer.append(moving)
         writer.finish()
     stored = vc.open_results(path)
-    labelled = to_dataset([moving], "none", {})
+    labelled = to_dataset([moving], NO_FIELDS, {})
     for ds in (stored, labelled):
         assert [float(ds[name][0]) for name in names] == [0.5] * len(names)
-    assert not set(names) & set(to_dataset([standing], "none", {}))
+    assert not set(names) & set(to_dataset([standing], NO_FIELDS, {}))
     assert not set(names) & set(history_of([standing]))
     assert {"friction_coefficient", "heat"} <= set(history_of([moving]))
 
@@ -123,7 +124,7 @@ def test_new_entry_is_in_dataset_and_csv(
     rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((24, 24), (2e-3, 2e-3))
     state = next(vc.march(vc.Sphere(0.01), rubber, vc.step(0.05), grid, [0.0]))
     monkeypatch.setattr(ContactState, NEW, 0.5, raising=False)
-    assert float(to_dataset([state], "none", {})[NEW][0]) == 0.5
+    assert float(to_dataset([state], NO_FIELDS, {})[NEW][0]) == 0.5
 
 
 def test_new_entry_is_in_summary_card_and_tables(

@@ -15,6 +15,7 @@ from runs.directory.test_recorder import finish, same_bits, stop_after
 from simulation.measured_swing import write_swing
 from simulation.test_march import differing, steps_of, through_a_file
 from viscontact.grid import AutomaticGrid
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.problem.problem import Problem
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.recorder import Recorder
@@ -163,7 +164,7 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew(
     prepare, small = RUNS["sphere"]
     run = growing(prepare(small))
     states = states_of(run)
-    ds = labelled(run, states, "all", 0.0)
+    ds = labelled(run, states, 0.0)
     large = states[-1].grid
     assert ds.x.values.tolist() == large.x.tolist()
     assert ds.sizes["y"] == large.shape[1]
@@ -211,7 +212,10 @@ SOME = [0.0, 0.75, 2.0, 3.0]
 def recorded(directory: Path, fields: str | list[float] = "all") -> RecordedRun:
     directory.mkdir(exist_ok=True)
     prepare, small = RUNS["sphere"]
-    return RecordedRun(directory, growing(prepare(small)), fields)
+    run = growing(prepare(small))
+    return RecordedRun(
+        directory, replace(run, problem=replace(run.problem, kept=KeptFields(fields)))
+    )
 
 
 @pytest.mark.parametrize("fields", ["all", SOME])
@@ -223,7 +227,7 @@ def test_recorded_result_is_the_one_that_is_returned(
     states = states_of(of.run)
     if fields != "all":
         states = [each if each.time in fields else each.without_fields() for each in states]
-    expected = labelled(of.run, states, fields, 0.0)
+    expected = labelled(of.run, states, 0.0)
     with vc.open_results(tmp_path) as ds:
         assert ds.attrs["grid_enlarged"] == expected.attrs["grid_enlarged"] != ""
         assert set(ds.variables) == set(expected.variables)

@@ -26,7 +26,7 @@ def level(force: float) -> vc.ForceHistory:
 
 def prepared(indenter, body, force: float, speed: float, grid: vc.Grid) -> SteadySetup:
     problem = Problem(indenter, body, level(force), grid, None, None, 1e-6)
-    return prepare(steady_problem(problem, [speed], "y", None, "none"))
+    return prepare(steady_problem(problem, [speed], "y", None))
 
 
 @pytest.mark.parametrize("body", [ON_RIGID, ON_CORE])

@@ -15,6 +15,7 @@ from viscontact.accuracy.coarser_runs import plan_coarser_runs
 from viscontact.checks.motion import left_after
 from viscontact.contact.resistance import resistance_by_displacement
 from viscontact.grid import AutomaticGrid
+from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.problem.problem import Problem
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.recorder import Recorder
@@ -182,9 +183,9 @@ def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) 
 def test_recorded_run_continues_to_the_same_bits(tmp_path: Path) -> None:
     grid = vc.Grid((40, 48), (3.2, 3.84), centre=(0.0, 0.32))
     path = vc.Travel([0.0, 3.2, 6.4], y=[0.0, 0.32, 0.64])
-    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, motion=path))
+    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, kept=NO_FIELDS, motion=path))
     for name, stops in (("whole", ()), ("stopped", (1, 5))):
-        recorded = RecordedRun(tmp_path / name, run, "none", errors=True)
+        recorded = RecordedRun(tmp_path / name, run, errors=True)
         for stop in stops:
             record = _opened(recorded)
             for _ in range(stop):

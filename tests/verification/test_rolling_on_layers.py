@@ -271,7 +271,7 @@ def test_both_forms_of_the_resistance_agree_on_several_terms():
     for cells in (64, 128, 256):
         grid = vc.Grid((1, cells), (1.0, 2.56), periodic=(True, False))
         contact = Problem(CYLINDER, covered(CORE), LEVEL, grid, tolerance=1e-9)
-        problem = steady_problem(contact, 0.1, "y", None, "none")
+        problem = steady_problem(contact, 0.1, "y", None)
         solved = prepare(problem).solver.solve(0.1, grid, 1e-9)
         both = resistance_of(problem, solved)
         off.append(abs(both.by_slope / both.by_dissipation - 1))

@@ -27,6 +27,7 @@ from viscontact.contact.cell_fields import is_even
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.loads import MixedHistory
 from viscontact.materials.compliance import ContactCompliance
+from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.simulation.march import March
 from viscontact.simulation.program_course import EventError
 from viscontact.simulation.setup import RunSetup, plan_history
@@ -226,7 +227,7 @@ def _coarser_run(
         grid = coarser_grid(run.grid, ratios, parity)
         coarse = run.on(aligned_along(grid, run.grid, motion))
     problem = replace(
-        run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=float(step_ratio)
+        run.problem, grid=coarse.grid, times=times, kept=NO_FIELDS, step_ratio=float(step_ratio)
     )
     plan, *others = plan_history(problem, coarse.open_gap, coarse.grid)
     setup = replace(coarse, problem=problem, hereditary=plan, other_terms=tuple(others))

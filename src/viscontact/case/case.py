@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -72,6 +72,11 @@ class Case(DisplayableGroup, Problem):
     surfaces: tuple[Surface, ...] = field(repr=False)
     notes: tuple[str, ...]
     document: Document = field(repr=False)
+
+    @property
+    def fields(self) -> str | Sequence[float]:
+        """Instants [s] or speeds [m/s] whose fields are kept, or "all", or "none"."""
+        return self.kept.requested
 
     @property
     def display_title(self) -> str:

@@ -22,6 +22,7 @@ from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
 from viscontact.loads.motion import STANDING, Motion
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.series_fits.fit import Fit
 from viscontact.tables import split_sheet
 
@@ -158,7 +159,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         times=times,
         indenter_material=of_indenter.built if of_indenter else None,
         tolerance=found.tolerance,
-        fields=fields,
+        kept=KeptFields(fields),
         errors=found.output.errors,
         load_file=found.load.table,
         files=files,

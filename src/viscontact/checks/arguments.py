@@ -13,7 +13,6 @@ from viscontact.indenters import Indenter, Roller, Sphere
 from viscontact.loads import LoadHistory, LoadPoint, MixedHistory
 from viscontact.loads.arguments import TAIL
 from viscontact.problem.problem import Problem
-from viscontact.time_integration.run_times import field_instants
 from viscontact.units.formatting import format_quantity
 
 #: Instants at which a law is evaluated before it is used, and a fall that is not rounding or the
@@ -25,7 +24,7 @@ LARGE_RADIUS = 2.0
 
 def check_times(problem: Problem) -> None:
     """Refuse times that are not in order, and fields at times without a state."""
-    field_instants(problem.fields, problem.instants)
+    problem.kept.among(problem.instants)
 
 
 def check_magnitudes(problem: Problem) -> None:

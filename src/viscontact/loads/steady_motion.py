@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from viscontact.backend.arrays import Floats
 from viscontact.loads.history import LoadHistory, LoadPoint
 from viscontact.units.formatting import format_quantity
 
@@ -24,6 +26,19 @@ class SteadyMotion:
             raise ValueError(
                 f"speed: each speed is needed once, got {format_quantity(twice[0], 'm/s')} twice"
             )
+
+
+def checked_speeds(name: str, given: Any) -> Floats:
+    """Return distinct positive speeds, from one or a list of them [m/s]."""
+    try:
+        speeds = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be numbers in m/s, got {given!r}") from None
+    if speeds.ndim != 1 or not speeds.size or not (np.isfinite(speeds) & (speeds > 0)).all():
+        raise ValueError(f"{name} must be positive and finite [m/s], got {given!r}")
+    if len(np.unique(speeds)) < len(speeds):
+        raise ValueError(f"{name}: each speed is needed once, got {given!r}")
+    return speeds
 
 
 def constant_load(load: LoadHistory) -> LoadPoint:

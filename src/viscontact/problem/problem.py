@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -21,6 +21,7 @@ from viscontact.loads.motion import STANDING, Motion
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
+from viscontact.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.problem.series_body import span_of
 from viscontact.problem.surface import Surface, follows_span, surface_of
 from viscontact.surfaces import Surface as MeasuredSurface
@@ -30,7 +31,7 @@ from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_
 from viscontact.time_integration.fixed_steps import FixedSteps, Step, plan_steps
 from viscontact.time_integration.moving_times import CellTimes, moving_times
 from viscontact.time_integration.requested_times import AdaptiveTimes
-from viscontact.time_integration.run_times import field_instants, run_instants
+from viscontact.time_integration.run_times import run_instants
 from viscontact.units.numbers import as_real
 
 #: Range of tolerances [-]: smaller ones are below rounding, larger ones give no solution.
@@ -77,7 +78,7 @@ class Problem:
         Material of the pressed body; None for a rigid one.
     tolerance : float
         Relative error of gap and balances at every step [-].
-    fields : {"all", "none"} or sequence of float
+    kept : KeptFields
         Times whose fields are kept [s].
     step_ratio : float
         Longest step between given times, relative to the longest one that the load allows [-].
@@ -92,7 +93,7 @@ class Problem:
     times: ArrayLike | AdaptiveTimes | CellTimes | None = None
     indenter_material: Material | Layered | None = None
     tolerance: float = 1e-6
-    fields: str | Sequence[float] = "all"
+    kept: KeptFields = ALL_FIELDS
     step_ratio: float = 1.0
     motion: Motion = STANDING
 
@@ -183,13 +184,12 @@ class Problem:
                 return self.times_at_cells(self.grid.cell_size)
             # Until the cells are known, those of one that is longer than any path.
             return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
-        return run_instants(self.times, self.fields, self.load, creep)
+        return run_instants(self.times, self.kept.places, self.load, creep)
 
     def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Times of a moving contact at which the body has passed whole cells [s]."""
         end = self.times.end if isinstance(self.times, CellTimes) else None
-        kept = () if isinstance(self.fields, str) else self.fields
-        return moving_times(self.motion, self.load, cell_size, end, kept)
+        return moving_times(self.motion, self.load, cell_size, end, self.kept.places)
 
     @property
     def awaits_cells(self) -> bool:
@@ -204,7 +204,7 @@ class Problem:
     @cached_property
     def field_instants(self) -> Floats:
         """Times whose fields are kept, among `instants` [s]."""
-        return field_instants(self.fields, self.instants)
+        return self.kept.among(self.instants)
 
     @property
     def end(self) -> float:

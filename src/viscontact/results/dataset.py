@@ -10,6 +10,7 @@ import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
@@ -19,7 +20,6 @@ from viscontact.results.variables import (
     FIELDS,
     LINES,
     error_name,
-    field_axis,
     field_axis_attributes,
     scalar_attributes,
     scalars_of,
@@ -29,7 +29,7 @@ from viscontact.state import ContactState
 
 def to_dataset(
     states: Sequence[ContactState],
-    fields: str | Sequence[float],
+    fields: KeptFields,
     attributes: Mapping[str, Any],
     errors: Mapping[str, Floats] | None = None,
 ) -> xr.Dataset:
@@ -52,7 +52,7 @@ def to_dataset(
     dataset = xr.Dataset(scalars, coords=_coordinates(grid, over, values))
     kept = [state for state in states if state.pressure.size]
     if kept:
-        dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields, over)))
+        dataset = dataset.assign(_field_arrays(kept, grid, fields.axis(over)))
     return dataset.assign_attrs(attributes)
 
 

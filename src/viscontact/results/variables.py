@@ -8,7 +8,7 @@ the netCDF and CSV files, the tables, cards, pages and figures read the table.
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Hashable, Sequence
+from collections.abc import Container, Hashable
 from dataclasses import dataclass
 from enum import Flag, auto
 from typing import Any
@@ -311,17 +311,3 @@ def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     if errors and SCALARS[name].has_error:
         attributes["ancillary_variables"] = error_name(name)
     return attributes
-
-
-def field_axis(fields: str | Sequence[float], over: str = "time") -> str:
-    """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
-
-    Over speed ``speed`` or ``field_speed``.
-
-    Examples
-    --------
-    >>> field_axis("all"), field_axis([0.0, 2.0])
-    ('time', 'field_time')
-    """
-    # An array is not to be compared with a word.
-    return over if isinstance(fields, str) and fields == "all" else f"field_{over}"

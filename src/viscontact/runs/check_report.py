@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.grid import Grid
 from viscontact.loads import MixedHistory
 from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.problem.problem import Problem
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast
@@ -74,7 +75,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
         *_of_course(run),
         *_events(run),
-        ("fields kept", _kept(prepared.case.fields, run)),
+        ("fields kept", _kept(prepared.case.kept, run)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
     ]
@@ -162,11 +163,11 @@ def _steps(run: RunSetup) -> str:
     return f"as needed for an error of {100 * run.problem.adaptive.tolerance:g} %"
 
 
-def _kept(fields: str | Sequence[float], run: RunSetup | SteadySetup) -> str:
-    if fields == "none":
+def _kept(fields: KeptFields, run: RunSetup | SteadySetup) -> str:
+    if fields.requested == "none":
         return "none"
     row = "speed" if isinstance(run, SteadySetup) else "instant"
-    when = f"every {row}" if fields == "all" else f"{len(fields)} {row}s"
+    when = f"every {row}" if fields.requested == "all" else f"{len(fields.places)} {row}s"
     return f"pressure, gap and displacement at {when}"
 
 

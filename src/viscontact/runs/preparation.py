@@ -74,7 +74,7 @@ def _prepared_run(case: Case, threads: int) -> RunSetup | SteadySetup:
             return prepare_run(case, threads)
         motion = case.steady
         along, rolling = motion.along, motion.rolling
-        return prepare(steady_problem(case, motion.speeds, along, rolling, case.fields), threads)
+        return prepare(steady_problem(case, motion.speeds, along, rolling), threads)
     except ValueError as error:
         why = str(error)
         # A key of the motion, which is an argument of its own in Python.

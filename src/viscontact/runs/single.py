@@ -17,14 +17,12 @@ from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadProgram
-from viscontact.loads.mixed import as_history
-from viscontact.loads.motion import STANDING, Motion
+from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
-from viscontact.problem.problem import Problem
+from viscontact.problem.arguments import contact_problem
 from viscontact.results.dataset import to_dataset
 from viscontact.results.enlarged_grid import enlargements
-from viscontact.results.variables import field_axis
 from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time, run_attributes
@@ -130,10 +128,16 @@ def simulate(  # noqa: PLR0913
     1.58
     """
     report = reported(progress, ProgressBar("step", "errors" if errors else ""))
-    problem = Problem(
-        *(indenter, material, as_history(load), grid, times),
-        *(indenter_material, tolerance, fields),
-        motion=STANDING if motion is None else motion,
+    problem = contact_problem(
+        indenter=indenter,
+        material=material,
+        load=load,
+        grid=grid,
+        times=times,
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+        fields=fields,
+        motion=motion,
     )
     problem = carried_out(problem, threads)
     if text := unusual_radius(indenter):
@@ -142,7 +146,7 @@ def simulate(  # noqa: PLR0913
     started = clock.perf_counter()
     states: list[ContactState] = []
     keep = set(problem.field_instants.tolist())
-    keeps_all = field_axis(fields) == "time"
+    keeps_all = problem.kept.axis() == "time"
     try:
         for state in march_run(run, report):
             kept = keeps_all or state.time in keep
@@ -150,10 +154,10 @@ def simulate(  # noqa: PLR0913
     except (ConvergenceError, DomainError) as stop:
         if states:
             bars = unknown_bars(history_of(states)) if errors else None
-            stop.partial = labelled(run, states, fields, clock.perf_counter() - started, bars)
+            stop.partial = labelled(run, states, clock.perf_counter() - started, bars)
         raise
     bars = _bars(run, states) if errors else None
-    return labelled(run, states, fields, clock.perf_counter() - started, bars)
+    return labelled(run, states, clock.perf_counter() - started, bars)
 
 
 def _bars(run: RunSetup, states: Sequence[ContactState]) -> ErrorBars:
@@ -167,7 +171,6 @@ def _bars(run: RunSetup, states: Sequence[ContactState]) -> ErrorBars:
 def labelled(
     run: RunSetup,
     states: Sequence[ContactState],
-    fields: str | Sequence[float],
     wall_time: float,
     bars: ErrorBars | None = None,
 ) -> xr.Dataset:
@@ -184,4 +187,4 @@ def labelled(
         "grid_enlarged": "\n".join(enlargements(run.grid, states)),
         **({} if bars is None else bars.attributes),
     }
-    return to_dataset(states, fields, attributes, None if bars is None else bars.values)
+    return to_dataset(states, run.problem.kept, attributes, None if bars is None else bars.values)

@@ -21,6 +21,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.contact.domain import ContactDomain
 from viscontact.errors import ConvergenceError
 from viscontact.loads import Condition, MixedHistory
+from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.observer import Observer
@@ -87,7 +88,7 @@ class EventSearch:
         self._stops = problem.instants
         self._tolerance = problem.adaptive.tolerance if problem.adaptive else PLANNED_ERROR
         times = AdaptiveTimes(course.latest, self._tolerance)
-        planned = replace(problem, load=course.history(), times=times, fields="none")
+        planned = replace(problem, load=course.history(), times=times, kept=NO_FIELDS)
         self._run: RunSetup = prepare_run(planned, threads)
         self._domain: ContactDomain = domain_of(self._run)
         self._stepper = Stepper(self._run, self._domain)

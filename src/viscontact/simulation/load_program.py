@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +16,7 @@ from viscontact.loads import Condition, ForceHistory, LoadPoint, MixedHistory
 from viscontact.loads.program import CONTROL_UNITS
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.mesh_choice import choose_mesh
+from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.problem.problem import Problem
 from viscontact.simulation.load_events import EventSearch
 from viscontact.simulation.program_course import ProgramCourse
@@ -167,10 +167,10 @@ def _with_few_steps(problem: Problem) -> Problem:
     if problem.adaptive is not None:
         tolerance = max(problem.adaptive.tolerance, ROUGH_ERROR)
         times = replace(problem.adaptive, tolerance=tolerance)
-        return replace(problem, times=times, fields="none", tolerance=solved)
+        return replace(problem, times=times, kept=NO_FIELDS, tolerance=solved)
     instants = problem.instants
     kept = instants[:: math.ceil(len(instants) / ROUGH_STEPS)]
-    return replace(problem, times=np.union1d(kept, instants[-1:]), fields="none", tolerance=solved)
+    return replace(problem, times=np.union1d(kept, instants[-1:]), kept=NO_FIELDS, tolerance=solved)
 
 
 def _coarse(grid: Grid) -> Grid:
@@ -213,16 +213,16 @@ def _under(
         times = replace(problem.adaptive, end=end)
     else:
         times = np.array([state.time for state in search.states])
-    fields = problem.fields
-    if not isinstance(fields, str):
-        fields = _fields_until(fields, end, ends)
-    return replace(problem, load=history, grid=grid, times=times, fields=fields)
+    fields = _kept_until(problem.kept, end, ends)
+    return replace(problem, load=history, grid=grid, times=times, kept=fields)
 
 
-def _fields_until(fields: Sequence[float], end: float, ends: Floats) -> tuple[float, ...]:
+def _kept_until(fields: KeptFields, end: float, ends: Floats) -> KeptFields:
     """Instants whose fields are kept up to the end; one after it becomes the end."""
+    if isinstance(fields.requested, str):
+        return fields
     kept = []
-    for instant in fields:
+    for instant in fields.places:
         near = ends[np.abs(ends - instant) <= KINK_TOLERANCE * end]
         kept.append(float(near[0]) if near.size else min(float(instant), end))
-    return tuple(sorted(set(kept)))
+    return KeptFields(tuple(sorted(set(kept))))

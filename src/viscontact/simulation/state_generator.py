@@ -12,11 +12,10 @@ from viscontact.errors import AccuracyWarning
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadProgram
-from viscontact.loads.mixed import as_history
-from viscontact.loads.motion import STANDING, Motion
+from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
-from viscontact.problem.problem import Problem
+from viscontact.problem.arguments import contact_problem
 from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.march import March
 from viscontact.simulation.progress_bar import ProgressBar, reported
@@ -113,10 +112,16 @@ def march(  # noqa: PLR0913
     0.0133
     """
     report = reported(progress, ProgressBar("step"))
-    problem = Problem(
-        *(indenter, material, as_history(load), grid, times),
-        *(indenter_material, tolerance, fields),
-        motion=STANDING if motion is None else motion,
+    problem = contact_problem(
+        indenter=indenter,
+        material=material,
+        load=load,
+        grid=grid,
+        times=times,
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+        fields=fields,
+        motion=motion,
     )
     run = prepare_run(carried_out(problem, threads), threads)
     return march_run(run, report)

@@ -7,6 +7,7 @@ from typing import Any
 
 import xarray as xr
 
+from viscontact.problem.kept_fields import ALL_FIELDS, NO_FIELDS
 from viscontact.results.dataset import to_dataset
 from viscontact.state import ContactState
 from viscontact.steady.preparation import SteadySetup
@@ -22,7 +23,7 @@ def steady_dataset(
 ) -> xr.Dataset:
     """Label the contacts at the speeds so far, with their error bars if they are known."""
     grid = common_grid([state.grid for state in states])
-    fields = "all" if all(state.pressure.size for state in states) else ()
+    fields = ALL_FIELDS if all(state.pressure.size for state in states) else NO_FIELDS
     errors = None if bars is None else errors_by_name(bars)
     found = [on_grid(state, grid) for state in states]
     return to_dataset(found, fields, steady_attributes(run, grid) | dict(attributes), errors)

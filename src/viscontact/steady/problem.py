@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +10,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
-from viscontact.loads.steady_motion import constant_load
+from viscontact.loads.steady_motion import checked_speeds, constant_load
 from viscontact.problem.problem import Problem
 from viscontact.problem.surface import creeps
 
@@ -23,7 +21,7 @@ class SteadyProblem:
 
     `contact` has bodies, grid and tolerance; its load is the constant `point`. The body moves
     towards + along `axis` (0: x, 1: y) at the `speeds` [m/s]. `rolling` tells whether material of
-    the body flows through the contact; `kept` are the speeds whose fields are kept.
+    the body flows through the contact.
     """
 
     contact: Problem
@@ -31,7 +29,11 @@ class SteadyProblem:
     speeds: Floats
     axis: int
     rolling: bool | None
-    kept: Floats
+
+    @property
+    def kept(self) -> Floats:
+        """Speeds whose fields are kept [m/s]."""
+        return self.contact.kept.among(self.speeds, "speed")
 
     @property
     def along(self) -> str:
@@ -52,7 +54,6 @@ def steady_problem(
     speed: ArrayLike,
     along: str,
     rolling: bool | None,
-    fields: str | Sequence[float],
 ) -> SteadyProblem:
     """Check a problem of steady motion and complete it."""
     if along not in ("x", "y"):
@@ -60,7 +61,7 @@ def steady_problem(
     if rolling is not None and not isinstance(rolling, bool | np.bool_):
         raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
     axis = "xy".index(along)
-    speeds = _speeds("speed", speed)
+    speeds = checked_speeds("speed", speed)
     periodic = contact.grid.periodic if isinstance(contact.grid, Grid) else (False, False)
     if periodic[axis] and not periodic[1 - axis]:
         raise ValueError(
@@ -74,8 +75,8 @@ def steady_problem(
             "roll; give rolling=False"
         )
     _check_bodies(contact, axis, rolling)
-    kept = _kept(fields, speeds)
-    return SteadyProblem(contact, constant_load(contact.load), speeds, axis, rolling, kept)
+    contact.kept.among(speeds, "speed")
+    return SteadyProblem(contact, constant_load(contact.load), speeds, axis, rolling)
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
@@ -94,28 +95,3 @@ def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
             f"rolling: the indenter has no radius of curvature along {'xy'[axis]}, so it cannot "
             "roll; give rolling=False, or a round body"
         )
-
-
-def _speeds(name: str, given: Any) -> Floats:
-    """Distinct positive numbers, from one or a list of them [m/s]."""
-    try:
-        speeds = np.atleast_1d(np.asarray(given, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} must be numbers in m/s, got {given!r}") from None
-    if speeds.ndim != 1 or not speeds.size or not (np.isfinite(speeds) & (speeds > 0)).all():
-        raise ValueError(f"{name} must be positive and finite [m/s], got {given!r}")
-    if len(np.unique(speeds)) < len(speeds):
-        raise ValueError(f"{name}: each speed is needed once, got {given!r}")
-    return speeds
-
-
-def _kept(fields: str | Sequence[float], speeds: Floats) -> Floats:
-    """Speeds whose fields are kept [m/s]."""
-    if isinstance(fields, str):
-        if fields not in ("all", "none"):
-            raise ValueError(f"fields must be 'all', 'none' or speeds, got {fields!r}")
-        return speeds if fields == "all" else speeds[:0]
-    kept = _speeds("fields", fields)
-    if not np.isin(kept, speeds).all():
-        raise ValueError(f"fields must be some of the speeds {speeds.tolist()}, got {fields!r}")
-    return kept

@@ -16,7 +16,7 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
-from viscontact.problem.problem import Problem
+from viscontact.problem.arguments import contact_problem
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time
 from viscontact.state import ContactState
@@ -142,8 +142,16 @@ def steady(  # noqa: PLR0913
     [0.0009, 0.0476, 0.0025]
     """
     report = reported(progress, ProgressBar("speed"))
-    contact = Problem(indenter, material, load, grid, None, indenter_material, tolerance)
-    problem = steady_problem(contact, speed, along, rolling, fields)
+    contact = contact_problem(
+        indenter=indenter,
+        material=material,
+        load=load,
+        grid=grid,
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+        fields=fields,
+    )
+    problem = steady_problem(contact, speed, along, rolling)
     started = clock.perf_counter()
     run = prepare(problem, threads)
     curve, states = SteadyCurve(run, errors=errors), list[ContactState]()

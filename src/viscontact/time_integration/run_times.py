@@ -1,4 +1,4 @@
-"""Times of a run, requested or chosen from load and law, and the times whose fields are kept."""
+"""Times of a run, requested or chosen from load and law."""
 
 from __future__ import annotations
 
@@ -18,53 +18,31 @@ from viscontact.units.formatting import format_quantity
 
 def run_instants(
     times: ArrayLike | AdaptiveTimes | None,
-    fields: str | Sequence[float],
+    kept: Sequence[float],
     load: LoadHistory,
     compliance: ContactCompliance,
 ) -> Floats:
     """Times of a run [s]; of adaptive steps those to be hit: 0, the end, and times of kept fields.
 
-    `times` and `fields` are as in `march`.
+    `times` are as in `march`, and `kept` the times of fields that are named one by one.
 
     >>> from viscontact.materials.compliance import SeriesCompliance
     >>> from viscontact.loads import step
     >>> law = SeriesCompliance(1.0, [1.0], [2.0])
-    >>> run_instants(None, "all", step(1.0), law)[[0, 1, -1]].round(3).tolist()
+    >>> run_instants(None, (), step(1.0), law)[[0, 1, -1]].round(3).tolist()
     [0.0, 0.103, 10.0]
     """
     if times is None:
         return default_times(load, compliance)
     if not isinstance(times, AdaptiveTimes):
         return _checked_times(times)
-    kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
-    stops = [0.0, times.end, *kept[(kept >= 0) & (kept <= times.end)].tolist()]
+    named = checked_instants("fields", kept)
+    stops = [0.0, times.end, *named[(named >= 0) & (named <= times.end)].tolist()]
     # A time that differs from a kink of the load by rounding only is taken as the kink.
     return np.array(sorted({snap_to_kink(stop, load.kinks) for stop in stops}))
 
 
-def field_instants(fields: str | Sequence[float], times: Floats) -> Floats:
-    """Times of a run whose fields are kept: "all", "none" or some of the run's times [s].
-
-    >>> field_instants([0.0, 2.0], np.array([0.0, 1.0, 2.0])).tolist()
-    [0.0, 2.0]
-    """
-    if isinstance(fields, str):
-        if fields not in ("all", "none"):
-            raise ValueError(f"fields must be 'all', 'none' or instants in s, got {fields!r}")
-        return times if fields == "all" else times[:0]
-    wanted = np.unique(_instants("fields", fields))
-    index = np.clip(np.searchsorted(times, wanted), 0, len(times) - 1)
-    index -= (index > 0) & (np.abs(times[index - 1] - wanted) < np.abs(times[index] - wanted))
-    strange = ~np.isclose(times[index], wanted, rtol=1e-9, atol=0.0)
-    if strange.any():
-        raise ValueError(
-            f"fields: {format_quantity(wanted[strange][0], 's', 6)} is not among the run's times; "
-            f"the nearest is {format_quantity(times[index][strange][0], 's', 6)}"
-        )
-    return times[index]
-
-
-def _instants(name: str, given: object) -> Floats:
+def checked_instants(name: str, given: object) -> Floats:
     """An array of times, or a ValueError with the argument's name [s]."""
     try:
         array = np.asarray(given)
@@ -77,7 +55,7 @@ def _instants(name: str, given: object) -> Floats:
 
 def _checked_times(times: ArrayLike) -> Floats:
     """Requested times, finite, not before 0 and strictly increasing [s]."""
-    instants = np.atleast_1d(_instants("times", times))
+    instants = np.atleast_1d(checked_instants("times", times))
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
         raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
     if instants[0] < 0:

@@ -20,6 +20,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.backend import transforms
 from viscontact.contact.equilibrium import ContactSolution
+from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.problem.problem import Problem
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory import recorder
@@ -38,25 +39,27 @@ from viscontact.simulation import stepper
 from viscontact.simulation.setup import RunSetup, prepare_run
 
 COUNT = 12
+#: Fields of the first and the last instant.
+ENDS = KeptFields([0.0, 1.0])
 
 
-def sphere_run(force: float = 0.1, count: int = COUNT) -> RunSetup:
+def sphere_run(force: float = 0.1, count: int = COUNT, kept: KeptFields = ENDS) -> RunSetup:
     rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     grid, times = vc.Grid((24, 24), (2.4e-3, 2.4e-3)), np.linspace(0.0, 1.0, count)
-    return prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(force), grid, times))
+    return prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(force), grid, times, kept=kept))
 
 
 @pytest.fixture
 def recorded(tmp_path: Path) -> RecordedRun:
     """A run of a sphere, and an empty directory for it."""
-    return RecordedRun(tmp_path, sphere_run(), [0.0, 1.0])
+    return RecordedRun(tmp_path, sphere_run())
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The directory of the same run, uninterrupted."""
     directory = tmp_path_factory.mktemp("whole")
-    finish(Recorder(RecordedRun(directory, sphere_run(), [0.0, 1.0])))
+    finish(Recorder(RecordedRun(directory, sphere_run())))
     return directory
 
 
@@ -314,7 +317,7 @@ def test_first_step_that_fails_changes_nothing(
 
 def test_result_of_another_run_is_not_continued(recorded: RecordedRun, tmp_path: Path) -> None:
     (tmp_path / "other").mkdir()
-    other = RecordedRun(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
+    other = RecordedRun(tmp_path / "other", sphere_run(0.2))
     for each in (recorded, other):
         stop_after(Recorder(each), 5)
     shutil.copy(other.directory / "result.nc", recorded.directory / "result.nc")
@@ -334,7 +337,7 @@ def test_changed_run_is_refused_with_the_difference(recorded: RecordedRun) -> No
         "load.force[1]: was 0.1, is now 0.2",
     ]
     with pytest.raises(ChangedCaseError, match="fields"):
-        Recorder.resume(dataclasses.replace(recorded, fields="none"))
+        Recorder.resume(dataclasses.replace(recorded, run=sphere_run(kept=NO_FIELDS)))
     assert contents(recorded.directory) == before
 
 
@@ -418,14 +421,14 @@ def test_fields_beyond_single_precision_are_stored_in_double(
     load, grid = vc.step(force), vc.Grid((16, 16), (2e-3, 2e-3))
     rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     run = prepare_run(Problem(vc.FlatPunch(5e-4), rubber, load, grid, [0.0]))
-    finish(Recorder(RecordedRun(tmp_path, run, "all")))
+    finish(Recorder(RecordedRun(tmp_path, run)))
     with xr.open_dataset(tmp_path / RESULT_NAME) as ds:
         assert ds["pressure"].dtype == np.dtype(kind)
         assert float(ds["pressure"].max()) > 0
 
 
 def test_log_of_a_finished_run_equals_its_result(tmp_path: Path) -> None:
-    record = Recorder(RecordedRun(tmp_path, sphere_run(count=4), "none", errors=True))
+    record = Recorder(RecordedRun(tmp_path, sphere_run(count=4, kept=NO_FIELDS), errors=True))
     for _ in record.steps():
         pass
     record.finish(record.estimate_errors())

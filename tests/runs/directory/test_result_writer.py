@@ -15,6 +15,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.results.variables import FIELDS, LINES, scalars_of
 from viscontact.runs.directory import result_writer
 from viscontact.runs.directory.netcdf_layout import Contents
@@ -76,7 +77,7 @@ def test_result_holds_every_bit_at_each_publication(
 def test_fields_are_stored_in_the_precision_that_the_tolerance_needs(
     tolerance: float, kind: str, path: Path
 ) -> None:
-    contents = Contents(GRID, TIMES, "all", tolerance=tolerance)
+    contents = Contents(GRID, TIMES, tolerance=tolerance)
     with ResultWriter(path, contents) as writer:
         writer.append(state(0))
         writer.finish()
@@ -169,7 +170,7 @@ def test_what_takes_the_place_of_the_result_is_on_the_disk_by_then(
 
 def test_publishing_again_and_again_does_not_swell_the_file(path: Path) -> None:
     times = np.arange(100.0)
-    with ResultWriter(path, Contents(GRID, times, "none")) as writer:
+    with ResultWriter(path, Contents(GRID, times, NO_FIELDS)) as writer:
         for row in range(100):
             writer.append(state(row, times=times))
             writer.publish()
@@ -260,7 +261,7 @@ def test_rows_beyond_the_end_are_dropped(path: Path) -> None:
 
 
 def _other(path: Path, grid: vc.Grid = GRID, fields: Any = SOME, rows: int = 5) -> None:
-    with ResultWriter(path, Contents(grid, TIMES, fields)) as writer:
+    with ResultWriter(path, Contents(grid, TIMES, KeptFields(fields))) as writer:
         writer.publish()
         if grid is GRID:
             write(writer, rows)

@@ -13,6 +13,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
+from viscontact.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
     AXES,
@@ -23,14 +24,12 @@ from viscontact.results.variables import (
     SCALARS,
     Variable,
     error_name,
-    field_axis,
     field_axis_attributes,
     scalar_attributes,
     scalars_of,
     scalars_with_error,
 )
 from viscontact.state import ContactState
-from viscontact.time_integration.run_times import field_instants
 
 #: Memory for rows that are copied from one file to another [bytes].
 BLOCK = 2**23
@@ -98,7 +97,7 @@ class Contents:
 
     grid: Grid  # of the fields when the run begins
     rows: Floats  # instants [s] or speeds [m/s]
-    fields: str | Sequence[float] = "all"  # "all", "none" or the rows of kept fields
+    fields: KeptFields = ALL_FIELDS
     attributes: Mapping[str, Any] = field(default_factory=dict)  # global ones
     errors: bool = False  # True if errors of the scalars will be added
     tolerance: float = 0.0  # relative error of the pressure, for the precision of the fields
@@ -108,20 +107,16 @@ class Contents:
     @property
     def kept(self) -> frozenset[float]:
         """Instants [s] or speeds [m/s] whose fields are kept, among those known before the run."""
-        if self.over == "time":
-            return frozenset(field_instants(self.fields, self.rows).tolist())
-        if isinstance(self.fields, str):
-            return frozenset(self.rows.tolist() if self.fields == "all" else ())
-        return frozenset(self.fields)
+        return frozenset(self.fields.among(self.rows, self.over).tolist())
 
     def layout(self, grid: Grid) -> Layout:
         """Return the layout of the result's file for some grid of the fields.
 
         >>> grid = Grid((4, 4), (1.0, 1.0))
-        >>> Contents(grid, np.array([0.0, 1.0]), fields=[1.0]).layout(grid).axis
+        >>> Contents(grid, np.array([0.0, 1.0]), KeptFields([1.0])).layout(grid).axis
         'field_time'
         """
-        axis = field_axis(self.fields, self.over) if self.kept else None
+        axis = self.fields.axis(self.over) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
         return Layout(grid, axis, self.errors, kind, self.moving, self.over)
 

@@ -10,6 +10,7 @@ from typing import Any, Generic, Protocol, Self, TypeVar
 
 from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.backend.arrays import Floats
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.atomic_files import fresh_name
 from viscontact.runs.directory.checkpoint import (
@@ -73,7 +74,6 @@ class Recorded(ABC, Generic[Run]):
 
     directory: Path
     run: Run
-    fields: str | Sequence[float]  # "all", "none" or the instants or speeds of kept fields
     title: str = ""  # of the result
     errors: bool = False  # True if errors of the scalars are estimated
     check: LockCheck = never_lost  # of the lock of the directory, before each write
@@ -87,6 +87,11 @@ class Recorded(ABC, Generic[Run]):
     @abstractmethod
     def case(self) -> dict[str, Any]:
         """Description of the run as plain data, which a run that is resumed must equal."""
+
+    @property
+    @abstractmethod
+    def fields(self) -> KeptFields:
+        """Choice of the fields that are kept."""
 
     @property
     @abstractmethod

@@ -9,6 +9,7 @@ from typing import Any
 
 from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.backend.arrays import Floats
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.results.descriptions import describe
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.recorded import Marching, Recorded
@@ -40,11 +41,16 @@ class RecordedCurve(Recorded[SteadySetup]):
         """Description of the run as plain data, which a run that is resumed must equal."""
         described = {
             **describe_steady_problem(self.run.problem, self.run.grid),
-            "fields": describe(self.fields),
+            "fields": describe(self.fields.requested),
             "errors": self.errors,
         }
         plain: dict[str, Any] = json.loads(json.dumps(described))
         return plain
+
+    @property
+    def fields(self) -> KeptFields:
+        """Choice of the speeds whose fields are kept."""
+        return self.run.problem.contact.kept
 
     @property
     def contents(self) -> Contents:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from viscontact.accuracy.error_bars import ErrorBars, error_bars
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
+from viscontact.problem.kept_fields import KeptFields
 from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.runs.directory.netcdf_layout import Contents
@@ -33,7 +34,12 @@ class RecordedRun(Recorded[RunSetup]):
     @property
     def case(self) -> dict[str, Any]:
         """Description of the run as plain data, which a run that is resumed must equal."""
-        return plain_case(self.run.problem, self.run.grid, self.fields, errors=self.errors)
+        return plain_case(self.run.problem, self.run.grid, errors=self.errors)
+
+    @property
+    def fields(self) -> KeptFields:
+        """Choice of the instants whose fields are kept."""
+        return self.run.problem.kept
 
     @property
     def contents(self) -> Contents:
@@ -123,13 +129,11 @@ class RecordedRun(Recorded[RunSetup]):
         return error_bars(run, history, on_step, issued=writer.warnings)
 
 
-def plain_case(
-    problem: Problem, grid: Grid | None, fields: str | Sequence[float], *, errors: bool
-) -> dict[str, Any]:
+def plain_case(problem: Problem, grid: Grid | None, *, errors: bool) -> dict[str, Any]:
     """Describe a run as plain data; without a grid, all but the grid."""
     described = {
         **describe_problem(problem, grid),
-        "fields": describe(fields),
+        "fields": describe(problem.kept.requested),
         "errors": errors,
     }
     plain: dict[str, Any] = json.loads(json.dumps(described))

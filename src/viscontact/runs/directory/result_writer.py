@@ -77,7 +77,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     >>> rubber = vc.Material(vc.Elastic(1e7), 0.5)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder) / "result.nc"
-    ...     with ResultWriter(path, Contents(grid, np.array(times), "none")) as writer:
+    ...     with ResultWriter(path, Contents(grid, np.array(times), NO_FIELDS)) as writer:
     ...         for state in vc.march(vc.Sphere(0.01), rubber, vc.step(2.0), grid, times):
     ...             writer.append(state)
     ...         writer.finish()

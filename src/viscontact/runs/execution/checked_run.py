@@ -55,7 +55,7 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
     directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case
-    about: dict[str, Any] = {"fields": case.fields, "title": case.title, "errors": case.errors}
+    about: dict[str, Any] = {"title": case.title, "errors": case.errors}
     about["filed"] = case_attributes(case)
     recorded = (
         RecordedCurve(directory, found.run, **about)

@@ -16,6 +16,7 @@ from viscontact.errors import AccuracyWarning
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.loads.history import Control
+from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -149,7 +150,7 @@ def _problem(
     return Problem(
         *(case.indenter, case.material, load, cells, instants, case.indenter_material),
         tolerance=case.tolerance,
-        fields="none",
+        kept=NO_FIELDS,
     )
 
 

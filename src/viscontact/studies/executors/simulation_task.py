@@ -13,6 +13,7 @@ from typing import Any, Self
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.loads import MixedHistory
+from viscontact.problem.arguments import contact_problem
 from viscontact.problem.problem import Problem
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import CommandError, refuse
@@ -76,7 +77,7 @@ def recorded_simulation(arguments: Mapping[str, Any], directory: Path) -> Record
     problem, threads, errors = _problem(arguments)
     problem = carried_out(problem, threads)
     run = prepare_run(problem, threads)
-    return RecordedRun(directory, run, problem.fields, errors=errors)
+    return RecordedRun(directory, run, errors=errors)
 
 
 def _problem(arguments: Mapping[str, Any]) -> tuple[Problem, int, bool]:
@@ -85,14 +86,14 @@ def _problem(arguments: Mapping[str, Any]) -> tuple[Problem, int, bool]:
     if given.pop("progress", None) is not None:
         raise ValueError("progress: a run in a directory reports to its progress log")
     threads, errors = given.pop("threads", 1), given.pop("errors", True)
-    return Problem(**given), threads, errors
+    return contact_problem(**given), threads, errors
 
 
 def _case_at_once(arguments: Mapping[str, Any]) -> dict[str, Any]:
     """Describe a run as its result does, but not what follows from the choice of a grid."""
     problem, _, errors = _problem(arguments)
     given = problem.grid if isinstance(problem.grid, Grid) else None
-    case = plain_case(problem, given, problem.fields, errors=errors)
+    case = plain_case(problem, given, errors=errors)
     if problem.awaits_cells:
         del case["times"]
     if isinstance(problem.load, MixedHistory) and problem.load.awaits_events:
