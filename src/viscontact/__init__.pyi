@@ -96,7 +96,7 @@ from .simulation.automatic_grid import auto_grid as auto_grid
 from .simulation.state_generator import march as march
 from .state import ContactState as ContactState
 from .state import Outcome as Outcome
-from .steady.run import steady as steady
+from .steady_motion.run import steady as steady
 from .studies.calibration.fit_case import fit_case as fit_case
 from .studies.calibration.record import ContactRecord as ContactRecord
 from .studies.calibration.result import CaseFit as CaseFit

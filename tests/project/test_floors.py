@@ -28,7 +28,7 @@ FLOORS = (
     ("problem",),
     ("checks", "meshing", "results", "case"),
     ("simulation", "drawing"),
-    ("accuracy", "steady", "plot", "notebook"),
+    ("accuracy", "steady_motion", "plot", "notebook"),
     ("figures",),
     ("report", "runs", "verify"),
     ("web", "studies"),
@@ -42,7 +42,7 @@ AT_THE_FRONT_DOOR = {"display", "web", "cli"}
 # Files that import from a lower room inside a function, because few runs need it and it takes long.
 DEFERRED = {"runs/directory/recorder.py": "results"}  # xarray and pandas: a third of a run's start
 # Exact solutions: what computes a result must not reach them, by however many imports.
-COMPUTES = ("simulation", "accuracy", "steady", "runs")
+COMPUTES = ("simulation", "accuracy", "steady_motion", "runs")
 # Other packages, and the rooms from whose floor on they may be imported.
 OTHERS = {
     "numpy": "errors", "scipy": "errors", "lazy_loader": "errors", "ducc0": "backend",

@@ -18,7 +18,7 @@ from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.simulation.setup import RunSetup
-from viscontact.steady.preparation import SteadySetup
+from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.units.formatting import format_number, format_quantity
 
 #: Loads from this fraction of the largest one on count as the largest.

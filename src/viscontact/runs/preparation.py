@@ -13,8 +13,8 @@ from viscontact.runs.resources import curve_memory, least_memory, run_memory
 from viscontact.runs.steady_forecast import steady_forecast
 from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.setup import RunSetup, prepare_run
-from viscontact.steady.preparation import SteadySetup, prepare
-from viscontact.steady.problem import steady_problem
+from viscontact.steady_motion.preparation import SteadySetup, prepare
+from viscontact.steady_motion.problem import steady_problem
 from viscontact.units.formatting import format_number
 
 

@@ -8,7 +8,7 @@ from itertools import accumulate
 from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.simulation.setup import RunSetup
-from viscontact.steady.preparation import SteadySetup
+from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.time_integration.boltzmann_sum import BLOCK_STEPS
 
 #: Memory of the program [bytes]. It takes 120 to 190 MB, since the buffers of the linear algebra

@@ -10,8 +10,8 @@ from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.runs.forecast import Forecast, convolution_time
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import curve_memory
-from viscontact.steady.curve import geometry_of, run_warnings
-from viscontact.steady.preparation import SteadySetup, estimate_at
+from viscontact.steady_motion.curve import geometry_of, run_warnings
+from viscontact.steady_motion.preparation import SteadySetup, estimate_at
 from viscontact.units.formatting import format_quantity
 
 #: Time at a speed in times of a plain convolution on its grid, with that of the coarser contact,

@@ -18,9 +18,9 @@ from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.resources import curve_memory
 from viscontact.runs.steady_forecast import curve_seconds
 from viscontact.state import ContactState
-from viscontact.steady.curve import SteadyCurve
-from viscontact.steady.preparation import SteadySetup
-from viscontact.steady.record import (
+from viscontact.steady_motion.curve import SteadyCurve
+from viscontact.steady_motion.preparation import SteadySetup
+from viscontact.steady_motion.record import (
     describe_steady_problem,
     errors_by_name,
     on_grid,

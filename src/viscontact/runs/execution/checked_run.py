@@ -20,7 +20,7 @@ from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.steady.preparation import SteadySetup
+from viscontact.steady_motion.preparation import SteadySetup
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from viscontact.runs import resources
 from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.machine.memory import available_memory
 from viscontact.simulation.setup import RunSetup
-from viscontact.steady.preparation import SteadySetup
+from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.studies.sweep.designs import Design
 from viscontact.studies.sweep.extremes import extreme_rows
 from viscontact.studies.sweep.manifest import SweepRun

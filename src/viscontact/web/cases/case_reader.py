@@ -17,7 +17,7 @@ from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.preparation import PreparedRun, predicted, prepared
 from viscontact.runs.resources import curve_memory, run_memory
-from viscontact.steady.preparation import SteadySetup
+from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.web.cases.quick_settings import coarse_settings, without_cells
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.naming import label_of, suggested_title

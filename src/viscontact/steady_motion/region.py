@@ -16,7 +16,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.contact.moving_domain import COARSEST
 from viscontact.grid import Grid
-from viscontact.steady.contact import SteadyContact, SteadySolver
+from viscontact.steady_motion.contact import SteadyContact, SteadySolver
 from viscontact.units.formatting import format_quantity
 
 #: Cells along each axis of the search, and its tolerance.

@@ -20,10 +20,10 @@ from viscontact.problem.arguments import contact_problem
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.provenance import date_and_time
 from viscontact.state import ContactState
-from viscontact.steady.curve import SteadyCurve
-from viscontact.steady.dataset import steady_dataset
-from viscontact.steady.preparation import prepare
-from viscontact.steady.problem import steady_problem
+from viscontact.steady_motion.curve import SteadyCurve
+from viscontact.steady_motion.dataset import steady_dataset
+from viscontact.steady_motion.preparation import prepare
+from viscontact.steady_motion.problem import steady_problem
 
 #: Called after each speed: the state, the number of states done, and of all.
 Progress = Callable[[ContactState, int, int], None]

@@ -32,16 +32,16 @@ from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import MIN_CELLS_ACROSS, Grid
 from viscontact.simulation.grid_enlargement import overrun
 from viscontact.state import ContactState, Outcome
-from viscontact.steady.contact import Neighbour, SteadyContact, gap_on
-from viscontact.steady.error_bars import (
+from viscontact.steady_motion.contact import Neighbour, SteadyContact, gap_on
+from viscontact.steady_motion.error_bars import (
     Measured,
     entry_is_singular,
     error_bars,
     unknown_bars,
 )
-from viscontact.steady.preparation import SteadySetup
-from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.state import force_across, resistance_of, rim_of, state_of
+from viscontact.steady_motion.preparation import SteadySetup
+from viscontact.steady_motion.problem import SteadyProblem
+from viscontact.steady_motion.state import force_across, resistance_of, rim_of, state_of
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 

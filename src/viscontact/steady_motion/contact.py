@@ -14,8 +14,8 @@ from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.steady_equilibrium import SteadySolution, solve_steady_contact
 from viscontact.grid import Grid
-from viscontact.steady.moving_law import MovingLaws
-from viscontact.steady.problem import SteadyProblem
+from viscontact.steady_motion.moving_law import MovingLaws
+from viscontact.steady_motion.problem import SteadyProblem
 
 #: Cells along an axis that can be halved.
 FEWEST_TO_HALVE = 12

@@ -10,9 +10,9 @@ import xarray as xr
 from viscontact.problem.kept_fields import ALL_FIELDS, NO_FIELDS
 from viscontact.results.dataset import to_dataset
 from viscontact.state import ContactState
-from viscontact.steady.preparation import SteadySetup
-from viscontact.steady.record import errors_by_name, on_grid, steady_attributes
-from viscontact.steady.region import common_grid
+from viscontact.steady_motion.preparation import SteadySetup
+from viscontact.steady_motion.record import errors_by_name, on_grid, steady_attributes
+from viscontact.steady_motion.region import common_grid
 
 
 def steady_dataset(

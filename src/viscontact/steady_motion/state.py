@@ -9,9 +9,9 @@ from viscontact.contact.line_load import line_load, peak_line_load
 from viscontact.contact.resistance import is_even, reaches_end, resistance_by_slope
 from viscontact.contact.rim import Rim, mean_chords, trace_rim
 from viscontact.state import ContactState, Outcome
-from viscontact.steady.contact import SteadyContact
-from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.resistance import Resistance, resistance
+from viscontact.steady_motion.contact import SteadyContact
+from viscontact.steady_motion.problem import SteadyProblem
+from viscontact.steady_motion.resistance import Resistance, resistance
 
 
 def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:

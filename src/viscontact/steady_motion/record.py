@@ -15,8 +15,8 @@ from viscontact.grid import Grid
 from viscontact.results.descriptions import describe
 from viscontact.results.variables import FIELDS, scalars_with_error
 from viscontact.state import ContactState
-from viscontact.steady.preparation import SteadySetup
-from viscontact.steady.problem import SteadyProblem
+from viscontact.steady_motion.preparation import SteadySetup
+from viscontact.steady_motion.problem import SteadyProblem
 
 
 def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, Floats]:

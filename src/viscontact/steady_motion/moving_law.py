@@ -21,7 +21,7 @@ from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.surface import ROUNDING, SurfaceTerm, terms_of
-from viscontact.steady.problem import SteadyProblem
+from viscontact.steady_motion.problem import SteadyProblem
 from viscontact.time_integration.prony_approximation import as_exponentials
 
 #: Times of the exponentials that approximate a law, over the time in which half the contact is

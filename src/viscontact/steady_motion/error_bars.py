@@ -12,8 +12,8 @@ from viscontact.contact.rim import Rim
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.state import ContactState
-from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.resistance import Resistance
+from viscontact.steady_motion.problem import SteadyProblem
+from viscontact.steady_motion.resistance import Resistance
 
 #: Scalars that have an error bar.
 WITH_ERROR = tuple(scalars_with_error(over="speed"))

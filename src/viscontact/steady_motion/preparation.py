@@ -13,10 +13,10 @@ from viscontact.contact.domain import mirrored_axes
 from viscontact.grid import Grid
 from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate
-from viscontact.steady.contact import SteadySolver, gap_on
-from viscontact.steady.moving_law import MovingLaws, moving_laws
-from viscontact.steady.problem import SteadyProblem
-from viscontact.steady.region import (
+from viscontact.steady_motion.contact import SteadySolver, gap_on
+from viscontact.steady_motion.moving_law import MovingLaws, moving_laws
+from viscontact.steady_motion.problem import SteadyProblem
+from viscontact.steady_motion.region import (
     SEARCH_CELLS,
     Lattice,
     Region,
