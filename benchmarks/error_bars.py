@@ -49,7 +49,7 @@ def examples() -> Iterator[tuple[str, Callable[[], RunSetup]]]:
 
 def _example(name: str) -> RunSetup:
     with as_file(files("viscontact.examples")) as folder:
-        return prepared(read_case(folder / name)).run
+        return prepared(read_case(folder / name)).run.setup
 
 
 def balls() -> Iterator[tuple[str, Callable[[], RunSetup]]]:

@@ -20,8 +20,9 @@ from tempfile import TemporaryDirectory
 
 from viscontact.case import read_case
 from viscontact.problem.kept_fields import KeptFields
-from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
+from viscontact.runs.over_time import OverTime
 from viscontact.runs.preparation import prepared
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.state_generator import march_run
@@ -30,7 +31,9 @@ from viscontact.simulation.state_generator import march_run
 def roller(steps: int, cells: tuple[int, int]) -> RunSetup:
     settings = [f"time.steps={steps}", f"grid.shape={list(cells)}"]
     with as_file(files("viscontact.examples") / "roller-dogbone-e05.yaml") as path:
-        return prepared(read_case(path, settings)).run
+        setup = prepared(read_case(path, settings)).run.setup
+        assert isinstance(setup, RunSetup)
+        return setup
 
 
 def march(run: RunSetup) -> int:
@@ -46,7 +49,7 @@ def _keeping(run: RunSetup, fields: str) -> RunSetup:
 def record(run: RunSetup, fields: str) -> int:
     """Record a run in a directory of its own; return the size of the result [bytes]."""
     with TemporaryDirectory() as folder:
-        recording = Recorder(RecordedRun(Path(folder), _keeping(run, fields)))
+        recording = Recorder(Recorded(Path(folder), OverTime(_keeping(run, fields), errors=False)))
         for _ in recording.steps():
             pass
         recording.finish()

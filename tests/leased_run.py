@@ -21,8 +21,9 @@ from viscontact.problem.problem import Problem
 from viscontact.run_files import STATE_NAME
 from viscontact.runs.directory import lock, recorder
 from viscontact.runs.directory.lock_check import LockCheck, LockLost
-from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
+from viscontact.runs.over_time import OverTime
 from viscontact.simulation.setup import RunSetup, prepare_run
 
 COUNT = 20
@@ -47,7 +48,7 @@ def leased(directory: Path, duration: float) -> Iterator[LockCheck]:
 
 def opened(directory: Path, check: LockCheck) -> Recorder:
     """The run at its beginning, or at its last checkpoint."""
-    recorded = RecordedRun(directory, sphere_run(), check=check)
+    recorded = Recorded(directory, OverTime(sphere_run(), errors=False), check=check)
     is_begun = (directory / STATE_NAME).exists()
     return Recorder.resume(recorded) if is_begun else Recorder(recorded)
 

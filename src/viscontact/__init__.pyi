@@ -92,11 +92,11 @@ from .results.netcdf import open_results as open_results
 from .results.netcdf import save as save
 from .results.stresses import section_stresses as section_stresses
 from .runs.single import simulate as simulate
+from .runs.steady import steady as steady
 from .simulation.automatic_grid import auto_grid as auto_grid
 from .simulation.state_generator import march as march
 from .state import ContactState as ContactState
 from .state import Outcome as Outcome
-from .steady_motion.run import steady as steady
 from .studies.calibration.fit_case import fit_case as fit_case
 from .studies.calibration.record import ContactRecord as ContactRecord
 from .studies.calibration.result import CaseFit as CaseFit

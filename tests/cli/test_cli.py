@@ -31,12 +31,10 @@ from viscontact.errors import ConvergenceError
 from viscontact.halfspace.stress_response import HalfSpaceStress
 from viscontact.problem.problem import Problem
 from viscontact.results.formatting import format_percent
-from viscontact.runs import resources
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.preparation import prepared
 from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation import stepper
-from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
 SPHERE = """\
@@ -570,8 +568,7 @@ def test_grid_is_measured_against_the_memory_that_is_free(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     run = prepared(read_case(Path("case.yaml"))).run
-    assert isinstance(run, RunSetup)
-    needed = resources.run_memory(run)
+    needed = run.memory
     monkeypatch.setattr("viscontact.runs.preparation.available_memory", lambda: needed + 1)
     assert main(["run", "case.yaml", "-q", "-o", "fits"]) == 0
     monkeypatch.setattr("viscontact.runs.preparation.available_memory", lambda: needed - 1)

@@ -19,7 +19,8 @@ import xarray as xr
 import viscontact as vc
 from interrupted_runs import CASE, at_instant, contents, folder, kill, same_bits, whole
 from viscontact.cli import main
-from viscontact.runs.directory import checkpoint, recorded_run, recorder
+from viscontact.runs import over_time
+from viscontact.runs.directory import checkpoint, recorder
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.simulation import stepper
@@ -633,14 +634,14 @@ def test_table_that_is_changed_before_the_first_step_stops_the_run(
     table = Path("tables/load.csv")
     table.write_text(TABLE, encoding="utf-8")
     words = ["run", "case.yaml", "-q", "--set", f"load={{kind: history, file: {table}}}"]
-    march = recorded_run.March
+    march = over_time.March
 
     def marching(*arguments: Any) -> Any:
         change(table)
         return march(*arguments)
 
     with monkeypatch.context() as patched:
-        patched.setattr(recorded_run, "March", marching)
+        patched.setattr(over_time, "March", marching)
         assert main(words) == 1
     first, *_ = said_in_lines(capsys)
     assert "load.csv was changed while the run was being prepared" in first

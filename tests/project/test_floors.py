@@ -30,8 +30,8 @@ FLOORS = (
     ("simulation", "drawing"),
     ("accuracy", "steady_motion", "plot", "notebook"),
     ("figures",),
-    ("report", "runs", "verify"),
-    ("web", "studies"),
+    ("report", "runs"),
+    ("web", "studies", "verify"),
     ("cli",),
     ("__main__",),
 )

@@ -89,10 +89,10 @@ def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> N
         writer.append(moving)
         writer.finish()
     stored = vc.open_results(path)
-    labelled = to_dataset([moving], NO_FIELDS, {})
+    labelled = to_dataset([moving], "field_time", {})
     for ds in (stored, labelled):
         assert [float(ds[name][0]) for name in names] == [0.5] * len(names)
-    assert not set(names) & set(to_dataset([standing], NO_FIELDS, {}))
+    assert not set(names) & set(to_dataset([standing], "field_time", {}))
     assert not set(names) & set(history_of([standing]))
     assert {"friction_coefficient", "heat"} <= set(history_of([moving]))
 
@@ -124,7 +124,7 @@ def test_new_entry_is_in_dataset_and_csv(
     rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((24, 24), (2e-3, 2e-3))
     state = next(vc.march(vc.Sphere(0.01), rubber, vc.step(0.05), grid, [0.0]))
     monkeypatch.setattr(ContactState, NEW, 0.5, raising=False)
-    assert float(to_dataset([state], NO_FIELDS, {})[NEW][0]) == 0.5
+    assert float(to_dataset([state], "field_time", {})[NEW][0]) == 0.5
 
 
 def test_new_entry_is_in_summary_card_and_tables(

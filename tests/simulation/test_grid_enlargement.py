@@ -17,9 +17,10 @@ from simulation.test_march import differing, steps_of, through_a_file
 from viscontact.grid import AutomaticGrid
 from viscontact.problem.kept_fields import KeptFields
 from viscontact.problem.problem import Problem
-from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
-from viscontact.runs.single import labelled
+from viscontact.runs.over_time import OverTime
+from viscontact.runs.solving import labelled
 from viscontact.simulation.grid_enlargement import next_grid
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -164,7 +165,7 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew(
     prepare, small = RUNS["sphere"]
     run = growing(prepare(small))
     states = states_of(run)
-    ds = labelled(run, states, 0.0)
+    ds = labelled(OverTime(run), states, 0.0)
     large = states[-1].grid
     assert ds.x.values.tolist() == large.x.tolist()
     assert ds.sizes["y"] == large.shape[1]
@@ -209,13 +210,12 @@ def test_contact_beyond_the_automatic_extent_is_followed(tmp_path: Path) -> None
 SOME = [0.0, 0.75, 2.0, 3.0]
 
 
-def recorded(directory: Path, fields: str | list[float] = "all") -> RecordedRun:
+def recorded(directory: Path, fields: str | list[float] = "all") -> Recorded:
     directory.mkdir(exist_ok=True)
     prepare, small = RUNS["sphere"]
     run = growing(prepare(small))
-    return RecordedRun(
-        directory, replace(run, problem=replace(run.problem, kept=KeptFields(fields)))
-    )
+    run = replace(run, problem=replace(run.problem, kept=KeptFields(fields)))
+    return Recorded(directory, OverTime(run, errors=False))
 
 
 @pytest.mark.parametrize("fields", ["all", SOME])
@@ -224,7 +224,7 @@ def test_recorded_result_is_the_one_that_is_returned(
 ) -> None:
     of = recorded(tmp_path, fields)
     finish(Recorder(of))
-    states = states_of(of.run)
+    states = states_of(of.run.setup)
     if fields != "all":
         states = [each if each.time in fields else each.without_fields() for each in states]
     expected = labelled(of.run, states, 0.0)
@@ -245,7 +245,7 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
     finish(Recorder(recorded(tmp_path / "whole", fields)))
     stopped = recorded(tmp_path / "stopped", fields)
     stop_after(Recorder(stopped), 1)
-    for instants in range(2, len(stopped.run.problem.instants)):
+    for instants in range(2, len(stopped.run.places)):
         stop_after(Recorder.resume(stopped), instants)
     finish(Recorder.resume(stopped))
     assert same_bits(tmp_path / "stopped", tmp_path / "whole")

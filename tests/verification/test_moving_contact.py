@@ -17,8 +17,9 @@ from viscontact.contact.resistance import resistance_by_displacement
 from viscontact.grid import AutomaticGrid
 from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.problem.problem import Problem
-from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
+from viscontact.runs.over_time import OverTime
 from viscontact.simulation import setup
 from viscontact.simulation.setup import prepare_run
 
@@ -185,7 +186,7 @@ def test_recorded_run_continues_to_the_same_bits(tmp_path: Path) -> None:
     path = vc.Travel([0.0, 3.2, 6.4], y=[0.0, 0.32, 0.64])
     run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, kept=NO_FIELDS, motion=path))
     for name, stops in (("whole", ()), ("stopped", (1, 5))):
-        recorded = RecordedRun(tmp_path / name, run, errors=True)
+        recorded = Recorded(tmp_path / name, OverTime(run))
         for stop in stops:
             record = _opened(recorded)
             for _ in range(stop):
@@ -204,7 +205,7 @@ def test_recorded_run_continues_to_the_same_bits(tmp_path: Path) -> None:
     assert float(whole.heat_error[-1]) > 0
 
 
-def _opened(recorded: RecordedRun) -> Recorder:
+def _opened(recorded: Recorded) -> Recorder:
     try:
         return Recorder.resume(recorded)
     except FileNotFoundError:

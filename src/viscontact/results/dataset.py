@@ -10,7 +10,6 @@ import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
-from viscontact.problem.kept_fields import KeptFields
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
@@ -29,11 +28,14 @@ from viscontact.state import ContactState
 
 def to_dataset(
     states: Sequence[ContactState],
-    fields: KeptFields,
+    field_axis: str,
     attributes: Mapping[str, Any],
     errors: Mapping[str, Floats] | None = None,
 ) -> xr.Dataset:
-    """Label the states of a run, over time or speed; errors by name, over the states."""
+    """Label the states of a run, over time or speed; errors by name, over the states.
+
+    The fields lie on an axis of their own unless all states keep them.
+    """
     over = states[0].over
     values = np.array([getattr(state, over) for state in states])
     scalars = {
@@ -52,7 +54,7 @@ def to_dataset(
     dataset = xr.Dataset(scalars, coords=_coordinates(grid, over, values))
     kept = [state for state in states if state.pressure.size]
     if kept:
-        dataset = dataset.assign(_field_arrays(kept, grid, fields.axis(over)))
+        dataset = dataset.assign(_field_arrays(kept, grid, field_axis))
     return dataset.assign_attrs(attributes)
 
 

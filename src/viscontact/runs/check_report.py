@@ -4,28 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.grid import Grid
-from viscontact.loads import MixedHistory
+from viscontact.loads import LoadHistory, MixedHistory
 from viscontact.meshing.elastic_estimate import ContactEstimate
-from viscontact.problem.kept_fields import KeptFields
-from viscontact.problem.problem import Problem
 from viscontact.results.variables import MESH_DEPENDENT
+from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
-from viscontact.simulation.setup import RunSetup
-from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.units.formatting import format_number, format_quantity
-
-#: Loads from this fraction of the largest one on count as the largest.
-LARGEST_LOAD_FRACTION = 0.999
-
-#: Errors of the grid below this are not distinguished.
-LEAST_ERROR = 1e-4
 
 #: Ends of the body up to this multiple of the grid are drawn as well.
 FARTHEST_END = 1.3
@@ -38,19 +30,14 @@ def verdict(prepared: PreparedRun, expected: Forecast) -> str:
     return f"{prepared.case.document.path}: {verdict}"
 
 
-def contact_of(run: RunSetup | SteadySetup) -> Problem:
-    """Contact problem of a run over time or speed."""
-    return run.problem.contact if isinstance(run, SteadySetup) else run.problem
-
-
-def drawn_size(run: RunSetup | SteadySetup) -> tuple[float, float]:
+def drawn_size(run: Analysis[Any, Any]) -> tuple[float, float]:
     """Extents of the drawn region around the origin [m]: the grid, and nearby ends of the body."""
     size = list(run.grid.size_about_origin)
     for axis in (0, 1):
         beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
         places = np.zeros((2, 2, beyond.size))
         places[axis] = -beyond, beyond
-        gap = contact_of(run).indenter.gap(places[0], places[1])
+        gap = run.contact.indenter.gap(places[0], places[1])
         if np.isinf(gap[:, -1]).any() and np.isfinite(gap[:, 0]).any():
             last = beyond[np.flatnonzero(np.isfinite(gap).any(axis=0))[-1]]
             size[axis] = 2.1 * float(last)
@@ -61,9 +48,8 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
     """Return grid, steps or speeds, memory and time of a run as rows of name and value."""
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
-    chosen = " (automatic)" if contact_of(run).automatic_grid is not None else ""
-    grows = isinstance(run, RunSetup) and run.grows
-    growing = "; more if the grid has to grow" if grows else ""
+    chosen = " (automatic)" if run.contact.automatic_grid is not None else ""
+    growing = "; more if the grid has to grow" if run.grows else ""
     period = _period(run.grid)
     free = f"of {_bytes(expected.available)} free"
     return [
@@ -73,29 +59,16 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
             f"{format_quantity(ly, 'm')}{_place(run.grid)}{chosen}{period}",
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
-        *_of_course(run),
-        *_events(run),
-        ("fields kept", _kept(prepared.case.kept, run)),
+        *run.course(),
+        *_events(run.contact.load),
+        ("fields kept", _kept(run)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
     ]
 
 
-def _of_course(run: RunSetup | SteadySetup) -> list[tuple[str, str]]:
-    """Time steps and the error of the grid under their loads; or the speeds."""
-    if isinstance(run, RunSetup):
-        end = format_quantity(run.problem.end, "s")
-        return [*_grid_error(run), ("time steps", f"{_steps(run)}, up to t = {end}")]
-    speeds = run.problem.speeds
-    low, high = (format_quantity(float(each), "m/s") for each in (speeds.min(), speeds.max()))
-    return [
-        ("speeds", f"{len(speeds)}, from {low} to {high}") if len(speeds) > 1 else ("speed", low)
-    ]
-
-
-def _events(run: RunSetup | SteadySetup) -> Iterator[tuple[str, str]]:
+def _events(load: LoadHistory) -> Iterator[tuple[str, str]]:
     """What ends the segments of a load program, and when, by a march on few cells."""
-    load = contact_of(run).load
     if isinstance(load, MixedHistory) and load.events:
         about = [
             f"{event.condition} at about {format_quantity(event.time, 's', 3)}"
@@ -119,64 +92,21 @@ def _place(grid: Grid) -> str:
     return f" around x = {x}, y = {y}"
 
 
-def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
-    """Estimated errors of an automatic grid, and the times for which they hold."""
-    if run.mesh is None or not run.mesh.errors:
-        return []
-    errors = [
-        f"{name.replace('_', ' ')} {_percent(error)}" for name, error in run.mesh.errors.items()
-    ]
-    # Broken here: a terminal would break between a number and its unit.
-    when = ";\n".join(_when_largest(run))
-    return [("grid error", f"{', '.join(errors)},\n{when}")]
-
-
-def _percent(error: float) -> str:
-    """A relative error; an estimate as large as the value itself is none."""
-    if error < LEAST_ERROR:
-        return f"<{100 * LEAST_ERROR:g} %"
-    return f"{format_number(100 * error, 1)} %" if error < 1 else "unknown"
-
-
-def _when_largest(run: RunSetup) -> Iterator[str]:
-    """Times of the largest load, for which the cells were chosen, and a remark on other times."""
-    problem, load = run.problem, run.problem.load
-    crest, point = problem.largest_load
-    kinks = load.kinks[load.kinks <= problem.end]
-    instants = np.union1d(problem.instants, [*kinks, crest])
-    # On the left of a jump, for example, the load is largest at a single instant.
-    is_largest = load.level_at(instants) >= LARGEST_LOAD_FRACTION * point.level
-    is_largest |= instants == crest
-    first, last = (format_quantity(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
-    when = f" (t = {first} to {last})" if first != last else f" (t = {first})"
-    comes = np.diff(is_largest.astype(int), prepend=0) > 0
-    if math.isfinite(load.longest_step) or np.count_nonzero(comes) > 1:
-        when = f" (first at t = {first})"
-    yield f"at the largest load{'' if is_largest.all() else when}"
-    if not is_largest[instants > 0].all():
-        yield "more at smaller loads, whose contact has fewer cells"
-
-
-def _steps(run: RunSetup) -> str:
-    if run.problem.adaptive is None:
-        return f"{len(run.problem.instants) - 1}"
-    return f"as needed for an error of {100 * run.problem.adaptive.tolerance:g} %"
-
-
-def _kept(fields: KeptFields, run: RunSetup | SteadySetup) -> str:
+def _kept(run: Analysis[Any, Any]) -> str:
+    fields = run.fields
     if fields.requested == "none":
         return "none"
-    row = "speed" if isinstance(run, SteadySetup) else "instant"
-    when = f"every {row}" if fields.requested == "all" else f"{len(fields.places)} {row}s"
+    some = f"{len(fields.places)} {run.axis.rows}"
+    when = f"every {run.axis.row}" if fields.requested == "all" else some
     return f"pressure, gap and displacement at {when}"
 
 
 def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
     """Return title and rows of the expected contact; no rows without a load."""
-    found, load = expected.estimate, contact_of(prepared.run).load
+    found, load = expected.estimate, prepared.run.contact.load
     control: str = load.control
     if control == "mixed":
-        point = contact_of(prepared.run).largest_load[1]
+        point = prepared.run.contact.largest_load[1]
         control = "approach" if point.force is None else "force"
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from viscontact.case import Case
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
-from viscontact.runs.forecast import Forecast, forecast
+from viscontact.runs.analysis import Analysis
+from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import curve_memory, least_memory, run_memory
-from viscontact.runs.steady_forecast import steady_forecast
+from viscontact.runs.over_speed import OverSpeed
+from viscontact.runs.over_time import OverTime
+from viscontact.runs.resources import least_memory
 from viscontact.simulation.load_program import carried_out
-from viscontact.simulation.setup import RunSetup, prepare_run
-from viscontact.steady_motion.preparation import SteadySetup, prepare
+from viscontact.simulation.setup import prepare_run
+from viscontact.steady_motion.preparation import prepare
 from viscontact.steady_motion.problem import steady_problem
 from viscontact.units.formatting import format_number
 
@@ -23,7 +26,7 @@ class PreparedRun:
     """A checked case and its run."""
 
     case: Case
-    run: RunSetup | SteadySetup
+    run: Analysis[Any, Any]
 
 
 def prepared(
@@ -41,17 +44,14 @@ def prepared(
         _refuse_beyond(available, case, case.grid, least)
     case = _carried_out(case, threads, roughly=roughly)
     run = _prepared_run(case, threads)
-    needed = curve_memory(run) if isinstance(run, SteadySetup) else run_memory(run)
-    _refuse_beyond(available, case, run.grid, needed)
+    _refuse_beyond(available, case, run.grid, run.memory)
     return PreparedRun(case, run)
 
 
 def predicted(prepared: PreparedRun) -> Forecast:
     """Return the forecast of a checked case; CaseError if no contact can carry the load."""
     try:
-        if isinstance(prepared.run, SteadySetup):
-            return steady_forecast(prepared.run, errors=prepared.case.errors)
-        return forecast(prepared.run, errors=prepared.case.errors)
+        return prepared.run.forecast()
     except ValueError as error:
         raise prepared.case.error(str(error)) from error
 
@@ -68,13 +68,12 @@ def _carried_out(case: Case, threads: int, *, roughly: bool) -> Case:
     return found
 
 
-def _prepared_run(case: Case, threads: int) -> RunSetup | SteadySetup:
+def _prepared_run(case: Case, threads: int) -> Analysis[Any, Any]:
     try:
-        if case.steady is None:
-            return prepare_run(case, threads)
-        motion = case.steady
-        along, rolling = motion.along, motion.rolling
-        return prepare(steady_problem(case, motion.speeds, along, rolling), threads)
+        if (motion := case.steady) is None:
+            return OverTime(prepare_run(case, threads), case.errors)
+        moving = steady_problem(case, motion.speeds, motion.along, motion.rolling)
+        return OverSpeed(prepare(moving, threads), case.errors)
     except ValueError as error:
         why = str(error)
         # A key of the motion, which is an argument of its own in Python.

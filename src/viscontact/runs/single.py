@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time as clock
 import warnings
 from collections.abc import Sequence
 from typing import Literal
@@ -10,10 +9,7 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.accuracy.coarser_results import history_of
-from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.checks.arguments import unusual_radius
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadProgram
@@ -21,14 +17,12 @@ from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.arguments import contact_problem
-from viscontact.results.dataset import to_dataset
-from viscontact.results.enlarged_grid import enlargements
+from viscontact.runs.over_time import OverTime
+from viscontact.runs.solving import solve
 from viscontact.simulation.load_program import carried_out
 from viscontact.simulation.progress_bar import ProgressBar, reported
-from viscontact.simulation.provenance import date_and_time, run_attributes
-from viscontact.simulation.setup import RunSetup, prepare_run
-from viscontact.simulation.state_generator import Progress, march_run
-from viscontact.state import ContactState
+from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.state_generator import Progress
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
 
@@ -142,49 +136,4 @@ def simulate(  # noqa: PLR0913
     problem = carried_out(problem, threads)
     if text := unusual_radius(indenter):
         warnings.warn(text, UserWarning, stacklevel=2)
-    run = prepare_run(problem, threads)
-    started = clock.perf_counter()
-    states: list[ContactState] = []
-    keep = set(problem.field_instants.tolist())
-    keeps_all = problem.kept.axis() == "time"
-    try:
-        for state in march_run(run, report):
-            kept = keeps_all or state.time in keep
-            states.append(state.with_own_fields() if kept else state.without_fields())
-    except (ConvergenceError, DomainError) as stop:
-        if states:
-            bars = unknown_bars(history_of(states)) if errors else None
-            stop.partial = labelled(run, states, clock.perf_counter() - started, bars)
-        raise
-    bars = _bars(run, states) if errors else None
-    return labelled(run, states, clock.perf_counter() - started, bars)
-
-
-def _bars(run: RunSetup, states: Sequence[ContactState]) -> ErrorBars:
-    issued = [text for state in states for text in state.warnings]
-    bars = error_bars(run.on(states[-1].grid), history_of(states), issued=issued)
-    for text in bars.warnings:
-        warnings.warn(text, AccuracyWarning, stacklevel=3)
-    return bars
-
-
-def labelled(
-    run: RunSetup,
-    states: Sequence[ContactState],
-    wall_time: float,
-    bars: ErrorBars | None = None,
-) -> xr.Dataset:
-    """Dataset of the states of a run, at least one, with the attributes of the run.
-
-    `run` is as before its first step, on the grid that it started with; `wall_time` in seconds.
-    """
-    warned = [text for state in states for text in state.warnings]
-    warned += bars.warnings if bars is not None else ()
-    attributes = run_attributes(run) | {
-        "started": date_and_time(wall_time),
-        "wall_time": wall_time,
-        "warnings": "\n".join(warned),
-        "grid_enlarged": "\n".join(enlargements(run.grid, states)),
-        **({} if bars is None else bars.attributes),
-    }
-    return to_dataset(states, run.problem.kept, attributes, None if bars is None else bars.values)
+    return solve(OverTime(prepare_run(problem, threads), errors), report)

@@ -15,7 +15,7 @@ from viscontact.indenters import Indenter, Paraboloid
 from viscontact.laws import CreepSeries
 from viscontact.loads import step
 from viscontact.materials.material import Material
-from viscontact.steady_motion.run import steady
+from viscontact.runs.steady import steady
 from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 
 # Units of the theory: the contact is 4 to 15 % of the radius wide.

@@ -32,9 +32,9 @@ from viscontact.runs.directory.checkpoint import (
 )
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.recorded import ChangedCaseError
-from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorded import ChangedCaseError, Recorded
 from viscontact.runs.directory.recorder import Recorder
+from viscontact.runs.over_time import OverTime
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import RunSetup, prepare_run
 
@@ -49,17 +49,22 @@ def sphere_run(force: float = 0.1, count: int = COUNT, kept: KeptFields = ENDS) 
     return prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(force), grid, times, kept=kept))
 
 
+def sphere(directory: Path, run: RunSetup | None = None) -> Recorded:
+    """A recorded run without error bars."""
+    return Recorded(directory, OverTime(run or sphere_run(), errors=False))
+
+
 @pytest.fixture
-def recorded(tmp_path: Path) -> RecordedRun:
+def recorded(tmp_path: Path) -> Recorded:
     """A run of a sphere, and an empty directory for it."""
-    return RecordedRun(tmp_path, sphere_run())
+    return sphere(tmp_path)
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The directory of the same run, uninterrupted."""
     directory = tmp_path_factory.mktemp("whole")
-    finish(Recorder(RecordedRun(directory, sphere_run())))
+    finish(Recorder(sphere(directory)))
     return directory
 
 
@@ -91,7 +96,7 @@ def contents(directory: Path) -> dict[str, bytes]:
 
 
 def test_who_reads_the_last_line_of_the_log_finds_all_rows_in_the_result(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recorder, "PAUSE", 1e9)  # no checkpoint after the first step
     append, rows = ProgressLog.append, []
@@ -179,13 +184,13 @@ def test_pickled_objects_are_never_loaded() -> None:
 
 @pytest.mark.parametrize("instants", [1, 2, 7, COUNT])
 def test_run_continues_to_the_same_bits(
-    instants: int, recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
+    instants: int, recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
     stop_after(Recorder(recorded), instants)
     record = Recorder.resume(recorded)
-    expected = (instants, recorded.run.problem.instants[instants - 1])
+    expected = (instants, recorded.run.places[instants - 1])
     assert record.resumed == record.saved == record.shown == expected
     finish(record)
     assert same_bits(recorded.directory, whole)
@@ -195,7 +200,7 @@ def test_run_continues_to_the_same_bits(
 
 
 def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
-    recorded: RecordedRun, whole: Path
+    recorded: Recorded, whole: Path
 ) -> None:
     stop_after(Recorder(recorded), 1)
     for instants in range(2, COUNT + 1):
@@ -205,7 +210,7 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
 
 
 def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_respects(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
@@ -242,7 +247,7 @@ def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_res
 
 
 def test_file_system_that_flushes_no_directories_is_no_obstacle(
-    recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     flush = os.fsync
 
@@ -257,7 +262,7 @@ def test_file_system_that_flushes_no_directories_is_no_obstacle(
 
 
 def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     flushed: list[tuple[int, int]] = []
 
@@ -271,7 +276,7 @@ def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
 
 
 def test_run_that_is_killed_loses_the_steps_since_its_last_checkpoint_only(
-    recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 1e9)  # after the first step
     stop_after(Recorder(recorded), 7)
@@ -282,7 +287,7 @@ def test_run_that_is_killed_loses_the_steps_since_its_last_checkpoint_only(
     assert same_bits(recorded.directory, whole)
 
 
-def test_state_of_an_older_kind_is_refused_in_one_line(recorded: RecordedRun) -> None:
+def test_state_of_an_older_kind_is_refused_in_one_line(recorded: Recorded) -> None:
     stop_after(Recorder(recorded), 2)
     path = recorded.directory / STATE_NAME
     with path.open("rb") as file:
@@ -296,7 +301,7 @@ def test_state_of_an_older_kind_is_refused_in_one_line(recorded: RecordedRun) ->
 
 
 def test_first_step_that_fails_changes_nothing(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stop_after(Recorder(recorded), 3)
     before = contents(recorded.directory)
@@ -306,7 +311,7 @@ def test_first_step_that_fails_changes_nothing(
     def failing(*arguments: Any, **options: Any) -> ContactSolution:
         return dataclasses.replace(solve(*arguments, **options), converged=False)
 
-    other = dataclasses.replace(recorded, run=sphere_run(0.2))
+    other = sphere(recorded.directory, sphere_run(0.2))
     monkeypatch.setattr(stepper, "solve_contact", failing)
     record = Recorder(other)
     with pytest.raises(vc.ConvergenceError):
@@ -315,9 +320,9 @@ def test_first_step_that_fails_changes_nothing(
     assert contents(recorded.directory) == before
 
 
-def test_result_of_another_run_is_not_continued(recorded: RecordedRun, tmp_path: Path) -> None:
+def test_result_of_another_run_is_not_continued(recorded: Recorded, tmp_path: Path) -> None:
     (tmp_path / "other").mkdir()
-    other = RecordedRun(tmp_path / "other", sphere_run(0.2))
+    other = sphere(tmp_path / "other", sphere_run(0.2))
     for each in (recorded, other):
         stop_after(Recorder(each), 5)
     shutil.copy(other.directory / "result.nc", recorded.directory / "result.nc")
@@ -328,21 +333,21 @@ def test_result_of_another_run_is_not_continued(recorded: RecordedRun, tmp_path:
     assert contents(recorded.directory) == before
 
 
-def test_changed_run_is_refused_with_the_difference(recorded: RecordedRun) -> None:
+def test_changed_run_is_refused_with_the_difference(recorded: Recorded) -> None:
     stop_after(Recorder(recorded), 2)
     before = contents(recorded.directory)
     with pytest.raises(ChangedCaseError) as refusal:
-        Recorder.resume(dataclasses.replace(recorded, run=sphere_run(0.2)))
+        Recorder.resume(sphere(recorded.directory, sphere_run(0.2)))
     assert [str(each) for each in refusal.value.changes] == [
         "load.force[1]: was 0.1, is now 0.2",
     ]
     with pytest.raises(ChangedCaseError, match="fields"):
-        Recorder.resume(dataclasses.replace(recorded, run=sphere_run(kept=NO_FIELDS)))
+        Recorder.resume(sphere(recorded.directory, sphere_run(kept=NO_FIELDS)))
     assert contents(recorded.directory) == before
 
 
 def test_state_of_another_version_is_refused(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Checkpoint.__init__, "__defaults__", ("0.0.1", LAYOUT))
     stop_after(Recorder(recorded), 2)
@@ -351,7 +356,7 @@ def test_state_of_another_version_is_refused(
 
 
 def test_state_of_another_layout_is_refused(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Checkpoint.__init__, "__defaults__", (vc.__version__, LAYOUT - 1))
     stop_after(Recorder(recorded), 2)
@@ -360,7 +365,7 @@ def test_state_of_another_layout_is_refused(
 
 
 def test_durations_are_right_when_the_clock_is_set_back(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = iter(range(10**9, 0, -3600))
     monkeypatch.setattr(clock, "time", lambda: float(next(shown)))
@@ -372,7 +377,7 @@ def test_durations_are_right_when_the_clock_is_set_back(
 
 
 def test_hard_link_to_a_result_keeps_it_as_it_was(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
@@ -387,21 +392,21 @@ def test_hard_link_to_a_result_keeps_it_as_it_was(
 
 
 def test_a_run_stays_with_the_transforms_it_was_begun_with(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    run = dataclasses.replace(recorded.run, transforms="scipy")
+    run = recorded.run.with_transforms("scipy")
     begun = Recorder(dataclasses.replace(recorded, run=run))
     next(iter(begun.steps()))
     begun.close()
     monkeypatch.setattr(transforms, "ducc0", object())  # as if it had been installed since
-    faster = dataclasses.replace(recorded, run=sphere_run())
-    assert faster.run.transforms == "ducc0"
+    faster = sphere(recorded.directory)
+    assert faster.run.setup.transforms == "ducc0"
     finish(Recorder.resume(faster))
     assert vc.open_results(recorded.directory).attrs["transforms"] == "scipy"
 
 
 def test_a_run_whose_transforms_are_gone_is_not_continued(
-    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begun = Recorder(recorded)
     next(iter(begun.steps()))
@@ -421,14 +426,14 @@ def test_fields_beyond_single_precision_are_stored_in_double(
     load, grid = vc.step(force), vc.Grid((16, 16), (2e-3, 2e-3))
     rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     run = prepare_run(Problem(vc.FlatPunch(5e-4), rubber, load, grid, [0.0]))
-    finish(Recorder(RecordedRun(tmp_path, run)))
+    finish(Recorder(sphere(tmp_path, run)))
     with xr.open_dataset(tmp_path / RESULT_NAME) as ds:
         assert ds["pressure"].dtype == np.dtype(kind)
         assert float(ds["pressure"].max()) > 0
 
 
 def test_log_of_a_finished_run_equals_its_result(tmp_path: Path) -> None:
-    record = Recorder(RecordedRun(tmp_path, sphere_run(count=4, kept=NO_FIELDS), errors=True))
+    record = Recorder(Recorded(tmp_path, OverTime(sphere_run(count=4, kept=NO_FIELDS))))
     for _ in record.steps():
         pass
     record.finish(record.estimate_errors())

@@ -15,8 +15,8 @@ from viscontact.results.stored_result import Result, StoredResult, stored_result
 from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
 from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.directory.progress_log import progress_made
 from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.progress_made import progress_made
 from viscontact.state import Outcome
 
 if TYPE_CHECKING:

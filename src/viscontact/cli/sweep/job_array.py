@@ -70,7 +70,7 @@ def _longest(jobs: list[Job]) -> float:
     longest = max(jobs, key=lambda job: job.work)
     request = replace(longest.request, output=longest.directory)
     checked = checked_run(request, memory=math.inf)
-    return checked.recorded.seconds
+    return checked.recorded.run.seconds
 
 
 def _program() -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import AbstractContextManager, nullcontext, suppress
 from itertools import islice
 from pathlib import Path
@@ -17,7 +17,6 @@ from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, f
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.state import ContactState, Outcome
-from viscontact.units.formatting import format_quantity
 
 #: Longest first line of a progress log [bytes].
 LONGEST_LINE = 2**16
@@ -205,23 +204,3 @@ def _errors(errors: Mapping[str, Floats], row: int) -> dict[str, float | str | N
 
 def _encoded(entries: Mapping[str, Any]) -> bytes:
     return (json.dumps(entries, allow_nan=False, ensure_ascii=False) + "\n").encode()
-
-
-def progress_made(
-    done: int, reached: float | None, times: Sequence[float], adaptive: object
-) -> str:
-    """Describe the progress of a run, with times in seconds.
-
-    Examples
-    --------
-    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
-    '2 of 3 instants'
-    """
-    if adaptive is None:
-        return f"{done} of {len(times)} instants"
-    if reached is None:
-        return "0 instants"
-    return (
-        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
-        f"{format_quantity(times[-1], 's')}"
-    )

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Generic, Protocol, Self, TypeVar
+from typing import Any, Self
 
-from viscontact.accuracy.error_bars import ErrorBars
-from viscontact.backend.arrays import Floats
-from viscontact.problem.kept_fields import KeptFields
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.analysis import Analysis, States, fits_single_precision
 from viscontact.runs.directory.atomic_files import fresh_name
 from viscontact.runs.directory.checkpoint import (
     REMEDY,
@@ -25,8 +23,6 @@ from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter, working_files
 from viscontact.runs.directory.stored_result import stored_run
-from viscontact.state import ContactState, Outcome
-from viscontact.time_integration.restart_data import RestartData
 
 
 class ChangedCaseError(ValueError):
@@ -37,125 +33,33 @@ class ChangedCaseError(ValueError):
         self.changes = tuple(changes)
 
 
-class Marching(Protocol):
-    """Loop over the states of a run, which can stop and continue after any of them."""
-
-    done: int  # states so far
-    outcome: Outcome  # of the last step
-
-    @property
-    def left(self) -> int:
-        """States still to come; an estimate where the run chooses its steps."""
-
-    def __iter__(self) -> Iterator[ContactState | None]:
-        """Yield the remaining states, None for an inner step."""
-
-    def restart_data(self) -> RestartData:
-        """Return the state after a step as plain data."""
-
-
-class Preparation(Protocol):
-    """Checked and complete setup of a run."""
-
-    @property
-    def transforms(self) -> str:
-        """Library of the Fourier transforms."""
-
-    def with_transforms(self, library: str) -> Self:
-        """Return the run with another library; ValueError if it is not installed."""
-
-
-Run = TypeVar("Run", bound=Preparation)
-
-
 @dataclass(frozen=True)
-class Recorded(ABC, Generic[Run]):
-    """A run, its directory, and the choice of the quantities that are recorded."""
+class Recorded:
+    """A run, its directory, and what its result is to say of it."""
 
     directory: Path
-    run: Run
+    run: Analysis[Any, Any]
     title: str = ""  # of the result
-    errors: bool = False  # True if errors of the scalars are estimated
     check: LockCheck = never_lost  # of the lock of the directory, before each write
     #: Attributes of the result that come from the case file.
     filed: Mapping[str, Any] = field(default_factory=dict)
 
-    #: Name of a row of the result, for messages.
-    row = "instant"
-
     @property
-    @abstractmethod
-    def case(self) -> dict[str, Any]:
-        """Description of the run as plain data, which a run that is resumed must equal."""
-
-    @property
-    @abstractmethod
-    def fields(self) -> KeptFields:
-        """Choice of the fields that are kept."""
-
-    @property
-    @abstractmethod
     def contents(self) -> Contents:
         """Contents of the result."""
-
-    @property
-    @abstractmethod
-    def total(self) -> int | None:
-        """Number of rows; None where the run chooses its steps."""
-
-    @property
-    @abstractmethod
-    def work(self) -> float:
-        """Cells times rows, a relative measure of the computing time."""
-
-    @property
-    @abstractmethod
-    def memory(self) -> float:
-        """Memory of the run [bytes]."""
-
-    @property
-    @abstractmethod
-    def seconds(self) -> float:
-        """Predicted time of the run on this machine [s]."""
-
-    @property
-    @abstractmethod
-    def extent(self) -> str:
-        """How far the finished run goes, in words."""
-
-    @abstractmethod
-    def march(self, saved: RestartData | None = None) -> Marching:
-        """Return the march from the beginning, or from the restart data of an earlier one."""
-
-    @abstractmethod
-    def recorded_state(self, state: ContactState) -> ContactState:
-        """Return a state of the march as it is written to the result."""
-
-    @abstractmethod
-    def is_last(self, state: ContactState) -> bool:
-        """True for the last state of the run."""
-
-    @abstractmethod
-    def part(self, march: Marching, state: ContactState) -> float:
-        """Finished part of the march, after a state."""
-
-    @abstractmethod
-    def made(self, rows: int, reached: float | None) -> str:
-        """Describe the progress of the run, up to the instant [s] or speed [m/s] reached."""
-
-    @abstractmethod
-    def continued(self, rows: int, reached: float | None) -> str:
-        """Describe where a run is resumed, as `made`."""
-
-    @abstractmethod
-    def error_bars(
-        self,
-        march: Marching,
-        history: Mapping[str, Floats],
-        writer: ResultWriter,
-        on_step: Callable[[], None] | None = None,
-    ) -> ErrorBars:
-        """Errors of the scalars after the last step; `on_step` is called in coarser runs."""
+        run, case = self.run, self.run.case
+        about = {name: json.dumps(case[name]) for name in ("fields", "errors")}
+        fits_single = fits_single_precision(run.contact, run.longest_creep)
+        return Contents(
+            run.grid,
+            run.places,
+            run.fields,
+            {"title": self.title, **self.filed, **run.attributes, **about},
+            run.errors,
+            run.contact.tolerance if fits_single else 0.0,
+            moving=not run.contact.motion.stands,
+            over=run.axis.name,
+        )
 
     @property
     def result_path(self) -> Path:
@@ -169,7 +73,7 @@ class Recorded(ABC, Generic[Run]):
         it cannot be read.
         """
         saved = load_checkpoint(self.directory / STATE_NAME)
-        if changes := differences(saved.case, self.case):
+        if changes := differences(saved.case, self.run.case):
             raise ChangedCaseError(changes)
         return saved
 
@@ -183,10 +87,11 @@ class Recorded(ABC, Generic[Run]):
                 f"others give the same bits: {error}; or start the run again with --overwrite"
             ) from error
 
-    def resumed_march(self, saved: Checkpoint) -> Marching:
+    def resumed_march(self, saved: Checkpoint) -> States:
         """Return the march at a checkpoint; refuse one that does not fit with a ValueError."""
         try:
-            return self.march(saved.march or None)
+            march: States = self.run.states(saved.march or None)
+            return march
         except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
             path = self.directory / STATE_NAME
             raise ValueError(f"{path}: does not fit the run it says it is of; {REMEDY}") from error
@@ -198,7 +103,7 @@ class Recorded(ABC, Generic[Run]):
         """
         path = self.result_path
         try:
-            is_other = path.is_file() and stored_run(path).case != self.case
+            is_other = path.is_file() and stored_run(path).case != self.run.case
         except ValueError as error:
             raise ValueError(f"{error}; {REMEDY}") from error
         if is_other:

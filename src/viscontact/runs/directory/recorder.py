@@ -6,14 +6,15 @@ import logging
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple, Self
 
 from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.results.variables import ALLOWABLE, error_name
 from viscontact.run_files import STATE_NAME
+from viscontact.runs.analysis import States
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.recorded import Marching, Recorded, remove_restart_files
+from viscontact.runs.directory.recorded import Recorded, remove_restart_files
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.simulation.state_generator import Progress
 from viscontact.state import ContactState, Outcome
@@ -52,17 +53,17 @@ class Recorder:
 
     def __init__(
         self,
-        recorded: Recorded[Any],
+        recorded: Recorded,
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> None:
-        self._set_up(recorded, recorded.march(), on_begin, undisturbed)
+        self._set_up(recorded, recorded.run.states(), on_begin, undisturbed)
         self._writer = recorded.new_writer()
 
     @classmethod
     def resume(
         cls,
-        recorded: Recorded[Any],
+        recorded: Recorded,
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> Self:
@@ -93,8 +94,8 @@ class Recorder:
 
     def _set_up(
         self,
-        recorded: Recorded[Any],
-        march: Marching,
+        recorded: Recorded,
+        march: States,
         on_begin: Callable[[], None] | None,
         undisturbed: Undisturbed,
     ) -> None:
@@ -151,12 +152,13 @@ class Recorder:
 
         `on_step` is called after each step of a coarser run; its exceptions end the estimate.
         """
-        if not self._recorded.errors:
+        if not self._recorded.run.errors:
             return None
         self.checkpoint()
         with self._undisturbed():
             history = self._writer.history()
-        return self._recorded.error_bars(self._march, history, self._writer, on_step)
+        writer, march = self._writer, self._march
+        return self._recorded.run.error_bars(march, history, writer.grid, writer.warnings, on_step)
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with errors and verdicts, and remove the restart state."""
@@ -186,7 +188,7 @@ class Recorder:
         )
 
         self.publish()
-        over = self._recorded.contents.over
+        over = self._recorded.run.axis.name
         errors = {} if bars is None else bars.values
         with open_results(self._recorded.result_path) as ds:
             stated = {error_name(name): (over, values) for name, values in errors.items()}
@@ -214,11 +216,11 @@ class Recorder:
 
     def _write(self, state: ContactState, failed: bool) -> None:
         assert self._lines is not None  # begun
-        part = self._recorded.part(self._march, state)
+        part = self._recorded.run.part(self._march, state)
         is_last = part >= 1 and not failed
         if not is_last:
             self._lines.append(state, part)
-        self._writer.append(self._recorded.recorded_state(state))
+        self._writer.append(self._recorded.run.recorded_state(state))
         if not failed:
             self._rows, self._place = self._rows + 1, float(getattr(state, state.over))
         if is_last:
@@ -238,8 +240,8 @@ class Recorder:
         recorded = self._recorded
         lines = 0 if self._lines is None else self._lines.count
         march = self._march.restart_data() if begun else {}
-        state = (lines, self._place, self._writer.position, march, recorded.run.transforms)
-        checkpoint = Checkpoint(recorded.case, *state)
+        state = (lines, self._place, self._writer.position, march, recorded.run.setup.transforms)
+        checkpoint = Checkpoint(recorded.run.case, *state)
         save_checkpoint(recorded.directory / STATE_NAME, checkpoint, recorded.check)
         self.saved = self._reached
 

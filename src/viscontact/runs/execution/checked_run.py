@@ -5,22 +5,18 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from viscontact.case.filing import case_attributes
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded
-from viscontact.runs.directory.recorded_curve import RecordedCurve
-from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.steady_motion.preparation import SteadySetup
 
 
 @dataclass(frozen=True)
@@ -29,7 +25,7 @@ class CheckedRun:
 
     request: RunRequest
     prepared: PreparedRun
-    recorded: Recorded[Any]
+    recorded: Recorded
 
     def with_lock(self, check: LockCheck) -> CheckedRun:
         """Return the run with the check of its directory's lock."""
@@ -42,8 +38,8 @@ class CheckedRun:
     def job(self, standing: Standing) -> Job:
         """Return the run as one of several."""
         recorded = self.recorded
-        directory, end = recorded.directory, float(recorded.contents.rows[-1])
-        about = (recorded.total, end, recorded.work, recorded.memory)
+        directory, run = recorded.directory, recorded.run
+        about = (run.total, float(run.places[-1]), run.work, run.memory)
         return Job(self.request, directory, directory.name, standing, *about)
 
 
@@ -55,13 +51,7 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
     directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case
-    about: dict[str, Any] = {"title": case.title, "errors": case.errors}
-    about["filed"] = case_attributes(case)
-    recorded = (
-        RecordedCurve(directory, found.run, **about)
-        if isinstance(found.run, SteadySetup)
-        else RecordedRun(directory, found.run, **about)
-    )
+    recorded = Recorded(directory, found.run, case.title, filed=case_attributes(case))
     return CheckedRun(request, found, recorded)
 
 

@@ -101,7 +101,7 @@ def _resumed_record(checked: CheckedRun, monitor: Monitor) -> Recorder:
             f"what it keeps is unchanged; after correcting that: {checked.request.resuming}",
             resumable=True,
         )
-    monitor.say(f"{recorded.directory}: continuing after {recorded.continued(*record.resumed)}")
+    monitor.say(f"{recorded.directory}: continuing after {recorded.run.continued(*record.resumed)}")
     return record
 
 
@@ -144,13 +144,13 @@ def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
 def _complete_march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> bool:
     """March to the end and save everything; False after a request to stop."""
     recorded = checked.recorded
-    with monitor.progress(recorded.total, record.resumed.rows) as progress:
+    with monitor.progress(recorded.run.total, record.resumed.rows) as progress:
         for state in record.steps(progress):
-            is_last = state is not None and recorded.is_last(state)
+            is_last = state is not None and recorded.run.is_last(state)
             if monitor.stops.requested and not is_last:
                 record.checkpoint()
                 return False
-    if recorded.errors and recorded.row == "instant":  # speeds come with theirs
+    if recorded.run.errors and recorded.run.axis.is_history:  # speeds come with theirs
         monitor.say("estimating errors, from coarser runs of the same case")
     record.finish(record.estimate_errors(partial(_stop_if_requested, monitor)))
     monitor.stops.over = True
@@ -174,8 +174,8 @@ def _kept(checked: CheckedRun, record: Recorder) -> str:
     if _is_gone(checked, record):
         return f"{directory} no longer exists, and neither does what it kept"
     if not record.shown.rows:
-        return f"{directory} keeps nothing yet: no {checked.recorded.row} was finished"
-    return f"{directory} keeps {checked.recorded.made(*record.shown)}"
+        return f"{directory} keeps nothing yet: no {checked.recorded.run.axis.row} was finished"
+    return f"{directory} keeps {checked.recorded.run.made(*record.shown)}"
 
 
 def _resumable(checked: CheckedRun, record: Recorder) -> str:
@@ -197,7 +197,7 @@ def _is_gone(checked: CheckedRun, record: Recorder) -> bool:
 
 
 def _say_finished(checked: CheckedRun, monitor: Monitor) -> None:
-    directory, extent = checked.recorded.directory, checked.recorded.extent
+    directory, extent = checked.recorded.directory, checked.recorded.run.extent
     remove_leftovers(directory)
     monitor.say(f"{directory}: is finished already, {extent}; --overwrite computes it again")
 

@@ -31,7 +31,7 @@ _MAX_CHANGES = 12
 _IRRELEVANT = ("title", "report", "allowable")
 
 
-def standing(request: RunRequest, recorded: Recorded[Any], case: Case) -> Standing:
+def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
     """Return whether the run of a directory is new, stopped or finished; refuse it otherwise."""
     directory = recorded.directory
     refuse_no_directory(directory)
@@ -40,14 +40,14 @@ def standing(request: RunRequest, recorded: Recorded[Any], case: Case) -> Standi
         return Standing.NEW
     stored = _stored(directory)
     is_complete = isinstance(stored, StoredRun) and stored.complete
-    if isinstance(stored, StoredRun) and is_complete and stored.case == recorded.case:
+    if isinstance(stored, StoredRun) and is_complete and stored.case == recorded.run.case:
         return Standing.FINISHED
     if (directory / STATE_NAME).exists() and is_of_a_run(directory):
         return Standing.STOPPED
     if isinstance(stored, str):
         refuse(f"{stored}; replace it with --overwrite, or choose another directory with -o DIR")
     if stored is not None and is_complete:
-        refuse_changed(directory, case, differences(stored.case, recorded.case))
+        refuse_changed(directory, case, differences(stored.case, recorded.run.case))
     if stored is not None and stored.rows:
         refuse(
             f"{directory}: its result cannot be continued, as {STATE_NAME} is not there; replace "

@@ -16,18 +16,20 @@ from viscontact.loads import MixedHistory
 from viscontact.problem.arguments import contact_problem
 from viscontact.problem.problem import Problem
 from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.analysis import plain_case
 from viscontact.runs.command_error import CommandError, refuse
 from viscontact.runs.directory.differences import NOTHING, differences
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock_check import LockCheck
-from viscontact.runs.directory.recorded import remove_restart_files
-from viscontact.runs.directory.recorded_run import RecordedRun, plain_case
+from viscontact.runs.directory.recorded import Recorded, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.runs.execution.run_directory import refuse_no_directory, reserved
 from viscontact.runs.execution.stop_requests import StopRequests
+from viscontact.runs.over_time import OverTime
 from viscontact.runs.processes.request import DONE, INTERRUPTED, STOPPED
 from viscontact.simulation.load_program import carried_out
+from viscontact.simulation.provenance import describe_problem
 from viscontact.simulation.setup import prepare_run
 from viscontact.studies.executors.task import ONE_AT_A_TIME, TaskEnd
 
@@ -72,12 +74,12 @@ class SimulationTask:
                 return _marched(recorded, record, stops)
 
 
-def recorded_simulation(arguments: Mapping[str, Any], directory: Path) -> RecordedRun:
+def recorded_simulation(arguments: Mapping[str, Any], directory: Path) -> Recorded:
     """Return the checked run of arguments of `simulate`; ValueError or TypeError if refused."""
     problem, threads, errors = _problem(arguments)
     problem = carried_out(problem, threads)
     run = prepare_run(problem, threads)
-    return RecordedRun(directory, run, errors=errors)
+    return Recorded(directory, OverTime(run, errors))
 
 
 def _problem(arguments: Mapping[str, Any]) -> tuple[Problem, int, bool]:
@@ -93,7 +95,9 @@ def _case_at_once(arguments: Mapping[str, Any]) -> dict[str, Any]:
     """Describe a run as its result does, but not what follows from the choice of a grid."""
     problem, _, errors = _problem(arguments)
     given = problem.grid if isinstance(problem.grid, Grid) else None
-    case = plain_case(problem, given, errors=errors)
+    case = plain_case(describe_problem(problem, given), problem.kept, errors=errors)
+    if given is None:
+        del case["grid"]
     if problem.awaits_cells:
         del case["times"]
     if isinstance(problem.load, MixedHistory) and problem.load.awaits_events:
@@ -129,20 +133,20 @@ def change_of_results(arguments: Mapping[str, Any], directory: Path) -> str:
     return f"results of other arguments: {changes[0]}" if changes else ""
 
 
-def _is_finished(recorded: RecordedRun) -> bool:
+def _is_finished(recorded: Recorded) -> bool:
     """True if the result is complete; a result that cannot be continued is refused."""
     directory = recorded.directory
     if not (directory / RESULT_NAME).exists():
         return False
     stored = stored_run(directory / RESULT_NAME)
-    if stored.complete and stored.case == recorded.case:
+    if stored.complete and stored.case == recorded.run.case:
         return True
     if stored.rows and not (directory / STATE_NAME).exists():
         refuse(f"{directory}: holds the result of another run; choose another directory")
     return False
 
 
-def _opened(recorded: RecordedRun, check: LockCheck) -> Recorder:
+def _opened(recorded: Recorded, check: LockCheck) -> Recorder:
     held = replace(recorded, check=check)
     try:
         return Recorder.resume(held)
@@ -150,11 +154,10 @@ def _opened(recorded: RecordedRun, check: LockCheck) -> Recorder:
         return Recorder(held)
 
 
-def _marched(recorded: RecordedRun, record: Recorder, stops: StopRequests) -> TaskEnd:
-    end = recorded.run.problem.end
+def _marched(recorded: Recorded, record: Recorder, stops: StopRequests) -> TaskEnd:
     try:
         for state in record.steps():
-            if stops.requested and not (state is not None and state.time >= end):
+            if stops.requested and not (state is not None and recorded.run.is_last(state)):
                 record.checkpoint()
                 return _INTERRUPTED
     except (ConvergenceError, DomainError):

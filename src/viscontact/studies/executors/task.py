@@ -154,7 +154,7 @@ def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Task
     try:
         with ONE_AT_A_TIME:
             checked = checked_run(replace(request, output=directory, quiet=True))
-            if checked.recorded.seconds <= LONGEST_WARM:
+            if checked.recorded.run.seconds <= LONGEST_WARM:
                 execute_checked(checked, Monitor(stops, _ignore, _no_progress))
                 return TaskEnd("done", DONE)
         return _in_process(checked, stops)

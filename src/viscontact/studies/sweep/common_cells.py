@@ -12,15 +12,15 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from viscontact.case import read_case
 from viscontact.runs import resources
+from viscontact.runs.analysis import Analysis
 from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.machine.memory import available_memory
-from viscontact.simulation.setup import RunSetup
-from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.studies.sweep.designs import Design
 from viscontact.studies.sweep.extremes import extreme_rows
 from viscontact.studies.sweep.manifest import SweepRun
@@ -93,14 +93,9 @@ def common_cells(
     return CommonCells((dx, dy), all(_is_affordable(run, (dx, dy), available) for run in runs))
 
 
-def _is_affordable(
-    run: RunSetup | SteadySetup, cell: tuple[float, float], available: float
-) -> bool:
+def _is_affordable(run: Analysis[Any, Any], cell: tuple[float, float], available: float) -> bool:
     """Test whether a run on smaller cells fits into the limit and into some memory [bytes]."""
     before = math.prod(run.grid.shape)
     now = math.prod(size / length for size, length in zip(run.grid.size, cell, strict=True))
-    memory = (
-        resources.curve_memory(run) if isinstance(run, SteadySetup) else resources.run_memory(run)
-    )
-    arrays = (memory - resources.PROGRAM) * now / before
+    arrays = (run.memory - resources.PROGRAM) * now / before
     return now <= max(before, MOST_CELLS) and resources.PROGRAM + arrays < available

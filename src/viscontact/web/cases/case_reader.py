@@ -16,8 +16,6 @@ from viscontact.runs.check_report import expectations, needs, verdict, warnings_
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.preparation import PreparedRun, predicted, prepared
-from viscontact.runs.resources import curve_memory, run_memory
-from viscontact.steady_motion.preparation import SteadySetup
 from viscontact.web.cases.quick_settings import coarse_settings, without_cells
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.naming import label_of, suggested_title
@@ -174,29 +172,21 @@ def filled(value: Any) -> Any:
 
 def _course(found: PreparedRun) -> dict[str, int | None]:
     """Number of the steps, None where they are adaptive; or of the speeds."""
-    if isinstance(found.run, SteadySetup):
-        return {"speeds": len(found.run.problem.speeds)}
-    problem = found.run.problem
-    return {"steps": None if problem.adaptive is not None else len(problem.instants) - 1}
+    total = found.run.total
+    if not found.run.axis.is_history:
+        return {"speeds": total}
+    return {"steps": None if total is None else total - 1}
 
 
 def _extent(found: PreparedRun) -> dict[str, Any]:
     """Entries of a run about its states and its size."""
     run = found.run
-    if isinstance(run, SteadySetup):
-        speeds = run.problem.speeds
-        return {
-            **{"over": "speed", "begin": float(speeds.min()), "end": float(speeds.max())},
-            **{"instants": len(speeds), "memory": curve_memory(run)},
-            "work": float(sum(grid.shape[0] * grid.shape[1] for grid in run.grids)),
-            "errors": False,  # they are found with each speed
-        }
-    problem, (nx, ny) = run.problem, run.grid.shape
+    is_history = run.axis.is_history
     return {
-        **{"instants": len(problem.instants) if problem.adaptive is None else None},
-        "end": problem.end,
-        **{"work": nx * ny * (1.0 + problem.step_count), "memory": run_memory(run)},
-        "errors": found.case.errors,
+        **{"over": run.axis.name, "begin": 0.0 if is_history else float(run.places.min())},
+        **{"end": float(run.places.max()), "instants": run.total},
+        **{"work": run.work, "memory": run.memory},
+        "errors": run.errors and is_history,  # those over speed are found with each speed
     }
 
 

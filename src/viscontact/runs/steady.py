@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-import time as clock
-import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Literal
 
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.arguments import contact_problem
+from viscontact.runs.over_speed import OverSpeed
+from viscontact.runs.solving import solve
 from viscontact.simulation.progress_bar import ProgressBar, reported
-from viscontact.simulation.provenance import date_and_time
-from viscontact.state import ContactState
-from viscontact.steady_motion.curve import SteadyCurve
-from viscontact.steady_motion.dataset import steady_dataset
+from viscontact.simulation.state_generator import Progress
 from viscontact.steady_motion.preparation import prepare
 from viscontact.steady_motion.problem import steady_problem
-
-#: Called after each speed: the state, the number of states done, and of all.
-Progress = Callable[[ContactState, int, int], None]
 
 
 def steady(  # noqa: PLR0913
@@ -152,27 +145,4 @@ def steady(  # noqa: PLR0913
         fields=fields,
     )
     problem = steady_problem(contact, speed, along, rolling)
-    started = clock.perf_counter()
-    run = prepare(problem, threads)
-    curve, states = SteadyCurve(run, errors=errors), list[ContactState]()
-    kept = frozenset(problem.kept.tolist())
-
-    def result() -> xr.Dataset:
-        issued = "\n".join(curve.warnings.issued.values())
-        seconds = clock.perf_counter() - started
-        attributes = {"warnings": issued, "started": date_and_time(seconds), "wall_time": seconds}
-        return steady_dataset(run, states, curve.bars if errors else None, attributes)
-
-    try:
-        for state in curve:
-            states.append(
-                state.with_own_fields() if state.speed in kept else state.without_fields()
-            )
-            for text in state.warnings:
-                warnings.warn(text, AccuracyWarning, stacklevel=2)
-            if report is not None:
-                report(state, curve.done, len(problem.speeds))
-    except (ConvergenceError, DomainError) as stop:
-        stop.partial = result() if states else None
-        raise
-    return result()
+    return solve(OverSpeed(prepare(problem, threads), errors), report)

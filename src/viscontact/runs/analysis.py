@@ -1,0 +1,232 @@
+"""Analysis of a contact problem, over time or over speed."""
+
+from __future__ import annotations
+
+import json
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
+
+from viscontact.accuracy.coarser_results import History
+from viscontact.accuracy.error_bars import ErrorBars
+from viscontact.backend.arrays import Floats
+from viscontact.grid import Grid
+from viscontact.problem.kept_fields import KeptFields
+from viscontact.problem.problem import Problem
+from viscontact.results.descriptions import describe
+from viscontact.results.run_axis import RunAxis
+from viscontact.runs.forecast import Forecast
+from viscontact.state import ContactState, Outcome
+from viscontact.time_integration.restart_data import RestartData
+
+
+class States(Protocol):
+    """Loop over the states of a run, which can stop and continue after any of them."""
+
+    done: int  # states so far
+    outcome: Outcome  # of the last step
+
+    @property
+    def left(self) -> int:
+        """States still to come; an estimate where the run chooses its steps."""
+
+    def __iter__(self) -> Iterator[ContactState | None]:
+        """Yield the remaining states, None for an inner step."""
+
+    def restart_data(self) -> RestartData:
+        """Return the state after a step as plain data."""
+
+
+class Setup(Protocol):
+    """Checked and complete setup of a run."""
+
+    @property
+    def grid(self) -> Grid:
+        """Cells before the first step."""
+
+    @property
+    def transforms(self) -> str:
+        """Library of the Fourier transforms."""
+
+    def with_transforms(self, library: str) -> Self:
+        """Return the run with another library; ValueError if it is not installed."""
+
+
+OfSetup = TypeVar("OfSetup", bound=Setup)
+OfStates = TypeVar("OfStates", bound=States)
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis(ABC, Generic[OfSetup, OfStates]):
+    """Contact problem that has been prepared; `errors` are those of its scalars, if estimated."""
+
+    setup: OfSetup
+    errors: bool = True
+
+    #: Quantity in which its states differ.
+    axis: ClassVar[RunAxis]
+
+    @property
+    def grid(self) -> Grid:
+        """Cells before the first step."""
+        return self.setup.grid
+
+    @property
+    @abstractmethod
+    def contact(self) -> Problem:
+        """Bodies, load and requirements."""
+
+    @property
+    @abstractmethod
+    def places(self) -> Floats:
+        """Instants [s] or speeds [m/s] of the states, as far as they are known."""
+
+    @property
+    def fields(self) -> KeptFields:
+        """Choice of the fields that are kept."""
+        return self.contact.kept
+
+    @property
+    def total(self) -> int | None:
+        """Number of states; None where the run chooses its steps."""
+        return len(self.places)
+
+    @property
+    def grows(self) -> bool:
+        """True if the grid may be enlarged under way."""
+        return False
+
+    # Resources, and what to expect.
+
+    @property
+    @abstractmethod
+    def work(self) -> float:
+        """Cells times steps or speeds, a relative measure of the computing time."""
+
+    @property
+    @abstractmethod
+    def memory(self) -> float:
+        """Memory of the run [bytes]."""
+
+    @property
+    @abstractmethod
+    def seconds(self) -> float:
+        """Predicted time of the run on this machine [s]."""
+
+    @abstractmethod
+    def forecast(self) -> Forecast:
+        """Return the forecast; ValueError if no contact can carry the load."""
+
+    # States and their errors.
+
+    @abstractmethod
+    def states(self, saved: RestartData | None = None) -> OfStates:
+        """Return the loop from the beginning, or from the restart data of an earlier one."""
+
+    def recorded_state(self, state: ContactState) -> ContactState:
+        """Return a state of the loop as it is written to the result."""
+        return state
+
+    def after(self, states: Sequence[ContactState]) -> Self:
+        """Return the analysis of these states only, with which a run has ended early."""
+        return self
+
+    @abstractmethod
+    def part(self, states: OfStates, state: ContactState) -> float:
+        """Finished part of the loop, after a state."""
+
+    @abstractmethod
+    def is_last(self, state: ContactState) -> bool:
+        """True for the last state of the run."""
+
+    @abstractmethod
+    def error_bars(
+        self,
+        states: OfStates,
+        history: History,
+        grid: Grid,
+        issued: Sequence[str],
+        on_step: Callable[[], None] | None = None,
+    ) -> ErrorBars:
+        """Errors of the scalars after the last step, from coarser runs.
+
+        The run has ended on a grid, and has issued warnings. `on_step` is called after each step of
+        a coarser run; its exceptions end the estimate.
+        """
+
+    @abstractmethod
+    def error_bars_so_far(self, states: OfStates, history: History) -> ErrorBars:
+        """Errors of the scalars that are known where a run has ended early."""
+
+    # Description.
+
+    @property
+    @abstractmethod
+    def description(self) -> dict[str, Any]:
+        """Problem and grid."""
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """Description as plain data, which a run that is resumed must equal."""
+        return plain_case(self.description, self.fields, errors=self.errors)
+
+    @property
+    @abstractmethod
+    def attributes(self) -> dict[str, Any]:
+        """Attributes that every result carries."""
+
+    def attributes_after(self, states: Sequence[ContactState]) -> dict[str, Any]:
+        """Attributes that follow from the states."""
+        return {}
+
+    def field_axis(self, states: Sequence[ContactState]) -> str:
+        """Return the dimension of the fields of some states."""
+        return self.fields.axis(self.axis.name)
+
+    @property
+    @abstractmethod
+    def longest_creep(self) -> float:
+        """Longest time for which the material creeps under the load [s]."""
+
+    # Sentences.
+
+    @property
+    @abstractmethod
+    def extent(self) -> str:
+        """Extent of the finished run, in words."""
+
+    @abstractmethod
+    def made(self, rows: int, reached: float | None) -> str:
+        """Describe the progress of the run, up to the instant [s] or speed [m/s] reached."""
+
+    def continued(self, rows: int, reached: float | None) -> str:
+        """Describe where a run is resumed, as `made`."""
+        made = self.made(rows, reached)
+        if reached is None or ", up to t =" in made:
+            return made
+        return f"{made}, {self.axis.place(reached)}"
+
+    @abstractmethod
+    def course(self) -> list[tuple[str, str]]:
+        """Return what is computed, as rows of name and value."""
+
+    def with_transforms(self, library: str) -> Self:
+        """Return the run with a library of transforms; ValueError if it is not installed."""
+        return replace(self, setup=self.setup.with_transforms(library))
+
+
+def plain_case(described: Mapping[str, Any], fields: KeptFields, *, errors: bool) -> dict[str, Any]:
+    """Return the description of a run as plain data, with its output."""
+    whole = {**described, "fields": describe(fields.requested), "errors": errors}
+    plain: dict[str, Any] = json.loads(json.dumps(whole))
+    return plain
+
+
+def fits_single_precision(problem: Problem, late: float) -> bool:
+    """True if pressures are far from the ends of single precision's range, 1e-38 to 3e38 Pa.
+
+    `late` is a time at which the material has crept [s].
+    """
+    compliance, level = float(problem.compliance(late)), problem.load.largest_level
+    return 1e-20 <= compliance <= 1e10 and 1e-25 <= level <= 1e15

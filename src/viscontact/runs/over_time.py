@@ -1,0 +1,137 @@
+"""Analysis over time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from viscontact.accuracy.coarser_results import History
+from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
+from viscontact.backend.arrays import Floats
+from viscontact.grid import Grid
+from viscontact.problem.problem import Problem
+from viscontact.results.enlarged_grid import enlargements
+from viscontact.results.run_axis import TIME
+from viscontact.runs.analysis import Analysis
+from viscontact.runs.forecast import Forecast, forecast, run_seconds
+from viscontact.runs.grid_error import grid_error_rows
+from viscontact.runs.progress_made import progress_made
+from viscontact.runs.resources import run_memory
+from viscontact.simulation.march import March
+from viscontact.simulation.provenance import describe_problem, run_attributes
+from viscontact.simulation.setup import RunSetup
+from viscontact.state import ContactState
+from viscontact.time_integration.restart_data import RestartData
+from viscontact.units.formatting import format_quantity
+
+
+class OverTime(Analysis[RunSetup, March]):
+    """Contact over time, in steps."""
+
+    axis = TIME
+
+    @property
+    def contact(self) -> Problem:
+        """Bodies, load and requirements."""
+        return self.setup.problem
+
+    @property
+    def places(self) -> Floats:
+        """Instants that are requested [s]."""
+        return self.setup.problem.instants
+
+    @property
+    def total(self) -> int | None:
+        """Number of instants; None where the run chooses its steps."""
+        return len(self.places) if self.contact.adaptive is None else None
+
+    @property
+    def grows(self) -> bool:
+        """True if the grid may be enlarged under way."""
+        return self.setup.grows
+
+    @property
+    def work(self) -> float:
+        """Cells times steps."""
+        return self.grid.shape[0] * self.grid.shape[1] * (1.0 + self.contact.step_count)
+
+    @property
+    def memory(self) -> float:
+        """Memory of the run [bytes]."""
+        return run_memory(self.setup)
+
+    @property
+    def seconds(self) -> float:
+        """Predicted time of the run on this machine [s]."""
+        return run_seconds(self.setup, errors=self.errors)
+
+    def forecast(self) -> Forecast:
+        """Return the forecast of the run."""
+        return forecast(self.setup, errors=self.errors)
+
+    def states(self, saved: RestartData | None = None) -> March:
+        """Return the march through the steps."""
+        return March(self.setup, saved)
+
+    def part(self, states: March, state: ContactState) -> float:
+        """Finished part of the instants, or of the time where steps are adaptive."""
+        if self.contact.adaptive is None:
+            return min(states.done / len(self.places), 1.0)
+        end = self.contact.end
+        return min(state.time / end, 1.0) if end > 0 else 0.0
+
+    def is_last(self, state: ContactState) -> bool:
+        """True for the state at the end."""
+        return state.time >= self.contact.end
+
+    def error_bars(
+        self,
+        states: March,
+        history: History,
+        grid: Grid,
+        issued: Sequence[str],
+        on_step: Callable[[], None] | None = None,
+    ) -> ErrorBars:
+        """Errors of the scalars, from coarser runs."""
+        return error_bars(self.setup.on(grid), history, on_step, issued=issued)
+
+    def error_bars_so_far(self, states: March, history: History) -> ErrorBars:
+        """Errors that are not known before the end."""
+        return unknown_bars(history)
+
+    @property
+    def description(self) -> dict[str, Any]:
+        """Problem and grid."""
+        return describe_problem(self.contact, self.grid)
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes that every result carries."""
+        return run_attributes(self.setup)
+
+    def attributes_after(self, states: Sequence[ContactState]) -> dict[str, Any]:
+        """Enlargements of the grid."""
+        return {"grid_enlarged": "\n".join(enlargements(self.grid, states))}
+
+    @property
+    def longest_creep(self) -> float:
+        """Last time of the run [s]."""
+        return self.contact.end
+
+    @property
+    def extent(self) -> str:
+        """Extent of the finished run, in words."""
+        return f"up to t = {format_quantity(self.contact.end, 's')}"
+
+    def made(self, rows: int, reached: float | None) -> str:
+        """Describe the progress of the run, up to the instant reached [s]."""
+        return progress_made(rows, reached, self.places.tolist(), self.contact.adaptive)
+
+    def course(self) -> list[tuple[str, str]]:
+        """Time steps, and the error of the grid under their loads."""
+        if self.contact.adaptive is None:
+            steps = f"{len(self.places) - 1}"
+        else:
+            steps = f"as needed for an error of {100 * self.contact.adaptive.tolerance:g} %"
+        end = format_quantity(self.contact.end, "s")
+        return [*grid_error_rows(self.setup), ("time steps", f"{steps}, up to t = {end}")]
