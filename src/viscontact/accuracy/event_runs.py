@@ -14,7 +14,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.loads import MixedHistory
-from viscontact.simulation.load_events import EventSearch
+from viscontact.simulation.event_search import EventSearch
 from viscontact.simulation.program_course import ProgramCourse
 from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState

@@ -18,7 +18,7 @@ from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.mesh_choice import choose_mesh
 from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.problem.problem import Problem
-from viscontact.simulation.load_events import EventSearch
+from viscontact.simulation.event_search import EventSearch
 from viscontact.simulation.program_course import ProgramCourse
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE
 from viscontact.time_integration.requested_times import AdaptiveTimes
