@@ -14,7 +14,7 @@ from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.resources import least_memory
-from viscontact.simulation.load_program import carried_out
+from viscontact.simulation.found_events import carried_out
 from viscontact.simulation.setup import prepare_run
 from viscontact.steady_motion.preparation import prepare
 from viscontact.steady_motion.problem import steady_problem

@@ -19,7 +19,7 @@ from viscontact.materials.material import Material
 from viscontact.problem.arguments import contact_problem
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.solving import solve
-from viscontact.simulation.load_program import carried_out
+from viscontact.simulation.found_events import carried_out
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import Progress

@@ -16,7 +16,7 @@ from viscontact.loads.motion import Motion
 from viscontact.materials.layers import Layered
 from viscontact.materials.material import Material
 from viscontact.problem.arguments import contact_problem
-from viscontact.simulation.load_program import carried_out
+from viscontact.simulation.found_events import carried_out
 from viscontact.simulation.march import March
 from viscontact.simulation.progress_bar import ProgressBar, reported
 from viscontact.simulation.setup import RunSetup, prepare_run

@@ -28,7 +28,7 @@ from viscontact.runs.execution.run_directory import refuse_no_directory, reserve
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.processes.request import DONE, INTERRUPTED, STOPPED
-from viscontact.simulation.load_program import carried_out
+from viscontact.simulation.found_events import carried_out
 from viscontact.simulation.provenance import describe_problem
 from viscontact.simulation.setup import prepare_run
 from viscontact.studies.executors.task import ONE_AT_A_TIME, TaskEnd
