@@ -29,7 +29,7 @@ from viscontact.loads import MixedHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.simulation.march import March
-from viscontact.simulation.program_course import EventError
+from viscontact.simulation.segments_so_far import EventError
 from viscontact.simulation.setup import RunSetup, plan_history
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import plan_steps, step_ends

@@ -15,7 +15,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.loads import MixedHistory
 from viscontact.simulation.event_search import EventSearch
-from viscontact.simulation.program_course import ProgramCourse
+from viscontact.simulation.segments_so_far import ProgramCourse
 from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE

@@ -25,7 +25,7 @@ from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.observer import Observer
-from viscontact.simulation.program_course import EventError, ProgramCourse, never_happens
+from viscontact.simulation.segments_so_far import EventError, ProgramCourse, never_happens
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.stepper import Stepper, TrialStep
 from viscontact.state import ContactState, Outcome

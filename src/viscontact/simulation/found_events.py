@@ -19,7 +19,7 @@ from viscontact.meshing.mesh_choice import choose_mesh
 from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.problem.problem import Problem
 from viscontact.simulation.event_search import EventSearch
-from viscontact.simulation.program_course import ProgramCourse
+from viscontact.simulation.segments_so_far import ProgramCourse
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
