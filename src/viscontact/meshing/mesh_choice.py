@@ -38,6 +38,7 @@ from viscontact.meshing.contact_extent import (
 from viscontact.meshing.contact_place import grid_centre
 from viscontact.meshing.creeping_peak import contact_growth
 from viscontact.meshing.edge_ring import resolve_ring
+from viscontact.meshing.full_contact_warning import whole_map_warning
 from viscontact.meshing.height_map_error import facet_error
 from viscontact.meshing.mesh_warnings import (
     EARLY_WARNING,
@@ -49,7 +50,6 @@ from viscontact.meshing.mesh_warnings import (
 )
 from viscontact.meshing.refinement import USUAL_ORDER, Resolution, refine_mesh
 from viscontact.meshing.trial_mesh import PEAK, RIM_SCATTER, ElasticContact, MeshTrial
-from viscontact.meshing.whole_map import whole_map_warning
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 

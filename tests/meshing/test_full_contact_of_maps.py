@@ -11,7 +11,7 @@ import viscontact as vc
 from viscontact.contact.domain import ContactDomain
 from viscontact.meshing.contact_extent import PointContact
 from viscontact.meshing.elastic_estimate import elastic_contact, estimate_contact, estimate_period
-from viscontact.meshing.whole_map import opening_force, whole_map_warning
+from viscontact.meshing.full_contact_warning import opening_force, whole_map_warning
 from viscontact.units.parsing import parse_quantity
 
 COMPLIANCE = 1e-9
