@@ -22,7 +22,7 @@ from viscontact.accuracy.coarser_runs import (
 from viscontact.accuracy.error_models import COARSE_SPOT_CELLS, ERROR_MODELS, MOVING_MODELS
 from viscontact.accuracy.event_bars import event_errors, set_bars_at_events
 from viscontact.accuracy.least_bars import ContactKinds, least_bar, least_peak_bar
-from viscontact.accuracy.levels import (
+from viscontact.accuracy.refinement_levels import (
     RefinementLevels,
     aligned,
     between_known,

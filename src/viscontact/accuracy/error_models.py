@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from viscontact.accuracy.levels import RefinementLevels
+from viscontact.accuracy.refinement_levels import RefinementLevels
 from viscontact.backend.arrays import Floats
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.error_models import ERROR_MODELS
-from viscontact.accuracy.levels import DIVIDED_STEP_FACTOR, RefinementLevels
+from viscontact.accuracy.refinement_levels import DIVIDED_STEP_FACTOR, RefinementLevels
 from viscontact.backend.arrays import Floats
 from viscontact.loads import MixedHistory
 from viscontact.simulation.provenance import event_attributes

@@ -15,7 +15,7 @@ import numpy as np
 
 from viscontact.accuracy.coarser_results import CoarserResult, History
 from viscontact.accuracy.coarser_runs import MIN_ACROSS
-from viscontact.accuracy.levels import (
+from viscontact.accuracy.refinement_levels import (
     RefinementLevels,
     aligned,
     between_known,
