@@ -18,8 +18,8 @@ from viscontact.drawing.content.loop import loops_of
 from viscontact.figures.loops import loops
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
+from viscontact.results.last_cycle_values import last_cycle, worst_notes, worst_places
 from viscontact.results.summary import headline
-from viscontact.results.worst_values import last_cycle, worst_notes, worst_places
 
 # The punch has a sharp edge.
 pytestmark = pytest.mark.filterwarnings("ignore:the contact reaches the end")

@@ -24,13 +24,13 @@ from viscontact.report.limits import notices
 from viscontact.report.section_csv import lines_csv
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
+from viscontact.results.last_cycle_values import worst_notes
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import is_long, shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
-from viscontact.results.worst_values import worst_notes
 from viscontact.units.formatting import format_quantity
 
 _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))

@@ -12,12 +12,12 @@ from viscontact.backend.arrays import Floats
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.result_chapters import title_of
+from viscontact.results.last_cycle_values import worst_places
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.summary import summary_scalars
 from viscontact.results.variables import SCALARS, Place
-from viscontact.results.worst_values import worst_places
 
 
 def run_data(ds: xr.Dataset) -> dict[str, Any]:

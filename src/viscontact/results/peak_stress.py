@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.results.last_cycle_values import first_largest
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.stresses import REACH, section_stresses
-from viscontact.results.worst_values import first_largest
 
 #: Number of depths of the search, and of those around the deepest of them.
 _DEPTHS, _CLOSE = 14, 7

@@ -15,6 +15,7 @@ from viscontact.results.formatting import (
     format_scalar,
     format_with_error_in,
 )
+from viscontact.results.last_cycle_values import last_cycle, notable_largest
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
 from viscontact.results.shown_scalars import is_shown, lacks_datum
 from viscontact.results.stated_errors import (
@@ -24,7 +25,6 @@ from viscontact.results.stated_errors import (
     largest_error,
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error
-from viscontact.results.worst_values import last_cycle, notable_largest
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: Legend of the columns, with the name of a row.

@@ -12,11 +12,11 @@ import numpy as np
 import xarray as xr
 
 from viscontact.results.formatting import format_percent, format_with_error
+from viscontact.results.last_cycle_values import first_largest
 from viscontact.results.peak_stress import peak_stress
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import ALLOWABLE, SCALARS, STRESSES
-from viscontact.results.worst_values import first_largest
 from viscontact.units.formatting import format_quantity
 
 Outcome = Literal["passed", "failed", "undecided"]
