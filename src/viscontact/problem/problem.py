@@ -46,7 +46,7 @@ UNKNOWN_CELL = 1e100
 
 
 def _hint(name: str, given: object) -> str:
-    """How an argument of another kind is written, where that is likely."""
+    """Hint for an argument of a wrong type; empty without one."""
     if isinstance(given, Law):
         return "; write vc.Material(law, poisson_ratio=...)"
     if name.endswith("material") and isinstance(given, str):

@@ -58,8 +58,6 @@ def predicted(prepared: PreparedRun) -> Forecast:
 
 def _carried_out(case: Case, threads: int, *, roughly: bool) -> Case:
     """The case under the history that its load program comes to; any other as it is."""
-    if case.steady is not None:
-        return case
     try:
         found = carried_out(case, threads, roughly=roughly)
     except (ValueError, ConvergenceError, DomainError) as error:

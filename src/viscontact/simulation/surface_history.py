@@ -40,7 +40,7 @@ class SurfaceStep:
         return self.terms[0]
 
     def past(self) -> tuple[Floats, Floats]:
-        """What earlier steps have left, computed anew.
+        """Contribution of earlier steps to the displacement, computed anew.
 
         ∫ J_1 dp [-] and ∫ J_1 dq_1 [m] of the first term, shape (2, nx, ny), and the displacement
         of all terms [m].

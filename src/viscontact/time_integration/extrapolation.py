@@ -48,7 +48,7 @@ def predict(
         return None
     known = past[-EXTRAPOLATION_POINTS:]
     drives = [each.drive for each in known]
-    if _is_steady([*drives, drive]):
+    if _moves_evenly([*drives, drive]):
         weights = lagrange_weights(drives, drive)
     else:
         weights = lagrange_weights([each.time for each in known], time)
@@ -77,7 +77,7 @@ def shifted(fields: Floats, cells: tuple[int, int], *, periodic: tuple[bool, boo
     return fields
 
 
-def _is_steady(drives: Sequence[float]) -> bool:
+def _moves_evenly(drives: Sequence[float]) -> bool:
     """True if the drive moves one way, by steps of similar size."""
     steps = [late - early for early, late in itertools.pairwise(drives)]
     if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
