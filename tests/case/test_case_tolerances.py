@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
 
 from viscontact.case import CaseError, read_case
-from viscontact.case.filing import case_attributes
+from viscontact.runs.execution.filing import filed_case
 
 BALL = """
 title: 12 mm ± 0.02 mm
@@ -38,7 +37,7 @@ def test_a_run_takes_the_nominal_values(ball: Path) -> None:
         ("material", "poisson_ratio"): "0.45 ± 0.02",
         ("load", "force"): "2 ± 0.1 N",
     }
-    typed = json.loads(case_attributes(case)["case_as_typed"])
+    typed = filed_case(case).case_as_typed
     assert typed["indenter"]["diameter"] == "24 mm ± 0.04 mm"
 
 

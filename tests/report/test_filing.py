@@ -20,7 +20,7 @@ from viscontact.report import report_page
 from viscontact.report.inputs import Input, inputs
 from viscontact.report.measured import measured_figure, measured_lines
 from viscontact.report.title_block import file_lines, title_entries
-from viscontact.results.filed_case import input_files, measured_tables, started_at
+from viscontact.results.filed_case import FiledCase, started_at
 
 TABLE = """time [s], D [1/GPa]
 1, 0.30
@@ -69,7 +69,9 @@ def sha(content: bytes) -> str:
 
 
 def test_digests_are_those_of_the_files_when_the_run_was_made(made: Path, ds: xr.Dataset) -> None:
-    found = {each["role"]: (each["name"], each["sha256"]) for each in input_files(ds)}
+    found = {
+        each["role"]: (each["name"], each["sha256"]) for each in FiledCase.of(ds.attrs).input_files
+    }
     assert found == {
         "case file": ("pad.yaml", sha(CASE.encode())),
         # With the force of --set and the table beside it; it can be checked in the directory.
@@ -81,7 +83,7 @@ def test_digests_are_those_of_the_files_when_the_run_was_made(made: Path, ds: xr
 def test_an_unchanged_case_is_listed_once(tmp_path: Path) -> None:
     elastic = CASE.replace("law: table, file: pom.csv", "law: elastic, shear_modulus: 1 GPa")
     with vc.open_results(directory(tmp_path, text=elastic)) as found:
-        [only] = input_files(found)
+        [only] = FiledCase.of(found.attrs).input_files
     assert only == {"name": "case.yaml", "role": "case as run", "sha256": sha(elastic.encode())}
 
 
@@ -92,15 +94,13 @@ def test_the_start_is_stated_with_the_offset_from_utc(ds: xr.Dataset) -> None:
 
 
 def test_a_start_without_offset_or_of_an_older_result_is_not_stated() -> None:
-    assert [
-        started_at(xr.Dataset(attrs=each)) for each in ({}, {"started": "2026-03-01T00:30:05"})
-    ] == ["", ""]
+    assert [started_at(each) for each in ({}, {"started": "2026-03-01T00:30:05"})] == ["", ""]
 
 
 def test_results_of_python_have_the_start_too() -> None:
     rubber, grid = vc.Material(vc.Elastic(1e7), 0.5), vc.Grid((16, 16), (2e-3, 2e-3))
     found = vc.simulate(vc.Sphere(0.01), rubber, vc.step(1.0), grid, [0.0], errors=False)
-    assert started_at(found)
+    assert started_at(found.attrs)
     assert [name for name, _ in title_entries(found)] == ["Run started"]
     assert list(file_lines(found)) == []
 
@@ -110,13 +110,16 @@ def test_report_begins_with_the_title_block(ds: xr.Dataset) -> None:
     body = page[page.index("<body>") :]
     block = body[body.index('<dl class="title-block"') : body.index("</dl>") + len("</dl>")]
     texts = [each.text for each in fromstring(block).iter("dd")]
-    assert texts == ["P-7 & <b>", "A. Smith", "B", started_at(ds)]
+    assert texts == ["P-7 & <b>", "A. Smith", "B", started_at(ds.attrs)]
     assert body.index("title-block") < body.index("<h1>")
 
 
 def test_report_lists_the_files_with_their_digests(ds: xr.Dataset) -> None:
     text = "".join(map(written, file_lines(ds)))
-    assert all(each["sha256"] in text and each["name"] in text for each in input_files(ds))
+    assert all(
+        each["sha256"] in text and each["name"] in text
+        for each in FiledCase.of(ds.attrs).input_files
+    )
 
 
 def test_title_block_does_not_change_the_run(tmp_path: Path) -> None:
@@ -178,7 +181,7 @@ def test_design_of_a_crown_stands_beside_the_amplitude_that_follows(tmp_path: Pa
 
 
 def test_a_measured_compliance_is_shown_as_it_was_measured(ds: xr.Dataset) -> None:
-    record = measured_tables(ds)["material"]
+    record = FiledCase.of(ds.attrs).measured["material"]
     assert (record["file"], record["data"], record["rows"]) == ("pom.csv", "uniaxial", 4)
     [axes] = measured_figure(record).axes
     assert axes.get_ylabel() == "Creep compliance D [1/GPa]"
@@ -193,6 +196,6 @@ def test_a_creep_modulus_is_shown_as_a_modulus(tmp_path: Path) -> None:
     case = CASE.replace("pom.csv", "sheet.csv")
     (tmp_path / "sheet.csv").write_text("time [h], E_c [MPa]\n1, 2500\n10, 2000\n100, 1600\n")
     with vc.open_results(directory(tmp_path, text=case)) as found:
-        [axes] = measured_figure(measured_tables(found)["material"]).axes
+        [axes] = measured_figure(FiledCase.of(found.attrs).measured["material"]).axes
     assert axes.get_ylabel() == "Creep modulus E_c [GPa]"
     assert axes.lines[0].get_ydata() == pytest.approx([2.5, 2.0, 1.6])

@@ -21,7 +21,7 @@ from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.report.measured import measured_lines
 from viscontact.report.title_block import file_lines
 from viscontact.results.citation import citations
-from viscontact.results.filed_case import typed_case
+from viscontact.results.filed_case import FiledCase
 from viscontact.results.formatting import format_scalar
 from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.shown_scalars import is_shown
@@ -36,7 +36,7 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
     tables = [_part(part, list(rows)) for part, rows in groupby(inputs(ds), lambda each: each.part)]
     if tables:
         yield element("div", *tables, class_="inputs")
-        if typed_case(ds):
+        if FiledCase.of(ds.attrs).case_as_typed:
             text = "An empty field: computed with the typed value, or with what follows from it."
             yield remark(text)
     else:

@@ -10,7 +10,7 @@ from typing import Any
 import xarray as xr
 
 from viscontact.results.argument_table import argument_rows
-from viscontact.results.filed_case import typed_case
+from viscontact.results.filed_case import FiledCase
 from viscontact.results.recorded_case import case_of
 from viscontact.results.typed_rows import typed_rows
 from viscontact.run_files import CASE_NAME, RESULT_NAME
@@ -61,7 +61,7 @@ def inputs(ds: xr.Dataset) -> list[Input]:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)
         found.insert(place, Input(_PARTS["indenter_material"], "law", "rigid"))
     found += [*_steady(case), *_steps(case)]
-    return _beside(found, _typed(typed_case(ds)))
+    return _beside(found, _typed(FiledCase.of(ds.attrs).case_as_typed))
 
 
 def _typed(case: Mapping[str, Any]) -> Iterator[Input]:

@@ -15,7 +15,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.log_time import label_log_time
 from viscontact.report.blocks import remark
 from viscontact.report.drawings import BODIES, drawn
-from viscontact.results.filed_case import measured_tables
+from viscontact.results.filed_case import FiledCase
 from viscontact.units.formatting import readable_unit
 
 _SYMBOLS = {
@@ -32,7 +32,7 @@ _WIDTH, _HEIGHT = 4.2, 2.8
 
 def measured_lines(ds: xr.Dataset, body: str) -> Iterator[Element]:
     """Yield the table of a body's law as it was measured; nothing for other laws."""
-    for part, record in measured_tables(ds).items():
+    for part, record in FiledCase.of(ds.attrs).measured.items():
         if BODIES.get(part) == body:
             drawing = drawn(partial(measured_figure, record), f"Measured: {body.lower()}")
             # Of one quantity, besides time or frequency, the figure is narrow.

@@ -33,7 +33,7 @@ from viscontact.report.page import run_chapters
 from viscontact.report.pdf_blocks import blocks
 from viscontact.report.sweep_page import sweep_content
 from viscontact.report.title_block import title_lines
-from viscontact.results.filed_case import started_at, title_block
+from viscontact.results.filed_case import FiledCase, started_at
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import is_long
 
@@ -64,14 +64,14 @@ def write_pdf(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
         )
     ds = in_order(ds)
     name = result_chapters.heading_of(ds, label)
-    author = title_block(ds).get("operator", "")
-    _write(path, name, _run(ds, name), author=author, made=started_at(ds))
+    author = _author(ds)
+    _write(path, name, _run(ds, name), author=author, made=started_at(ds.attrs))
 
 
 def write_sweep_pdf(ds: xr.Dataset, path: str | Path, *, title: str) -> None:
     """Write the runs of a sweep, from `open_many`, as a PDF; OSError if it cannot be written."""
-    page, author = sweep_content(ds, title, interactive=False), title_block(ds).get("operator", "")
-    _write(path, page.title, page.elements(), author=author, made=started_at(ds))
+    page, author = sweep_content(ds, title, interactive=False), _author(ds)
+    _write(path, page.title, page.elements(), author=author, made=started_at(ds.attrs))
 
 
 def _write(
@@ -94,6 +94,10 @@ def _write(
         sys_inputs={"data": json.dumps(data, ensure_ascii=False)},
     )
     Path(path).write_bytes(pdf)
+
+
+def _author(ds: xr.Dataset) -> str:
+    return FiledCase.of(ds.attrs).title_block.get("operator", "")
 
 
 def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:

@@ -9,7 +9,7 @@ import xarray as xr
 
 from viscontact.notebook.html import element
 from viscontact.report.blocks import remark
-from viscontact.results.filed_case import input_files, started_at, title_block
+from viscontact.results.filed_case import FiledCase, started_at
 
 
 def title_entries(ds: xr.Dataset, start: str = "Run started") -> list[tuple[str, str]]:
@@ -18,8 +18,10 @@ def title_entries(ds: xr.Dataset, start: str = "Run started") -> list[tuple[str,
     >>> title_entries(xr.Dataset(attrs={"title_block": '{"project": "P-7", "revision": "B"}'}))
     [('Project', 'P-7'), ('Revision', 'B')]
     """
-    entries = [(name.capitalize(), value) for name, value in title_block(ds).items()]
-    started = started_at(ds)
+    entries = [
+        (name.capitalize(), value) for name, value in FiledCase.of(ds.attrs).title_block.items()
+    ]
+    started = started_at(ds.attrs)
     return [*entries, (start, started)] if started else entries
 
 
@@ -34,7 +36,7 @@ def title_lines(ds: xr.Dataset, start: str = "Run started") -> Iterator[Element]
 
 def file_lines(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the table of input files, if there are any."""
-    files = input_files(ds)
+    files = FiledCase.of(ds.attrs).input_files
     if not files:
         return
     yield element("h3", "Input files")

@@ -1,53 +1,79 @@
-"""Title block, date, input files and typed values that a result keeps of its case."""
+"""Contents of a case file that a result keeps in its attributes, and the start of its run."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from typing import Any
+from typing import Any, Self
 
-import xarray as xr
+from viscontact.results.variables import ALLOWABLE
+
+#: Attributes as JSON, each with the type of its content.
+_TYPES = {"title_block": dict, "measured": dict, "input_files": list, "case_as_typed": dict}
 
 
-def title_block(ds: xr.Dataset) -> Mapping[str, str]:
-    """Entries of the title block, by name; empty without any.
+@dataclass(frozen=True)
+class FiledCase:
+    """Contents of a case file that a result keeps; empty for a run from Python.
 
-    >>> title_block(xr.Dataset(attrs={"title_block": '{"project": "P-7"}'}))
+    Examples
+    --------
+    >>> kept = FiledCase(title_block={"project": "P-7"})
+    >>> FiledCase.of(kept.attributes).title_block
     {'project': 'P-7'}
     """
-    found = _attribute(ds, "title_block", dict)
-    return {str(name): str(value) for name, value in found.items()}
+
+    #: Entries of the section `report`, by name.
+    title_block: Mapping[str, str] = field(default_factory=dict)
+    #: Name, role (or key) and SHA-256 of each input file when it was read.
+    input_files: Sequence[Mapping[str, str]] = ()
+    #: All values as they were typed.
+    case_as_typed: Mapping[str, Any] = field(default_factory=dict)
+    #: Tables of the laws in the quantities that were measured, by the section of the material.
+    measured: Mapping[str, Any] = field(default_factory=dict)
+    #: Limits in SI units, to which the verdicts are added when the run is finished.
+    limits: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attributes of a result, without those that are empty in most cases."""
+        limits = {name: {"limit": limit} for name, limit in self.limits.items()}
+        sometimes = {"title_block": self.title_block, "measured": self.measured, ALLOWABLE: limits}
+        return {
+            **{name: json.dumps(value) for name, value in sometimes.items() if value},
+            "input_files": json.dumps(self.input_files),
+            "case_as_typed": json.dumps(self.case_as_typed, default=str),
+        }
+
+    @classmethod
+    def of(cls, attributes: Mapping[str, Any]) -> Self:
+        """Return what the attributes of a result keep, without the limits."""
+        found = {name: _content(attributes, name, kind) for name, kind in _TYPES.items()}
+        entries = {str(name): str(value) for name, value in found.pop("title_block").items()}
+        return cls(entries, **found)
 
 
-def input_files(ds: xr.Dataset) -> Sequence[Mapping[str, str]]:
-    """Name, role and SHA-256 of each input file when it was read; empty for a run from Python."""
-    found: list[Mapping[str, str]] = _attribute(ds, "input_files", list)
-    return found
+def _content(attributes: Mapping[str, Any], name: str, kind: type) -> Any:
+    """Content of a JSON attribute; an empty one where it is missing or of another kind."""
+    try:
+        found = json.loads(str(attributes.get(name, "")))
+    except ValueError:
+        return kind()
+    return found if isinstance(found, kind) else kind()
 
 
-def typed_case(ds: xr.Dataset) -> Mapping[str, Any]:
-    """Values of the case file as they were typed; empty for a run from Python."""
-    found: dict[str, Any] = _attribute(ds, "case_as_typed", dict)
-    return found
-
-
-def measured_tables(ds: xr.Dataset) -> Mapping[str, Any]:
-    """Tables of the laws in the quantities that were measured, by the section of the material."""
-    found: dict[str, Any] = _attribute(ds, "measured", dict)
-    return found
-
-
-def started_at(ds: xr.Dataset) -> str:
+def started_at(attributes: Mapping[str, Any]) -> str:
     """Date and time of the start of a run, local with its offset and in UTC; empty if unknown.
 
-    >>> started_at(xr.Dataset(attrs={"started": "2026-03-01T00:30:05+00:00"}))
+    >>> started_at({"started": "2026-03-01T00:30:05+00:00"})
     '2026-03-01 00:30:05 UTC'
-    >>> started_at(xr.Dataset(attrs={"started": "2026-03-01T00:30:05+01:00"}))
+    >>> started_at({"started": "2026-03-01T00:30:05+01:00"})
     '2026-03-01 00:30:05 +01:00 (2026-02-28 23:30:05 UTC)'
     """
     try:
-        moment = datetime.fromisoformat(str(ds.attrs.get("started", "")))
+        moment = datetime.fromisoformat(str(attributes.get("started", "")))
     except ValueError:
         return ""
     if moment.tzinfo is None:
@@ -57,12 +83,3 @@ def started_at(ds: xr.Dataset) -> str:
         return in_utc
     plain, zone = moment.isoformat(" ", "seconds")[:19], moment.isoformat()[-6:]
     return f"{plain} {zone} ({in_utc})"
-
-
-def _attribute(ds: xr.Dataset, name: str, kind: type) -> Any:
-    """Content of a JSON attribute; an empty one where it is missing or of another kind."""
-    try:
-        found = json.loads(str(ds.attrs.get(name, "")))
-    except ValueError:
-        return kind()
-    return found if isinstance(found, kind) else kind()

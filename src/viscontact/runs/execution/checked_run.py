@@ -6,11 +6,11 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from viscontact.case.filing import case_attributes
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded
+from viscontact.runs.execution.filing import filed_case
 from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory
@@ -51,7 +51,7 @@ def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
     directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case
-    recorded = Recorded(directory, found.run, case.title, filed=case_attributes(case))
+    recorded = Recorded(directory, found.run, case.title, filed=filed_case(case).attributes)
     return CheckedRun(request, found, recorded)
 
 

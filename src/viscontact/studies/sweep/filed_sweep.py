@@ -9,9 +9,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-import xarray as xr
-
-from viscontact.results.filed_case import input_files, started_at
+from viscontact.results.filed_case import FiledCase, started_at
 from viscontact.results.variables import ALLOWABLE
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import opened
@@ -38,7 +36,7 @@ def filed_attributes(directory: Path) -> dict[str, str]:
         for name in ("title", "title_block")
         if name in found[0] and all(each.get(name) == found[0][name] for each in found)
     }
-    starts = [each["started"] for each in found if started_at(xr.Dataset(attrs=each))]
+    starts = [each["started"] for each in found if started_at(each)]
     if starts:
         shared["started"] = min(starts, key=datetime.fromisoformat)
     return shared | {"input_files": json.dumps(_files(found)), ALLOWABLE: _limits(found)}
@@ -58,7 +56,7 @@ def _files(found: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]:
     files = {
         (each["name"], each["role"], each["sha256"]): dict(each)
         for attributes in found
-        for each in input_files(xr.Dataset(attrs=attributes))
+        for each in FiledCase.of(attributes).input_files
         if each["role"] != _OWN_CASE
     }
     return list(files.values())

@@ -1,31 +1,24 @@
-"""Attributes of a result from its case file: title block, digests of files, values as typed."""
+"""Contents of a case file that its result keeps."""
 
 from __future__ import annotations
 
 import hashlib
-import json
-from collections.abc import Mapping
-from typing import Any
 
 from viscontact.case.case import Case
 from viscontact.case.errors import dotted
+from viscontact.results.filed_case import FiledCase
 from viscontact.run_files import CASE_NAME
 
 
-def case_attributes(case: Case) -> Mapping[str, Any]:
-    """Return the attributes of a result that come from its case file, as JSON.
-
-    `title_block`: section `report`; `input_files`: name, key and SHA-256 when read;
-    `case_as_typed`; `measured`: tables of laws as measured; `allowable`: limits, to which verdicts
-    are added later.
-    """
-    limits = {name: {"limit": limit} for name, limit in case.allowable.items()}
-    sometimes = {"title_block": case.title_block, "measured": case.measured, "allowable": limits}
-    return {
-        **{name: json.dumps(value) for name, value in sometimes.items() if value},
-        "input_files": json.dumps(_input_files(case)),
-        "case_as_typed": json.dumps(case.document.data_with_tolerances, default=str),
-    }
+def filed_case(case: Case) -> FiledCase:
+    """Return what a result keeps of a case."""
+    return FiledCase(
+        case.title_block,
+        _input_files(case),
+        case.document.data_with_tolerances,
+        case.measured,
+        case.allowable,
+    )
 
 
 def _input_files(case: Case) -> list[dict[str, str]]:
