@@ -7,7 +7,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.checks.collector import WarningCollector
-from viscontact.checks.half_space_theory import Geometry
+from viscontact.checks.contact_geometry import Geometry
 from viscontact.checks.material import passivity_warnings
 from viscontact.checks.mesh import WARNING_CELLS, cells_across_spots, mesh_warnings
 from viscontact.checks.steps import relative_change

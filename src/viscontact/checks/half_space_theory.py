@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
-from viscontact.checks.covers import Cover, cover_warnings
-from viscontact.checks.sampling import Sampling, local_approach, sampling_warnings
+from viscontact.checks.contact_geometry import LITTLE_TILT, STEEP_SLOPE, Geometry
+from viscontact.checks.covers import cover_warnings
+from viscontact.checks.sampling import local_approach, sampling_warnings
 from viscontact.checks.singularities import DEPENDS_ON_MESH, is_sharp
-from viscontact.contact.body_edge import end_cells
 from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
-from viscontact.indenters import Indenter
 from viscontact.indenters.rounding import rounding_remedy
 from viscontact.units.formatting import format_quantity
 
-#: Limits of small-strain theory: slope, contact half width / R, approach / R, and for a body
+#: Limits of small-strain theory: contact half width / R, approach / R, and for a body
 #: without a radius approach / half width (a cone of the limiting slope has 0.47).
-STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.3, 0.1, 0.5
-
-#: Tilts up to this need not be added to slopes that are smaller than the limit by as much [rad].
-LITTLE_TILT = 0.03
+WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.1, 0.5
 
 #: Fewest cells across a contact whose extents are compared with the approach.
 FEW_CELLS = 4
@@ -45,70 +39,6 @@ SINGULAR_KINDS = frozenset({"sharp_end", "seam", "corner"})
 THIN_BODY = 0.2
 
 
-@dataclass(frozen=True, eq=False)
-class Geometry:
-    """Shape of the body on its grid, as the warnings about geometry need it."""
-
-    indenter: Indenter
-    open_gap: Floats  # initial gap, +inf outside the outline [m]
-    grid: Grid
-    thickness: float = math.inf  # of the thinner body, inf if not given [m]
-    indenter_gives: bool = False  # the indenter is deformable, so a half-space as well
-    covers: tuple[Cover, ...] = ()
-    is_supported: bool = False  # the bodies lie on rigid bases, so that any approach has a datum
-    predicted: bool = False  # the contact is an estimate made before the run
-
-    @property
-    def _verbs(self) -> tuple[str, str]:
-        return ("will be about", "will reach") if self.predicted else ("is", "reaches")
-
-    @property
-    def steepness(self) -> Floats:
-        """Larger absolute slope from each cell to the next along either axis, not kept [-]."""
-        steepness = np.zeros(self.grid.shape)
-        np.maximum(steepness[:-1], self._slopes(0), out=steepness[:-1])
-        np.maximum(steepness[:, :-1], self._slopes(1), out=steepness[:, :-1])
-        return steepness
-
-    @cached_property
-    def steepest(self) -> float:
-        """Largest of these slopes [-]."""
-        # Not `max`, which may pass over NaN.
-        return float(np.max([self._slopes(axis).max(initial=0.0) for axis in (0, 1)]))
-
-    def _slopes(self, axis: int) -> Floats:
-        """Absolute slopes from each cell to the next along an axis, NaN outside the body [-]."""
-        with np.errstate(invalid="ignore"):
-            slopes = np.diff(self.open_gap, axis=axis)
-        np.abs(slopes, out=slopes)
-        slopes /= self.grid.cell_size[axis]
-        return slopes
-
-    @cached_property
-    def nearly_steep(self) -> Bools:
-        """Cells at which a little tilt makes the slope too steep."""
-        return self.steepness > STEEP_SLOPE - LITTLE_TILT
-
-    @cached_property
-    def ends(self) -> bool:
-        """True if the body ends within the grid."""
-        return bool(np.isinf(self.open_gap).any())
-
-    @cached_property
-    def end_cells(self) -> Bools:
-        """Cells next to the end of the body."""
-        around = self.open_gap
-        for axis, repeats in enumerate(self.grid.periodic):
-            width = [(int(axis == 0),) * 2, (int(axis == 1),) * 2]
-            around = np.pad(around, width, mode="wrap" if repeats else "edge")
-        beside = np.logical_or.reduce(end_cells(around, 1), axis=0)
-        return np.asarray(beside[1:-1, 1:-1])
-
-    @cached_property
-    def _sampling(self) -> Sampling:
-        return Sampling(self.indenter, self.open_gap, self.grid)
-
-
 def geometry_warnings(
     geometry: Geometry,
     rim: Rim,
@@ -121,7 +51,7 @@ def geometry_warnings(
         strain_warnings(geometry, rim, motion)
         | body_warnings(geometry, rim, pressure)
         | warnings_of_covers(geometry, rim, motion, geometry.grid.cell_size)
-        | sampling_warnings(geometry._sampling, rim, motion, displacement)
+        | sampling_warnings(geometry.sampling, rim, motion, displacement)
     )
 
 
@@ -132,7 +62,7 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: Floats) -> dict[str, s
     # A roller's length is no measure of its width, and may be less.
     extents = zip((rim.length, rim.width), geometry.indenter.curvatures, strict=True)
     wide = max(extent / 2 * curvature for extent, curvature in extents)
-    be, reach = geometry._verbs
+    be, reach = geometry.verbs
     slope = _steepest_slope(geometry, rim, motion)
     if slope > STEEP_SLOPE:
         warnings["slope"] = (
@@ -165,7 +95,7 @@ def body_warnings(
 ) -> dict[str, str]:
     """Warn of bodies that end where a half-space continues, by the pressure of all cells [Pa]."""
     warnings: dict[str, str] = {}
-    half_width, (be, reach) = _half_width(rim), geometry._verbs
+    half_width, (be, reach) = _half_width(rim), geometry.verbs
     if _touches_seam(geometry, rim):
         warnings["seam"] = (
             f"the contact {reach} the border of the period, where the body does not continue: "
@@ -196,7 +126,7 @@ def warnings_of_covers(
     """Warn of large strains in covers, and of cells of a size (dx, dy) [m] too long for them."""
     has_datum = geometry.grid.has_datum or geometry.is_supported
     approach = local_approach(geometry.grid, motion) if has_datum else math.nan
-    be, _ = geometry._verbs
+    be, _ = geometry.verbs
     # The cell along a line contact is as long as its period, however short that is.
     counted = zip(cell_size, geometry.grid.shape, strict=True)
     cells = tuple(each for each, count in counted if count > 1)
@@ -232,7 +162,7 @@ def _end_warnings(
     at_end = float(pressure[geometry.end_cells].max(initial=0.0))
     if not at_end:
         return {}
-    _, reach = geometry._verbs
+    _, reach = geometry.verbs
     what = f"the contact {reach} {AT_THE_END}"
     support = "The half-space continues beyond it; a body that ends there too is more compliant"
     if has_limit or at_end < pressure.max():

@@ -99,8 +99,6 @@ def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
     times [s]. Creep functions of materials are then those of the laws themselves, as the responses
     depend little on the law. ValueError if no sum comes close.
 
-    Examples
-    --------
     Rubber on steel needs two terms, that of the cover and that of the core:
 
     >>> from viscontact.laws import Elastic, Zener

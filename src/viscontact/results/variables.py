@@ -214,8 +214,6 @@ NOT_STEADY = (
 def scalars_of(*, moving: bool, over: str = "time") -> dict[str, Variable]:
     """Scalars of a result over time or speed: those without motion, or all for a moving contact.
 
-    Examples
-    --------
     >>> set(SCALARS) - set(scalars_of(moving=False)) >= {"position_x", "resistance_x", "heat"}
     True
     """
@@ -279,13 +277,7 @@ _BAR = "half width of the error bar: inf where the value depends on the mesh, Na
 
 
 def error_name(name: str) -> str:
-    """Name of a variable's error in a result.
-
-    Examples
-    --------
-    >>> error_name("peak_pressure")
-    'peak_pressure_error'
-    """
+    """Name of a variable's error in a result."""
     return f"{name}_error"
 
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from viscontact.checks.contact_geometry import Geometry
 from viscontact.checks.half_space_theory import (
-    Geometry,
     body_warnings,
     corner_warnings,
     strain_warnings,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.checks.contact_geometry import Geometry
 from viscontact.checks.covers import covers_of
-from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import (
     law_warnings,
     origin_warnings,

@@ -10,10 +10,10 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.checks.collector import WarningCollector
+from viscontact.checks.contact_geometry import Geometry
 from viscontact.checks.covers import covers_of
 from viscontact.checks.half_space_theory import (
     SINGULAR_KINDS,
-    Geometry,
     corner_warnings,
     geometry_warnings,
 )

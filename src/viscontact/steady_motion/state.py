@@ -47,6 +47,14 @@ def _tilts(contact: SteadyContact) -> tuple[float, float]:
     return tilt_x, tilt_y
 
 
+def _eccentricities(contact: SteadyContact, force: float) -> tuple[float, float]:
+    """Offsets of the force from the body's axis; NaN where the body repeats, without a centre."""
+    whole, grid = contact.pressure * contact.grid.cell_area, contact.grid
+    centre_x, centre_y = (math.nan if repeats else 1.0 for repeats in grid.periodic)
+    offset_x = centre_x * float(whole.sum(axis=1) @ grid.x) / force
+    return offset_x, centre_y * float(whole.sum(axis=0) @ grid.y) / force
+
+
 def state_of(
     problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
 ) -> ContactState:
@@ -56,13 +64,11 @@ def state_of(
     """
     grid, solution, axis = contact.grid, contact.solution, problem.axis
     pressure, motion = contact.pressure, solution.motion
-    whole = pressure * grid.cell_area
-    force, peak = float(whole.sum()), float(pressure.max())
+    force, peak = float((pressure * grid.cell_area).sum()), float(pressure.max())
     area, load = max(rim.area, force / peak), line_load(pressure, grid)
     forces = [against.value, against.value]
     forces[1 - axis] = force_across(problem, contact)
-    # A body that repeats has no centre from which the force could be offset.
-    centre_x, centre_y = (math.nan if repeats else 1.0 for repeats in grid.periodic)
+    offset_x, offset_y = _eccentricities(contact, force)
     return ContactState(
         time=math.nan,
         pressure=pressure,
@@ -72,8 +78,8 @@ def state_of(
         line_load=load,
         grid=grid,
         force=force,
-        eccentricity_x=centre_x * float(whole.sum(axis=1) @ grid.x) / force,
-        eccentricity_y=centre_y * float(whole.sum(axis=0) @ grid.y) / force,
+        eccentricity_x=offset_x,
+        eccentricity_y=offset_y,
         approach=float(motion[0]) if datum else math.nan,
         tilt_x=float(motion[1]),
         tilt_y=float(motion[2]),

@@ -48,11 +48,7 @@ START: Position = {**_COUNTS, "warnings": (), "cells": None, "enlarged": ()}
 
 
 def working_files(path: Path) -> tuple[Path, Path]:
-    """Return the hidden files of a result: the one written to, and the one before an enlargement.
-
-    >>> [file.name for file in working_files(Path("result.nc"))]
-    ['.result.nc.working', '.result.nc.smaller']
-    """
+    """Return the hidden files: the one written to, and the one before an enlargement."""
     return path.with_name(f".{path.name}.working"), path.with_name(f".{path.name}.smaller")
 
 
@@ -70,20 +66,6 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     To the given global attributes are added `warnings` and `grid_enlarged`, a line each;
     `started`, the date and time of the first start; `wall_time` [s], summed over resumptions;
     `complete`, 1 once the run is finished.
-
-    >>> import tempfile
-    >>> import viscontact as vc
-    >>> grid, times = vc.Grid((32, 32), (3e-3, 3e-3)), [0.0, 1.0]
-    >>> rubber = vc.Material(vc.Elastic(1e7), 0.5)
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "result.nc"
-    ...     with ResultWriter(path, Contents(grid, np.array(times), NO_FIELDS)) as writer:
-    ...         for state in vc.march(vc.Sphere(0.01), rubber, vc.step(2.0), grid, times):
-    ...             writer.append(state)
-    ...         writer.finish()
-    ...     with vc.open_results(path) as ds:
-    ...         ds.force.values.round(3).tolist(), int(ds.attrs["complete"])
-    ([2.0, 2.0], 1)
     """
 
     _layout: Layout
