@@ -8,8 +8,20 @@ import numpy as np
 
 from viscontact.accuracy.coarser_grids import straight_ends
 from viscontact.accuracy.coarser_results import History
-from viscontact.accuracy.coarser_runs import creeps
 from viscontact.accuracy.moving_bars import RESISTANCES, entry_rise, least_resistance_bar
+from viscontact.accuracy.rim_cells import (
+    EXTENTS,
+    cells_across,
+    cells_along,
+    cells_over_thickness,
+    crest_cells,
+    fills_period,
+    half_breadth,
+    late_cells,
+    slenderness,
+    thin_rim_cells,
+    tip_curvature,
+)
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.simulation.setup import RunSetup
 
@@ -34,22 +46,10 @@ AGREEMENT_TOLERANCE = 1e-6
 #: by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
 TIP_CELLS, TIP_AREA = 0.1, 0.3
 
-#: Least error of the crests of a rim that waves along a period, in its height over half a cell.
-CREST_PART = 2.0
-
-#: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, or is
-#: that much smaller than it has been, the surface that it left is still almost closed and its rim
-#: is found too far outside. Least error of the rim over the way that it has moved, and its largest
-#: value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less than 0.2.
-LATE_PART, LATE_CELLS, MOST_LATE = 0.5, 2.0, 0.1
-
-#: Factor of the last for the area of a strip, whose rims lie alike among the cells all along, so
+#: Factor of the least error of a late rim for the area of a strip, whose rims lie alike among the
+#: cells all along, so
 #: that their errors do not cancel: with 1, bars of moving strips held 96 % of the errors.
 STRAIGHT_RIM = 1.5
-
-#: Extents of the contact along x and y, and scalars that follow from the moments.
-EXTENTS = ("contact_length", "contact_width")
-MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 #: Least relative error of scalars, times the square of the cells across the contact: the approach
 #: of a ball is too small by 0.14 +- 0.04, at most by 0.23, with the place of the rim in its cells.
@@ -85,14 +85,12 @@ LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
 #: from there to the cells next to it. Without a rim, nothing else may show on coarser grids.
 CREST_BETWEEN_CELLS = 1 / 8
 
-#: Where cells are long against the thickness of a layer, the pressure falls to the rim as on
-#: springs or less steeply, not as on a half-space. Least error of the rim in cells over that ratio,
-#: at most; and growth of the least errors of scalars with its square: cylinders on layers of 0.4 to
-#: 3 thicknesses per cell err by 0.05 to 0.5 cells at the rim.
-THIN_RIM_CELLS, MOST_THIN_RIM, THIN_GROWTH = 0.12, 0.5, 4.0
+#: Growth of the least errors of scalars with the square of a cell's length over the thickness of a
+#: layer, where the pressure falls to the rim as on springs.
+THIN_GROWTH = 4.0
 
-#: Relative rounding of the area of a whole period.
-ROUNDING = 1e-9
+#: Scalars that follow from the moments.
+MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 TINY = float(np.finfo(np.float64).tiny)
 
@@ -146,7 +144,7 @@ def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floa
     drops = kinds.drops
     relative = LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP)
     relative = np.fmax(relative, np.where(kinds.steep, entry_rise(run, history["time"]), 0.0))
-    has_no_rim = np.isinf(_cells_across(run, history))
+    has_no_rim = np.isinf(cells_across(run, history))
     relative = np.fmax(relative, np.where(has_no_rim, CREST_BETWEEN_CELLS * drops, 0.0))
     return np.asarray(relative * history["peak_pressure"])
 
@@ -155,10 +153,10 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     """Parts of a cell [m]."""
     length = run.grid.cell_size[axis]
     few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
-    smooth = RIM_CELLS * few + TIP_CELLS * _tip_curvature(run, history)[axis]
-    smooth = np.asarray(smooth + _crest_cells(run, history, axis))
-    smooth = np.maximum(smooth, 2 * _thin_rim_cells(run, axis))
-    smooth_or_late = np.maximum(smooth, 2 * _late_cells(run, history))
+    smooth = RIM_CELLS * few + TIP_CELLS * tip_curvature(run, history)[axis]
+    smooth = np.asarray(smooth + crest_cells(run, history, axis))
+    smooth = np.maximum(smooth, 2 * thin_rim_cells(run, axis))
+    smooth_or_late = np.maximum(smooth, 2 * late_cells(run, history))
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
     if min(straight_ends(run)) < np.inf:
         parts = np.where(kinds.at_end, END_RIM_CELLS, parts)
@@ -166,97 +164,25 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     return np.asarray(parts * length)
 
 
-def _tip_curvature(run: RunSetup, history: History) -> Floats:
-    """Logarithm of the cells along x, y over the radius of a slender contact's tip; (2, times)."""
-    # The contact counts as an ellipse, whose tip at the end of its half axis a has the radius b²/a.
-    # It is smaller along an axis along which the contact is shorter. A strip through a whole period
-    # has no tip.
-    extents = np.array([np.nan_to_num(history[name]) for name in EXTENTS])
-    strip = _fills_period(run, history).any(axis=0)
-    touching = (history["contact_area"] > 0) & (extents > 0).all(axis=0) & ~strip
-    longest = np.where(touching, extents.max(axis=0), 1.0)
-    breadth = np.where(touching, history["contact_area"] / (np.pi * longest / 2), 1.0)
-    cells = np.array(run.grid.cell_size)[:, None] * longest / 2 / breadth**2
-    return np.asarray(np.where(touching, np.log1p(2 * cells) * (extents / longest) ** 2, 0.0))
-
-
-def _crest_cells(run: RunSetup, history: History, axis: int) -> Floats:
-    """Least error of the crests of a rim that waves along the only period of a grid, in cells."""
-    # A crest may lie half a cell beside the lines of cells. The rim counts as one cosine.
-    grid, along = run.grid, 1 - axis
-    if grid.has_datum or grid.periodic[axis]:
-        return np.zeros(len(history["time"]))
-    extents = [np.nan_to_num(history[name]) for name in EXTENTS]
-    length = np.maximum(extents[along], grid.cell_size[along])
-    wave = extents[axis] - history["contact_area"] / length
-    wave = np.where(wave > ROUNDING * extents[axis], wave, 0.0)
-    heights = wave * (1 - np.cos(np.pi * grid.cell_size[along] / length))
-    return np.asarray(CREST_PART * heights / grid.cell_size[axis])
-
-
-def _late_cells(run: RunSetup, history: History) -> Floats:
-    """Least error of the rim of a shrinking contact, in cells."""
-    radius = _half_breadth(run, history)
-    if not creeps(run.problem.surface.creep, history["time"]):
-        return np.zeros_like(radius)
-    if not run.problem.motion.stands:  # the rear edge leaves a surface that is almost closed
-        return np.full_like(radius, MOST_LATE)
-    grows = np.diff(radius, prepend=0.0) > 0
-    last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
-    ways = np.stack([radius[last] - radius, np.maximum.accumulate(radius) - radius])
-    shrunk = (ways > 0) & (ways < LATE_CELLS)
-    late = np.where(shrunk, np.minimum(LATE_PART * ways, MOST_LATE), 0.0)
-    return np.asarray(late.max(axis=0))
-
-
-def _cells_over_thickness(run: RunSetup, axis: int) -> float:
-    """Length of a cell over the thickness of the thinnest layer; 0 on a half-space."""
-    thinnest = min(term.response.length for term in run.problem.surface.terms)
-    return run.grid.cell_size[axis] / thinnest
-
-
-def _thin_rim_cells(run: RunSetup, axis: int) -> float:
-    """Least error of the rim on thin layers, in cells."""
-    return min(THIN_RIM_CELLS * _cells_over_thickness(run, axis), MOST_THIN_RIM)
-
-
 def _thin_area(run: RunSetup, history: History) -> Floats:
     """Least error of the area on thin layers [m²]."""
-    strips = _fills_period(run, history)
+    strips = fills_period(run, history)
     rims = [
-        np.where(strips[1 - axis], 2.0, 4.0) * _thin_rim_cells(run, axis) * ~strips[axis]
+        np.where(strips[1 - axis], 2.0, 4.0) * thin_rim_cells(run, axis) * ~strips[axis]
         for axis in (0, 1)
     ]
-    relative = np.max(rims, axis=0) / np.maximum(_cells_across(run, history), 1.0)
+    relative = np.max(rims, axis=0) / np.maximum(cells_across(run, history), 1.0)
     return np.asarray(relative * history["contact_area"])
 
 
 def _late_area(run: RunSetup, history: History) -> Floats:
     """Least error of the area of a shrinking contact [m²]."""
-    girth = np.pi * (_cells_along(run, history) / 2 + _half_breadth(run, history))
-    strips = _fills_period(run, history)
+    girth = np.pi * (cells_along(run, history) / 2 + half_breadth(run, history))
+    strips = fills_period(run, history)
     for axis in (0, 1):  # a strip has two straight rims, however few cells they consist of
         straight = 2.0 * STRAIGHT_RIM * run.grid.shape[axis]
         girth = np.where(strips[axis] & ~strips[1 - axis], straight, girth)
-    return np.asarray(girth * _late_cells(run, history) * run.grid.cell_area)
-
-
-def _half_breadth(run: RunSetup, history: History) -> Floats:
-    """Shorter half axis of the contact as an ellipse, or half width of a strip, in cells."""
-    cells = history["contact_area"] / run.grid.cell_area
-    ellipse = np.asarray(cells / (np.pi / 2 * _cells_along(run, history)))
-    for axis, strip in enumerate(_fills_period(run, history)):
-        ellipse = np.where(strip, cells / (2 * run.grid.shape[axis]), ellipse)
-    return ellipse
-
-
-def _fills_period(run: RunSetup, history: History) -> Bools:
-    """Times at which the contact fills the only period of a grid, along x, y; (2, times)."""
-    fills = [
-        not run.grid.has_datum and repeats and np.nan_to_num(history[name]) >= size
-        for name, repeats, size in zip(EXTENTS, run.grid.periodic, run.grid.size, strict=True)
-    ]
-    return np.array(np.broadcast_arrays(*fills), dtype=bool)
+    return np.asarray(girth * late_cells(run, history) * run.grid.cell_area)
 
 
 def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Floats:
@@ -267,10 +193,10 @@ def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Flo
 
 def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
     """Least error of the area where the rim is steep, or curved within long cells [m²]."""
-    across, along = np.maximum(_cells_across(run, history), 1.0), _cells_along(run, history)
+    across, along = np.maximum(cells_across(run, history), 1.0), cells_along(run, history)
     smooth = LEAST_AREA_ERROR / across**2
     steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
-    tip = TIP_AREA * _tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
+    tip = TIP_AREA * tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
     relative = np.maximum(smooth, np.maximum(steep, tip))
     return np.asarray(relative * history["contact_area"])
 
@@ -280,20 +206,8 @@ def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
     if min(straight_ends(run)) == np.inf:
         return np.zeros(len(kinds.at_end))
     uncertain = kinds.at_end & ~kinds.rises.all(axis=0)
-    relative = LEAST_END_AREA_ERROR / _cells_along(run, history)
+    relative = LEAST_END_AREA_ERROR / cells_along(run, history)
     return np.asarray(np.where(uncertain, relative * history["contact_area"], 0.0))
-
-
-def _cells_across(run: RunSetup, history: History) -> Floats:
-    """Cells across the contact, infinite where a whole period is in contact: it has no rim."""
-    covered = history["contact_area"] > (1 - ROUNDING) * run.grid.area
-    return np.where(all(run.grid.periodic) & covered, np.inf, history["cells_across"])
-
-
-def _cells_along(run: RunSetup, history: History) -> Floats:
-    """Cells on the longer extent of the contact, at least 1."""
-    along = (np.nan_to_num(history[EXTENTS[k]]) / run.grid.cell_size[k] for k in (0, 1))
-    return np.maximum(np.fmax(*along), 1.0)
 
 
 def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
@@ -309,27 +223,19 @@ def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     """Usual error of a tilt on the cells along a contact that reaches a curved end."""
     given = name.startswith("eccentricity") or getattr(run.problem.load, name) is not None
     uncertain = kinds.ended & (min(straight_ends(run)) == np.inf) & (not given)
-    relative = LEAST_END_TILT_ERROR / np.fmax.accumulate(_cells_along(run, history))
+    relative = LEAST_END_TILT_ERROR / np.fmax.accumulate(cells_along(run, history))
     return np.asarray(np.where(uncertain, relative * np.abs(history[name]), 0.0))
 
 
 def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
-    across = _cells_across(run, history)
-    least = LEAST_ERRORS[name] + (LONG_CONTACT * _slenderness(history) if name == "approach" else 0)
+    across = cells_across(run, history)
+    least = LEAST_ERRORS[name] + (LONG_CONTACT * slenderness(history) if name == "approach" else 0)
     # Cells along a line contact have no influence.
-    ratios = [_cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
+    ratios = [cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
     least = least * (1 + THIN_GROWTH * min(ratios, default=0.0) ** 2)
     relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
-    longest = np.fmax.accumulate(_cells_along(run, history))
+    longest = np.fmax.accumulate(cells_along(run, history))
     curved = kinds.ended & (min(straight_ends(run)) == np.inf)
     at_end = np.where(curved, LEAST_END_ERROR / longest, 0.0)
     return np.asarray(np.maximum(relative, at_end) * np.abs(history[name]))
-
-
-def _slenderness(history: History) -> Floats:
-    """Logarithm of the contact's longer extent over its shorter one; 0 without contact."""
-    length, width = (np.nan_to_num(history[name]) for name in EXTENTS)
-    touching = (length > 0) & (width > 0)
-    ratio = np.divide(length, width, out=np.ones_like(length), where=touching)
-    return np.abs(np.log(ratio))
