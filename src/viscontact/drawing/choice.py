@@ -115,7 +115,7 @@ class FigureChoice:
 
 def require_one_axis(runs: Mapping[str, xr.Dataset]) -> None:
     """Raise ValueError for runs over time beside runs over speed."""
-    over_speed = [label for label, run in runs.items() if run_axis(run) is SPEED]
+    over_speed = [label for label, run in runs.items() if not run_axis(run).is_history]
     if 0 < len(over_speed) < len(runs):
         raise ValueError(
             "runs over time and runs over speed cannot be compared; over speed: "

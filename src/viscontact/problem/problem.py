@@ -201,11 +201,6 @@ class Problem:
         """True if the body passes a cell, or several, in each step."""
         return isinstance(self.times, CellTimes) or (self.times is None and not self.motion.stands)
 
-    @cached_property
-    def field_instants(self) -> Floats:
-        """Times whose fields are kept, among `instants` [s]."""
-        return self.kept.among(self.instants)
-
     @property
     def end(self) -> float:
         """Last time of the run [s]."""

@@ -23,7 +23,7 @@ class StoredRun:
 
     rows: int  # number of instants or speeds
     complete: bool  # True if the run was finished
-    case: dict[str, Any] | None  # as `RecordedRun.case`; None in a file of another origin
+    case: dict[str, Any] | None  # as `Analysis.case`; None in a file of another origin
 
 
 def stored_run(path: Path) -> StoredRun:
