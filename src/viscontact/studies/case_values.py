@@ -15,7 +15,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.case import Case, CaseError, read_case
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.runs.single import simulate
-from viscontact.steady.run import steady
+from viscontact.runs.steady import steady
 
 
 def case_path(case: str | PathLike[str]) -> Path:
