@@ -811,6 +811,8 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
         return whole(replace(request, settings=("grid.shape=[64, 32]", "time.steps=2")))
 
     monkeypatch.setattr(execution, "execute", coarse)
+    two = ("pressure-map", "history")
+    monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", two)
     assert main(["demo", "-q"]) == 0
     kept = {path.name for path in Path("viscontact-demo").iterdir()}
     assert {"result.nc", "case.yaml", "pressure-map.png", "history.png"} <= kept

@@ -64,6 +64,18 @@ def test_a_design_is_continued_with_resume_only(capsys: pytest.CaptureFixture[st
     assert "holds another design, with a different change" in capsys.readouterr().err
 
 
+@pytest.mark.slow
+def test_a_cluster_computes_the_same_trials() -> None:
+    pytest.importorskip("distributed")
+    assert main([*COMMAND, *RADIUS, "-q"]) == 0
+    before = Path("found").rename("here")
+    assert main([*COMMAND, *RADIUS, "-q", "--scheduler", "local", "-j", "2"]) == 0
+    lines = [
+        sorted(Path(place, "trials.jsonl").read_text().splitlines()) for place in (before, "found")
+    ]
+    assert lines[0] == lines[1]
+
+
 def test_an_interrupted_design_says_how_to_continue(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,7 +143,7 @@ def test_values_of_lists_are_no_ranges() -> None:
     typed = {"case": Path("ball.yaml"), "output": Path("found"), "runs": 9, "jobs": 1}
     typed |= {"change": ["grid.size=[1 mm, 1 mm], [2 mm, 2 mm]"], "over": ["load.force=1 N,2 N"]}
     typed |= {"minimise": ["approach"], "at": "10 min"}
-    rest = ("maximise", "scatter", "constraint", "settings")
+    rest = ("maximise", "scatter", "constraint", "settings", "scheduler")
     found = design_arguments({**dict.fromkeys(rest), **typed})
     assert found["change"] == {"grid.size": ["[1 mm, 1 mm]", "[2 mm, 2 mm]"]}
     assert found["at"] == 600.0

@@ -1,4 +1,4 @@
-"""`run --scheduler` with names that are no scheduler, refused before Dask is imported."""
+"""`--scheduler` with names that are no scheduler, refused before Dask is imported."""
 
 from __future__ import annotations
 
@@ -17,6 +17,19 @@ grid: {shape: [24, 24], size: [5 mm, 5 mm]}
 """
 
 
+COMMANDS = {
+    "run": ("run", "ball.yaml", "--vary", "load.force=1N,2N", "-o", "out"),
+    "design": (
+        *("design", "ball.yaml", "--change", "load.force=1N,2N", "--minimise", "approach"),
+        *("-o", "out"),
+    ),
+    "profile": ("design", "ball.yaml", "--profile", "free", "-o", "out"),
+    "sensitivity": ("sensitivity", "ball.yaml", "--of", "approach", "-o", "out"),
+    "fit": ("fit", "a.csv", "--case", "ball.yaml", "--change", "load.force=1N:2N"),
+}
+
+
+@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
 @pytest.mark.parametrize(
     ("scheduler", "why"),
     [
@@ -30,14 +43,14 @@ def test_other_files_than_those_of_a_scheduler_are_refused_in_one_line(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
     scheduler: str,
     why: str,
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("ball.yaml").write_text(CASE, encoding="utf-8")
     Path("other.json").write_text('{"address": 5}', encoding="utf-8")
-    words = ["run", "ball.yaml", "--vary", "load.force=1N,2N", "-o", "out", "--scheduler"]
-    assert main([*words, scheduler]) == 2
+    assert main([*words, "--scheduler", scheduler]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"--scheduler {scheduler}: {why}")
     assert not Path("out").exists()

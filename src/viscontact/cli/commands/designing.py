@@ -13,6 +13,7 @@ from viscontact.cli.commands.study_options import (
     Jobs,
     Quiet,
     Resume,
+    Scheduler,
     Settings,
     StudyDirectory,
 )
@@ -105,6 +106,7 @@ def design(
     settings: Settings = None,
     runs: Runs = None,
     jobs: Jobs = 1,
+    scheduler: Scheduler = None,
     resume: Resume = False,
     quiet: Quiet = False,
 ) -> None:

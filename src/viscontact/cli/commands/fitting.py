@@ -190,6 +190,7 @@ Report = Annotated[
 ]
 Runs = Annotated[int | None, study_options.runs("Most runs.", _BY_RUNS)]
 Jobs = Annotated[int, study_options.jobs(_BY_RUNS)]
+Scheduler = Annotated[str | None, study_options.scheduler(_BY_RUNS)]
 Resume = Annotated[bool, study_options.resume("Continue an interrupted fit.", _BY_RUNS)]
 Quiet = Annotated[bool, study_options.quiet(panel=_BY_RUNS)]
 
@@ -222,6 +223,7 @@ def fit(
     runs: Runs = None,
     report: Report = None,
     jobs: Jobs = 1,
+    scheduler: Scheduler = None,
     resume: Resume = False,
     quiet: Quiet = False,
 ) -> None:

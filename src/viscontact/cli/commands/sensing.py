@@ -12,6 +12,7 @@ from viscontact.cli.commands.study_options import (
     Jobs,
     Quiet,
     Resume,
+    Scheduler,
     Settings,
     StudyDirectory,
 )
@@ -65,6 +66,7 @@ def sensitivity(
     step: Step = 0.1,
     settings: Settings = None,
     jobs: Jobs = 1,
+    scheduler: Scheduler = None,
     resume: Resume = False,
     quiet: Quiet = False,
 ) -> None:

@@ -31,6 +31,16 @@ def jobs(panel: str | None = None) -> Any:
     return typer.Option("-j", "--jobs", min=1, metavar="N", help=words, rich_help_panel=panel)
 
 
+def scheduler(panel: str | None = None) -> Any:
+    """Option of a cluster that computes the runs."""
+    words = (
+        "Compute the runs on a Dask cluster: the address or the file of its scheduler; local "
+        "starts -j N workers here."
+    )
+    where = "ADDRESS|FILE|local"
+    return typer.Option("--scheduler", metavar=where, help=words, rich_help_panel=panel)
+
+
 def runs(words: str, panel: str | None = None) -> Any:
     """Option of the budget of runs."""
     return typer.Option("--runs", min=1, metavar="N", help=words, rich_help_panel=panel)
@@ -47,15 +57,7 @@ def quiet(words: str = "Print the result only.", panel: str | None = None) -> An
 
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        "--scheduler",
-        metavar="ADDRESS|FILE|local",
-        help="Compute the runs on a Dask cluster: the address or the file of its scheduler; local "
-        "starts -j N workers here.",
-    ),
-]
+Scheduler = Annotated[str | None, scheduler()]
 Jobs = Annotated[int, jobs()]
 Resume = Annotated[bool, resume()]
 Quiet = Annotated[bool, quiet()]

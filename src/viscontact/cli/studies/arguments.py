@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import Any, TypeVar
 
 from viscontact.cli.sweep.plan_options import key_of, split_values
@@ -49,6 +50,12 @@ def by_key(
             refuse(f"{option} {key}: is given twice; give it once")
         found[key] = read(value)
     return found
+
+
+def case_of(typed: Mapping[str, Any]) -> Path:
+    """Case file; by its whole path for workers of a cluster, whose directory is another one."""
+    case: Path = typed["case"]
+    return case if typed["scheduler"] is None else case.absolute()
 
 
 def settings_of(texts: Sequence[str] | None) -> dict[str, str]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.cli.material.fit_report import Drawing, draw_fit, write_section
-from viscontact.cli.studies.arguments import bounds, by_key, settings_of
+from viscontact.cli.studies.arguments import bounds, by_key, case_of, settings_of
 from viscontact.cli.studies.execution import Records, performed, write_report
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.errors import AccuracyWarning
@@ -20,7 +20,16 @@ _OF_TABLES = (
     *("data", "poisson_ratio", "bulk_modulus", "terms", "fluid", "weight", "stress"),
     *("reference", "temperature", "indenter", "spring_constant", "sensitivity"),
 )
-_OF_RUNS = ("change", "drive", "contact_point", "machine_stiffness", "settings", "runs", "report")
+_OF_RUNS = (
+    "change",
+    "drive",
+    "contact_point",
+    "machine_stiffness",
+    "settings",
+    "runs",
+    "report",
+    "scheduler",
+)
 
 
 def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> None:
@@ -33,7 +42,7 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
             f"{', '.join(idle)} does not go with --case, whose file has body and law; leave it out"
         )
     trials = Path(f"{typed['files'][0].stem}-fit.jsonl")
-    found = _fitted(_arguments(typed), trials, resume=typed["resume"], quiet=typed["quiet"])
+    found = _fitted(typed, trials)
     print(found)
     for note in found.notes:
         say(f"warning: {note}")
@@ -69,24 +78,24 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
     remedy = "KEY=LOW:HIGH or KEY=LOW:HIGH:log, with units"
     ranges = {name: typed[name] for name in ("contact_point", "machine_stiffness")}
     return {
-        **{name: typed[name] for name in ("case", "drive", "rows", "runs")},
+        "case": case_of(typed),
+        **{name: typed[name] for name in ("drive", "rows", "runs")},
         "records": typed["files"],
         "change": by_key("--change", typed["change"], remedy, bounds),
         **{name: text if text is None else bounds(text) for name, text in ranges.items()},
         "settings": settings_of(typed["settings"]),
-        "workers": typed["jobs"],
     }
 
 
-def _fitted(arguments: dict[str, Any], trials: Path, *, resume: bool, quiet: bool) -> CaseFit:
+def _fitted(typed: Mapping[str, Any], trials: Path) -> CaseFit:
     """Result of a fit, which keeps its runs in a file up to its end."""
-    begun = trials.exists()
+    arguments, begun = _arguments(typed), trials.exists()
 
-    def fit(**progress: Any) -> CaseFit:
+    def fit(**how: Any) -> CaseFit:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", AccuracyWarning)  # printed from the notes
-                return fit_case(**arguments, trials=trials, **progress)
+                return fit_case(**arguments, trials=trials, **how)
         except ValueError:
             if not begun:
                 trials.unlink(missing_ok=True)
@@ -95,6 +104,6 @@ def _fitted(arguments: dict[str, Any], trials: Path, *, resume: bool, quiet: boo
     remedy = "continue it with --resume, or remove the file"
     refusal = f"holds the runs of an interrupted fit; {remedy}"
     records = Records(trials, trials, "the finished runs", refusal)
-    found = performed(fit, records, resume=resume, quiet=quiet)
+    found = performed(fit, records, typed)
     trials.unlink(missing_ok=True)
     return found

@@ -7,7 +7,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from viscontact.cli.studies.arguments import bounds, by_key, instant, scenarios_of, settings_of
+from viscontact.cli.studies.arguments import (
+    bounds,
+    by_key,
+    case_of,
+    instant,
+    scenarios_of,
+    settings_of,
+)
 from viscontact.cli.studies.execution import REPORT_NAME, Records, performed, show, write_report
 from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
@@ -22,7 +29,7 @@ _SCATTER = "KEY=VALUE, with the unit, e.g. 'material.poisson_ratio=0.36:0.40'"
 def execute_design(typed: Mapping[str, Any]) -> None:
     """Search, write the result to its directory, and print it; `typed` are the options by name."""
     search, output = partial(design, **design_arguments(typed)), typed["output"]
-    found = performed(search, trials_in(output), resume=typed["resume"], quiet=typed["quiet"])
+    found = performed(search, trials_in(output), typed)
     show(found, [f"{found.runs} runs; the best trial has its error on the cells of the case"])
     write_report(found, output / REPORT_NAME)
     print(output / BEST_NAME)
@@ -42,7 +49,7 @@ def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
     if not typed["minimise"] and not typed["maximise"]:
         refuse("give --minimise or --maximise, e.g. --minimise peak_pressure")
     return {
-        "case": typed["case"],
+        "case": case_of(typed),
         "change": by_key("--change", typed["change"], _CHANGE, _parameter),
         "minimise": typed["minimise"] or (),
         "maximise": typed["maximise"] or (),
@@ -52,7 +59,6 @@ def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         "constraints": typed["constraint"] or (),
         "settings": settings_of(typed["settings"]),
         "runs": typed["runs"],
-        "workers": typed["jobs"],
         "directory": typed["output"],
     }
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from viscontact.case import CaseError
 from viscontact.cli.studies.arguments import as_typed
@@ -56,13 +57,18 @@ class Records:
 
 
 def performed(
-    study: Callable[..., T], records: Records, *, resume: bool, quiet: bool, line: str = AT_MOST
+    study: Callable[..., T], records: Records, typed: Mapping[str, Any], *, line: str = AT_MOST
 ) -> T:
-    """Result of a study, which takes the argument `progress`; its failures end the command."""
-    records.refuse_begun(resume=resume, quiet=quiet)
+    """Result of a study; its failures end the command.
+
+    The study takes the arguments `progress`, and `workers` or `client`; `typed` are the options of
+    the command by name.
+    """
+    quiet: bool = typed["quiet"]
+    records.refuse_begun(resume=typed["resume"], quiet=quiet)
     try:
-        with counted("runs", quiet=quiet, line=line) as progress:
-            return study(progress=progress)
+        with _workers(typed) as workers, counted("runs", quiet=quiet, line=line) as progress:
+            return study(progress=progress, **workers)
     except CaseError as error:
         refuse(*map(as_typed, error.problems))
     except (InfeasibleError, ConvergenceError, DomainError) as error:
@@ -79,6 +85,18 @@ def performed(
             "continue with the same command and --resume",
             code=INTERRUPTED,
         )
+
+
+@contextmanager
+def _workers(typed: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """Argument of a study for its workers: processes of this machine, or those of a cluster."""
+    if typed["scheduler"] is None:
+        yield {"workers": typed["jobs"]}
+        return
+    from viscontact.cli.sweep.cluster import connected
+
+    with connected(typed["scheduler"], typed["jobs"], quiet=typed["quiet"]) as client:
+        yield {"client": client}
 
 
 def show(found: StudyResult, lines: Iterable[str] = ()) -> None:

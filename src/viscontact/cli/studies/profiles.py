@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.cli.studies.arguments import instant, quantity, scenarios_of, settings_of
+from viscontact.cli.studies.arguments import case_of, instant, quantity, scenarios_of, settings_of
 from viscontact.cli.studies.design import trials_in
 from viscontact.cli.studies.execution import REPORT_NAME, performed, show, write_report
 from viscontact.cli.terminal.messages import refuse, say
@@ -26,7 +26,7 @@ _PROFILE = re.compile(r"free(?::(?P<knots>\d+))?(?P<asymmetric>:asymmetric)?")
 def execute_profile_design(typed: Mapping[str, Any]) -> None:
     """Search, write the result to its directory, and print it; `typed` are the options by name."""
     search, output = partial(design_profile, **_arguments(typed)), typed["output"]
-    found = performed(search, trials_in(output), resume=typed["resume"], quiet=typed["quiet"])
+    found = performed(search, trials_in(output), typed)
     show(found, _peak_pressures(found))
     write_report(found, output / REPORT_NAME)
     print(output / CSV_NAME)
@@ -57,12 +57,11 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         "runs": typed["runs"],
     }
     return {
-        "case": typed["case"],
+        "case": case_of(typed),
         "symmetric": match["asymmetric"] is None,
         "at": instant(typed["at"]),
         "over": scenarios_of(typed["over"]),
         "settings": settings_of(typed["settings"]),
-        "workers": typed["jobs"],
         "directory": typed["output"],
         **{name: value for name, value in optional.items() if value is not None},
     }

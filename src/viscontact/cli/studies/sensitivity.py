@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from viscontact.cli.studies.arguments import bounds, by_key, instant, settings_of
+from viscontact.cli.studies.arguments import bounds, by_key, case_of, instant, settings_of
 from viscontact.cli.studies.execution import (
     OF_ALL,
     REPORT_NAME,
@@ -29,14 +29,13 @@ def execute_sensitivity(typed: Mapping[str, Any]) -> None:
     """
     arguments, output = _arguments(typed), typed["output"]
 
-    def study(**progress: Any) -> SensitivityResult:
-        found = sensitivity(**arguments, **progress)
+    def study(**how: Any) -> SensitivityResult:
+        found = sensitivity(**arguments, **how)
         write_table(output, found)
         return found
 
     records = Records(output, output / MANIFEST_NAME)
-    how = {"resume": typed["resume"], "quiet": typed["quiet"]}
-    found = performed(study, records, **how, line=OF_ALL)
+    found = performed(study, records, typed, line=OF_ALL)
     show(found)
     write_report(found, output / REPORT_NAME)
     print(output / TABLE_NAME)
@@ -45,10 +44,11 @@ def execute_sensitivity(typed: Mapping[str, Any]) -> None:
 def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
     """Arguments of `viscontact.sensitivity` by name."""
     return {
-        **{name: typed[name] for name in ("case", "of", "samples", "seed", "step")},
+        "case": case_of(typed),
+        **{name: typed[name] for name in ("of", "samples", "seed", "step")},
         "change": typed["change"] or None,
         "scatter": by_key("--scatter", typed["scatter"], _SCATTER, bounds),
         "at": instant(typed["at"]),
         "settings": settings_of(typed["settings"]),
-        **{"workers": typed["jobs"], "directory": typed["output"]},
+        "directory": typed["output"],
     }

@@ -1,4 +1,4 @@
-"""Cluster of `--scheduler`: its connection, and the memory of its workers."""
+"""Cluster of `--scheduler`: its connection, its workers, and their memory."""
 
 from __future__ import annotations
 
@@ -27,18 +27,29 @@ _ANY_PORT = "127.0.0.1:0"
 def cluster_tasks(
     scheduler: str, count: int, directory: Path, jobs: Sequence[Job], *, quiet: bool
 ) -> Iterator[RemoteTasks]:
-    """Connect to a scheduler by its address or its file; `local` starts workers here."""
+    """Tasks of the workers of a scheduler, whose memory must suffice for the runs."""
     from viscontact.studies.executors.dask import dask_executor
     from viscontact.studies.executors.remote import RemoteTasks
 
-    with ExitStack() as opened:
-        client = opened.enter_context(_client(scheduler, count))
+    with connected(scheduler, count, quiet=quiet) as client:
+        if scheduler != "local":
+            _check_memory(client, scheduler, jobs, quiet=quiet)
+        with RemoteTasks(dask_executor(client), directory) as tasks:
+            yield tasks
+
+
+@contextmanager
+def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
+    """Connect to a scheduler with a worker, by its address or its file; `local` starts some here.
+
+    `count` is the number of workers that are started.
+    """
+    with _client(scheduler, count) as client:
         if scheduler != "local":
             if not quiet and not client.scheduler_info()["workers"]:
                 say(f"--scheduler {scheduler}: waiting for its first worker")
             client.wait_for_workers(1)
-            _check_memory(client, scheduler, jobs, quiet=quiet)
-        yield opened.enter_context(RemoteTasks(dask_executor(client), directory))
+        yield client
 
 
 @contextmanager
@@ -55,6 +66,7 @@ def _client(scheduler: str, count: int) -> Iterator[Any]:
             if scheduler == "local":
                 # Without a limit of memory: the runs at once were chosen to fit.
                 options: dict[str, Any] = {
+                    "n_workers": count,
                     "threads_per_worker": 1,
                     "memory_limit": 0,
                     "dashboard_address": _ANY_PORT,
