@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import hashlib
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -14,8 +15,22 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.case import Case, CaseError, read_case
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
+from viscontact.results.variables import scalars_with_error
 from viscontact.runs.single import simulate
 from viscontact.runs.steady import steady
+
+#: Place of a scalar: that of its worst value, the last one, or a time [s] or a speed [m/s].
+At = Literal["worst", "end"] | float
+
+
+def known_scalar(argument: str, name: str) -> str:
+    """Name of a scalar with an error bar; ValueError for another one, with the argument."""
+    names = scalars_with_error(moving=True)
+    if name in names:
+        return name
+    close = difflib.get_close_matches(name, names, 1)
+    hint = f"did you mean {close[0]}?" if close else f"one of {', '.join(names)}"
+    raise ValueError(f"{argument}: {name!r} is no scalar of a result; {hint}")
 
 
 def case_path(case: str | PathLike[str]) -> Path:
@@ -85,7 +100,7 @@ def places_of(case: Case) -> tuple[RunAxis, Floats]:
     return TIME, case.instants if case.adaptive is None else np.array([0.0, case.adaptive.end])
 
 
-def require_instant(case: Case, at: Literal["worst", "end"] | float) -> None:
+def require_instant(case: Case, at: At) -> None:
     """Raise ValueError unless a place is "worst", "end", or an instant [s] or speed of the case."""
     axis, places = places_of(case)
     if isinstance(at, str):

@@ -137,11 +137,11 @@ def test_a_tolerance_is_scatter_and_of_a_parameter_a_deviation() -> None:
 
 def test_a_tolerance_of_the_case_that_does_not_scatter_is_noted(ball: Path) -> None:
     ball.write_text(BALL.replace("radius: 5 mm", "radius: 5 mm ± 0.1 mm"), "utf-8")
-    known = {"minimise": "approach", "runs": 4}
+    known = {"minimise": "approach", "runs": 3, "workers": 1}
     (note,) = [n for n in vc.design(ball, FORCE, **known).notes if "tolerances" in n]
     assert "as 'indenter.radius=5 mm ± 0.1 mm'" in note
     scatter = {"indenter.radius": "5 mm ± 0.1 mm"}
-    found = vc.design(ball, FORCE, scatter=scatter, **known | {"runs": 12})
+    found = vc.design(ball, FORCE, scatter=scatter, **known | {"runs": 6})
     assert found.table.sizes["scenario"] == 3
     assert not any("tolerances" in note for note in found.notes)
 

@@ -6,10 +6,20 @@ import math
 from collections.abc import Mapping
 
 import pytest
-from tests.studies.design.analytic import notes, searched, trials_in
+from tests.studies.design.analytic import (
+    FunctionInPlaceOfARun,
+    notes,
+    search_of,
+    searched,
+    trials_in,
+)
 
 from viscontact.studies.design.conclusions import why_infeasible
-from viscontact.studies.design.goals import Value
+from viscontact.studies.design.evaluated_trials import Trials
+from viscontact.studies.design.goals import Goal, Value
+from viscontact.studies.design.objectives import Objective
+from viscontact.studies.design.parameters import space_of
+from viscontact.studies.evaluation import Budget, Evaluation, Level
 
 TWO = {"load.x": ("0", "1"), "load.y": ("0", "1")}
 
@@ -101,6 +111,30 @@ def test_trials_that_fail_do_not_end_the_search() -> None:
     _, best = searched(partly, {"load.x": ("0", "1")})
     assert best is not None
     assert float(best.settings["load.x"]) == pytest.approx(0.3, abs=0.05)
+
+
+def test_the_worst_scenario_decides() -> None:
+    goals = (Goal("force", True),)
+
+    def runs_of(settings: Mapping[str, str], level: Level) -> list[FunctionInPlaceOfARun]:
+        # The larger one of 1 + x and 3 - x in two scenarios is least at x = 1.
+        slopes = ((1, 1), (3, -1))
+        return [
+            FunctionInPlaceOfARun(
+                f"{number} {settings}",
+                lambda v, first=first, slope=slope: exact(first + slope * v["load.x"]),
+                goals,
+                settings,
+            )
+            for number, (first, slope) in enumerate(slopes)
+        ]
+
+    evaluation = Evaluation(Budget(60))
+    trials = Trials(space_of({"load.x": ["0", "1", "2"]}), runs_of, goals, (), evaluation)
+    best = search_of(trials, Objective(goals)).run()
+    assert best is not None
+    assert best.settings == {"load.x": "1"}
+    assert evaluation.budget.runs == 2 * 3
 
 
 def test_choices_are_tried_in_all_combinations() -> None:

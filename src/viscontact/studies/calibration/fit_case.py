@@ -92,7 +92,8 @@ def fit_case(  # noqa: PLR0913
         Most runs on coarse cells; by default 40 for each unknown and record, and 40 more.
     workers : int, optional
         Number of parallel processes; by default as many as there are cores. With 1, the runs are
-        computed in this process.
+        computed in this process. With more, a script needs ``if __name__ == "__main__":``, as for
+        `simulate_many`.
     executor : concurrent.futures.Executor, optional
         Executor of the runs in place of processes of this machine, as for `simulate_many`.
     client : distributed.Client, optional
@@ -141,6 +142,7 @@ def fit_case(  # noqa: PLR0913
     Examples
     --------
     >>> import tempfile
+    >>> from pathlib import Path
     >>> import numpy as np
     >>> from viscontact.studies.calibration.record import ContactRecord
     >>> file = Path(tempfile.mkdtemp(), "ball.yaml")
@@ -157,6 +159,7 @@ def fit_case(  # noqa: PLR0913
     ...     ContactRecord(np.arange(9.0), force, depth + 2e-6),
     ...     {"material.shear_modulus": ("0.5 MPa", "9 MPa", "log")},
     ...     contact_point=("-9 um", "9 um"),
+    ...     workers=1,
     ... )
     >>> f"{fit.parameters['contact_point']:.1g} {fit.units['contact_point']}"
     '2e-06 m'

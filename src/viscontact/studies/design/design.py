@@ -154,6 +154,7 @@ def design(  # noqa: PLR0913
     ...     {"load.force": ("0.01 N", "0.5 N", "log")},
     ...     maximise="approach",
     ...     constraints=["contact_width<=1.2mm"],
+    ...     workers=1,
     ... )
     >>> force = float(found.best["load.force"])
     >>> abs(force / (4 / 3 * 4e6 * 0.6e-3**3 / 5e-3) - 1) < 0.1  # Hertz: F = 4/3 E* a^3 / R

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import xarray as xr
 
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
-from viscontact.results.variables import SCALARS, scalars_with_error
+from viscontact.results.variables import SCALARS
+from viscontact.studies.case_values import At, known_scalar
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_any_quantity
 
-#: Instant of a goal: that of the worst value, the last one, or a time [s] or speed [m/s].
-At = Literal["worst", "end"] | float
 #: Scalars that are to be least, or largest.
 Names = str | Sequence[str] | None
 #: Most scalars of a trade-off.
@@ -127,8 +124,8 @@ def goals_of(minimise: Names, maximise: Names, at: At) -> tuple[Goal, ...]:
         raise ValueError("give minimise or maximise, e.g. minimise='peak_pressure'")
     if isinstance(at, str) and at not in ("worst", "end"):
         raise ValueError(f"at: must be 'worst', 'end' or a time [s], got {at!r}")
-    goals = [Goal(_known(name, "minimise"), True, at) for name in least]
-    goals += [Goal(_known(name, "maximise"), False, at) for name in largest]
+    goals = [Goal(known_scalar("minimise", name), True, at) for name in least]
+    goals += [Goal(known_scalar("maximise", name), False, at) for name in largest]
     names = [each.scalar for each in goals]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
@@ -167,7 +164,7 @@ def _constraint(text: str) -> Constraint:
             f"{text!r}"
         )
     name, sign, quantity = match.groups()
-    scalar = _known(name, "constraints")
+    scalar = known_scalar("constraints", name)
     unit = SCALARS[scalar].units
     try:
         bound, given = parse_any_quantity(quantity)
@@ -176,13 +173,3 @@ def _constraint(text: str) -> Constraint:
     if given != _AS_READ.get(unit, unit):
         raise ValueError(f"constraints: {text}: must have a unit of [{unit}], got {quantity!r}")
     return Constraint(scalar, sign == "<=", bound)
-
-
-def _known(name: str, where: str) -> str:
-    """Name of a scalar with an error bar; ValueError for another one."""
-    names = scalars_with_error(moving=True)
-    if name in names:
-        return name
-    close = difflib.get_close_matches(name, names, 1)
-    hint = f"did you mean {close[0]}?" if close else f"one of {', '.join(names)}"
-    raise ValueError(f"{where}: {name!r} is no scalar of a result; {hint}")

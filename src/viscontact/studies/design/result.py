@@ -58,7 +58,8 @@ class DesignResult:
     ...     "load: {kind: step, force: 0.1 N}, time: {end: 1 s, steps: 1}, "
     ...     "grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}}"
     ... )
-    >>> found = design(file, {"indenter.radius": ["2 mm", "8 mm"]}, minimise="peak_pressure")
+    >>> radii = {"indenter.radius": ["2 mm", "8 mm"]}
+    >>> found = design(file, radii, minimise="peak_pressure", workers=1)
     >>> found.settings, found.runs
     ({'indenter.radius': '8 mm'}, 3)
     >>> before = found.table.isel(trial=0)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 import xarray as xr
@@ -14,10 +12,8 @@ import xarray as xr
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.results.largest_values import over_of
 from viscontact.results.run_axis import RUN_AXES, RunAxis
-from viscontact.results.variables import error_name, scalars_with_error
-
-#: Instant of an output: that of its worst value in each run, the last one, or a time [s].
-At = Literal["worst", "end"] | float
+from viscontact.results.variables import error_name
+from viscontact.studies.case_values import At, known_scalar
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,12 +91,6 @@ def checked_outputs(of: Sequence[str] | str) -> tuple[str, ...]:
     """
     texts = of.split(",") if isinstance(of, str) else list(of)
     found = tuple(dict.fromkeys(str(each).strip() for each in texts if str(each).strip()))
-    names = scalars_with_error(moving=True)
     if not found:
         raise ValueError("of: name a scalar of the result, as 'peak_pressure,approach'")
-    for name in found:
-        if name not in names:
-            close = difflib.get_close_matches(name, names, 1)
-            hint = f"did you mean {close[0]}?" if close else f"one of {', '.join(names)}"
-            raise ValueError(f"of: {name!r} is no scalar of a result; {hint}")
-    return found
+    return tuple(known_scalar("of", name) for name in found)

@@ -17,6 +17,7 @@ from viscontact.case import Case
 from viscontact.case.errors import dotted
 from viscontact.results.netcdf import open_results
 from viscontact.studies.case_values import (
+    At,
     case_path,
     case_with,
     refuse_repeated,
@@ -219,7 +220,7 @@ def _with_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> tuple[Any
 def _computed(
     plan: Plan,
     outputs: Sequence[str],
-    at: Literal["worst", "end"] | float,
+    at: At,
     notes: Sequence[str],
     place: Path | None,
     joint: Callable[[Sequence[VariedRun], Path], xr.Dataset],

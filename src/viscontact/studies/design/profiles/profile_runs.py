@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from hashlib import sha256
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.grid import Grid
 from viscontact.indenters.profile import Profile
 from viscontact.runs.single import simulate
+from viscontact.studies.case_values import At
 from viscontact.studies.design.goals import Value, magnitude
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
@@ -48,7 +49,7 @@ class ProfileRuns:
     """Runs of the profiles that are tried, in all scenarios."""
 
     scenarios: Sequence[LoadedRoller]
-    at: Literal["worst", "end"] | float
+    at: At
     evaluation: Evaluation
     grid: Grid | None = None
     amplitude: float = 1.0  # drop that counts as much as the peak pressure, where a gap is open [m]
@@ -163,7 +164,7 @@ class CertifiedPeak:
 
     key: str
     recipe: Mapping[str, Any]
-    at: Literal["worst", "end"] | float
+    at: At
 
     def __call__(self) -> Entry:
         """Simulate the run."""
