@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import viscontact as vc
 from synthetic_results import maxwell_sphere
+from synthetic_sweeps import hertz_sweep
 from viscontact import plot
 from viscontact.drawing.content.history import drawn_scalars, history_panel
+from viscontact.drawing.content.loop import Loop, cycle_panel
+from viscontact.figures.friction import friction
 from viscontact.figures.histories import histories
+from viscontact.figures.indentation_fits import fit_over_time, force_over_approach
+from viscontact.figures.responses import responses
+from viscontact.identification import IndentationRecord, fit_indentation
+from viscontact.indenters import Sphere
 from viscontact.results.variables import SCALARS
 
 
@@ -70,6 +78,80 @@ def test_histories_are_the_same_in_matplotlib_and_plotly(name: str) -> None:
         frames = [frame.name for frame in page.frames]
         assert (axes.get_xscale() == "symlog") == (page.layout.uirevision == "log")
         assert frames == (["linear", "log"] if axes.get_xscale() == "symlog" else frames)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_friction_is_the_same_in_matplotlib_and_plotly() -> None:
+    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.5)
+    ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    grid = vc.Grid((24, 24), (4e-3, 4e-3))
+    run = vc.steady(ball, rubber, load, [0.1, 1.0], grid=grid, errors=False, fields="none")
+    run["friction_coefficient_error"] = 0.1 * run["friction_coefficient"]
+    run.attrs["title"] = "ball"
+    (axes,), page = plot.friction(run).axes, friction(run)
+    lines, curves = axes.get_lines(), [page.data[-1], *page.data[:-1]]  # the result, and limits
+    assert len(lines) > 1
+    for line, curve in zip(lines, curves, strict=True):
+        assert line.get_label() == curve.name
+        np.testing.assert_allclose(line.get_xdata(), curve.x, rtol=1e-6)
+        np.testing.assert_allclose(line.get_ydata(), curve.y, rtol=1e-6)
+    (bars,) = axes.collections
+    heights = [np.ptp(path.vertices[:, 1]) / 2 for path in bars.get_paths()]
+    np.testing.assert_allclose(heights, curves[0].error_y.array, rtol=1e-5)
+    assert axes.get_xlabel() == page.layout.xaxis.title.text
+    assert axes.get_ylabel() == page.layout.meta["title"]
+    np.testing.assert_allclose(np.log10(axes.get_ylim()), page.layout.yaxis.range, rtol=1e-6)
+
+
+def test_loops_have_the_same_units_and_points_in_matplotlib_and_plotly() -> None:
+    t = np.linspace(0.0, 2.0, 33)
+    run = maxwell_sphere(t.tolist(), cells=8, fields=False)
+    run["force"][:] = 20e3 + 10e3 * np.sin(np.pi * t)
+    run["approach"][:] = 2e-4 + 1e-4 * np.sin(np.pi * t - 0.3)
+    (axes,) = plot.hysteresis(run).axes
+    panel = cycle_panel(run, Loop("loop-force", "approach", "force", last=0, end=32))
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (panel.x.label, panel.y.label)
+    (line,) = axes.get_lines()
+    _, cycle, _ = panel.curves
+    np.testing.assert_allclose(line.get_xdata(), panel.x.unit(cycle.x))
+    np.testing.assert_allclose(line.get_ydata(), panel.y.unit(cycle.y))
+
+
+def test_responses_of_a_sweep_are_the_same_in_matplotlib_and_plotly() -> None:
+    radii = ([0.01, 0.08], "m")
+    ds = hertz_sweep(load__force=([1e3, 8e3, 2e3], "N"), indenter__radius=radii)
+    pages = {each.layout.meta["title"]: each for each in responses(ds)}
+    printed = plot.response(ds).axes
+    assert [axes.get_ylabel() for axes in printed] == list(pages)
+    for axes in printed:
+        page = pages[axes.get_ylabel()]
+        assert axes.get_xlabel() == page.layout.xaxis.title.text
+        assert axes.get_xscale() == (page.layout.xaxis.type or "linear")
+        lines = [line for line in axes.get_lines() if line.get_linestyle() != "None"]
+        for line, curve in zip(lines, page.data, strict=True):
+            assert line.get_label() == curve.name
+            np.testing.assert_allclose(line.get_xdata(), curve.x, rtol=1e-6)
+            np.testing.assert_allclose(line.get_ydata(), curve.y, rtol=1e-6)
+
+
+def test_fits_are_the_same_in_matplotlib_and_plotly() -> None:
+    depth = 1e-6 * np.linspace(0.0, 1.0, 11)
+    force = 16 / 3 * 2e6 * np.sqrt(5e-6) * depth**1.5
+    record = IndentationRecord(Sphere(5e-6), np.linspace(0.0, 1.0, 11), depth, force)
+    fit = fit_indentation(record, "elastic", poisson_ratio=0.5)
+    loop, above, below = plot.fitted_indentation(fit).axes
+    page, course = force_over_approach(fit), fit_over_time(fit)
+    assert loop.get_xlabel() == page.layout.xaxis.title.text
+    np.testing.assert_allclose(loop.get_xlim(), page.layout.xaxis.range)
+    assert (loop.get_ylabel(), above.get_ylabel()) == (
+        page.layout.meta["title"],
+        course.layout.meta["title"],
+    )
+    assert below.get_ylabel() == course.layout.yaxis2.title.text
+    lines = [*loop.get_lines(), *above.get_lines(), below.get_lines()[0]]
+    for line, curve in zip(lines, [*page.data, *course.data], strict=True):
+        np.testing.assert_allclose(line.get_xdata(), curve.x, rtol=1e-6, atol=1e-9)
+        np.testing.assert_allclose(line.get_ydata(), curve.y, rtol=1e-6, atol=1e-9)
 
 
 def test_a_panel_is_the_same_alone_and_beside_others() -> None:

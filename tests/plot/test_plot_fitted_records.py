@@ -35,7 +35,7 @@ def test_values_and_residuals_are_drawn_in_their_units() -> None:
     dots, line = above.get_lines()
     np.testing.assert_allclose(np.asarray(dots.get_ydata()), np.arange(6.0))
     np.testing.assert_allclose(np.asarray(line.get_ydata()), np.arange(1.0, 6.0) + 0.05)
-    np.testing.assert_allclose(np.asarray(below.get_lines()[1].get_ydata())[1:], 1.0)
+    np.testing.assert_allclose(np.asarray(below.get_lines()[0].get_ydata())[1:], 1.0)
     assert below.get_xlabel() == "Time [s]"
     assert above.get_ylabel() == "Approach [µm]"
 

@@ -105,7 +105,7 @@ def test_an_indentation_fit_shows_record_and_residuals(given, tmp_path):
     figure = fitted_indentation(fit)
     loop, over_time, rest = figure.axes
     np.testing.assert_allclose(loop.lines[0].get_xdata(), 1e6 * d)
-    np.testing.assert_allclose(rest.lines[1].get_ydata(), 100 * fit.residuals)
+    np.testing.assert_allclose(rest.lines[0].get_ydata(), 100 * fit.residuals)
     assert over_time.get_ylabel() == ("Force [µN]" if given == "approach" else "Approach [µm]")
     save_figure(figure, tmp_path / "record.png")
 

@@ -9,25 +9,12 @@ import plotly.graph_objects as go
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.friction import friction_panel
 from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.drawing.content.panel import Curve, Panel
 from viscontact.figures.parts import Part, drawn, numbers
-from viscontact.plot.motion.friction import friction_limits, limit_speeds
-from viscontact.results.run_axis import SPEED, run_axis
-from viscontact.results.stated_errors import errors_of
-from viscontact.units.formatting import ReadableUnit, format_compact
-
-NAME = "friction_coefficient"
-#: Room above and below the values, as a factor.
-_ROOM = 2.0
-#: Dashes in the words of Plotly.
-_DASHES = {"--": "dash", ":": "dot"}
-
-
-def has_friction(ds: xr.Dataset) -> bool:
-    """Tell whether a result has a curve of friction over speed."""
-    if run_axis(ds) is not SPEED or ds.sizes["speed"] < 2:
-        return False
-    return bool((ds[NAME].values > 0).any())
+from viscontact.results.run_axis import SPEED
+from viscontact.units.formatting import format_compact
 
 
 def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = None) -> go.Figure:
@@ -48,60 +35,50 @@ def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = 
     plotly.graph_objects.Figure
         Both axes are logarithmic.
     """
-    speeds, values = limit_speeds(ds), ds[NAME].values
-    unit = look.unit("m/s", speeds)
-    positive = values[values > 0]
-    lowest, highest = float(positive.min()) / _ROOM, float(positive.max()) * _ROOM
-    traces = [
-        {
-            **{"x": numbers(unit(speeds)), "y": numbers(limit), "name": name, "mode": "lines"},
-            "line": {
-                "color": look.faint,
-                "width": 1.2,
-                "dash": _DASHES[dashes],
-            },
-            "hoverinfo": "skip",
-        }
-        for name, dashes, limit in friction_limits(ds, speeds)
-        if ((limit > lowest) & (limit < highest)).any()
+    panel = friction_panel(ds, look.unit, reference)
+    results = [curve for curve in panel.curves if curve.look == "joined"]
+    limits = [curve for curve in panel.curves if curve.look != "joined"]
+    lines = ({"color": look.blue, "width": 2}, {"color": look.warm, "width": 2, "dash": "dash"})
+    traces = [_limit(panel, curve, look) for curve in limits]
+    traces += [_curve(panel, curve, line) for curve, line in zip(results, lines, strict=False)][
+        ::-1
     ]
-    if reference is not None:
-        dashed = {"color": look.warm, "width": 2, "dash": "dash"}
-        traces.append(_curve(reference, unit, dashed))
-    traces.append(_curve(ds, unit, {"color": look.blue, "width": 2}))
-    limits = [math.log10(lowest), math.log10(highest)]
+    lowest, highest = panel.y.limits or (0.1, 1.0)
     return drawn(
         traces,
         look,
-        {"name": "friction", "title": "Friction coefficient"},
+        {"name": "friction", "title": panel.y.label},
         showlegend=len(traces) > 1,
         legend={"orientation": "h", "x": 0, "y": 1.0, "yanchor": "bottom"},
         margin={"l": 50, "r": 24, "t": 34, "b": 42},
-        xaxis={"title": {"text": unit.label("Speed")}, **_log_ticks(unit(speeds))},
-        yaxis={"range": limits, **_log_ticks(np.array([lowest, highest]))},
+        xaxis={"title": {"text": panel.x.label}, **_log_ticks(panel.x.unit(results[0].x))},
+        yaxis={
+            "range": [math.log10(lowest), math.log10(highest)],
+            **_log_ticks(np.array([lowest, highest])),
+        },
     )
 
 
-def _curve(ds: xr.Dataset, unit: ReadableUnit, line: Part) -> Part:
-    speeds, values, errors = ds["speed"].values, ds[NAME].values, errors_of(ds, NAME)
+def _limit(panel: Panel, curve: Curve, look: Look) -> Part:
+    dashes = {"dashed": "dash", "dotted": "dot"}[curve.look]
     return {
-        "x": numbers(unit(speeds)),
-        "y": numbers(values),
-        "name": str(ds.attrs.get("title") or "this result"),
-        "mode": "lines+markers",
-        "line": line,
-        "marker": {"color": line["color"], "size": 6},
-        "error_y": {
-            "type": "data",
-            "array": numbers(np.nan_to_num(errors, posinf=0.0)),
-            "color": line["color"],
-            "thickness": 1.2,
-            "width": 3,
-        },
+        **{"x": numbers(panel.x.unit(curve.x)), "y": numbers(curve.y)},
+        **{"name": curve.name, "mode": "lines", "hoverinfo": "skip"},
+        "line": {"color": look.faint, "width": 1.2, "dash": dashes},
+    }
+
+
+def _curve(panel: Panel, curve: Curve, line: Part) -> Part:
+    errors = np.zeros(curve.x.shape) if curve.error is None else curve.error
+    bars = {"type": "data", "array": numbers(np.nan_to_num(errors, posinf=0.0))}
+    return {
+        **{"x": numbers(panel.x.unit(curve.x)), "y": numbers(curve.y), "name": curve.name},
+        **{"mode": "lines+markers", "line": line, "marker": {"color": line["color"], "size": 6}},
+        "error_y": bars | {"color": line["color"], "thickness": 1.2, "width": 3},
         "text": [
             f"{SPEED.place(speed)}: {LIGHT.text(value, error, '1')}"
             for speed, value, error in zip(
-                speeds.tolist(), values.tolist(), errors.tolist(), strict=True
+                curve.x.tolist(), curve.y.tolist(), errors.tolist(), strict=True
             )
         ],
         "hovertemplate": "%{text}<extra></extra>",

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import replace
+from typing import Any
+
 import plotly.graph_objects as go
 
-from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.fit_course import contact_panel, course_of, force_panel
 from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.drawing.content.panel import Panel
 from viscontact.figures.parts import Part, drawn, numbers
 from viscontact.identification import ContactPoint, IndentationFit
-from viscontact.identification.contact_point import deflection_in_contact
 
-#: Most points of a measured curve; of longer ones, every so many.
-_MOST = 3000
 #: Part of the figure above the residuals.
 _ABOVE, _BELOW = [0.36, 1.0], [0.0, 0.22]
 
@@ -35,7 +35,9 @@ def contact_point(contact: ContactPoint, look: Look = LIGHT) -> go.Figure:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from viscontact.identification import ForceCurve, find_contact
+    >>> from viscontact.identification.contact_point import deflection_in_contact
     >>> from viscontact.indenters import Sphere
     >>> z = np.linspace(0.0, 3e-6, 301)
     >>> bent = deflection_in_contact(Sphere(5e-6), 1e4, 0.1, z - 2e-6)
@@ -44,30 +46,12 @@ def contact_point(contact: ContactPoint, look: Look = LIGHT) -> go.Figure:
     >>> figure.layout.xaxis.title.text, round(figure.layout.shapes[0].x0, 3)
     ('Position [µm]', 2.0)
     """
-    curve = contact.curve
-    length, bent = look.unit("m", curve.position), look.unit("m", curve.deflection)
-    every = slice(None, None, -(-curve.position.size // _MOST))
-    along = np.linspace(curve.position.min(), curve.position.max(), 300)
-    baseline = contact.offset + contact.slope * along
-    elastic = baseline + deflection_in_contact(
-        contact.indenter, contact.contact_modulus, curve.spring_constant, along - contact.position
-    )
-    unit = f"%{{y:.4g}} {bent.symbol}<extra></extra>"
-    traces: list[Part] = [
-        _dots(length(curve.position[every]), bent(curve.deflection[every]), look, unit),
-        _line(length(along), bent(elastic), look.warm, unit),
-        _line(length(along), bent(baseline), look.faint, unit) | {"line": _dashed(look.faint)},
-    ]
-    at = float(length(contact.position))
-    mark = {"type": "line", "yref": "paper", "y0": 0, "y1": 1, "x0": at, "x1": at}
-    title = f"Deflection [{bent.symbol}]"
-    note = "line: elastic body from the contact point on; dashed: baseline"
-    return drawn(
-        traces,
-        look,
-        {"name": "fit-contact", "title": title, "note": note},
-        xaxis={"title": {"text": length.label("Position")}},
-        shapes=[mark | {"line": {"color": look.edge, "width": 1}}],
+    panel = contact_panel(contact, look.unit)
+    (mark,) = panel.marks
+    at = float(panel.x.unit(mark.place))
+    line = {"type": "line", "yref": "paper", "y0": 0, "y1": 1, "x0": at, "x1": at}
+    return _drawn(
+        panel, look, "fit-contact", shapes=[line | {"line": {"color": look.edge, "width": 1}}]
     )
 
 
@@ -88,6 +72,7 @@ def force_over_approach(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from viscontact.identification import IndentationRecord, fit_indentation
     >>> from viscontact.indenters import Sphere
     >>> depth = 1e-6 * np.linspace(0.0, 1.0, 11)
@@ -97,20 +82,8 @@ def force_over_approach(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
     >>> force_over_approach(fit).layout.meta["title"]
     'Force [µN]'
     """
-    record, counted = fit.record, np.isfinite(fit.residuals)
-    length, force = look.unit("m", record.approach), look.unit("N", record.force)
-    d, F = (record.approach, fit.fitted) if fit.given == "approach" else (fit.fitted, record.force)
-    unit = f"%{{y:.4g}} {force.symbol}<extra></extra>"
-    traces = [
-        _dots(length(record.approach), force(record.force), look, unit),
-        _line(length(d[counted]), force(F[counted]), look.warm, unit),
-    ]
-    meta = {"name": "fit-loop", "title": force.label("Force"), "note": "points: measured"}
-    # Rows before and after contact would leave the contact little room.
-    deepest = float(length(record.approach.max()))
-    shown = [-0.15 * deepest, 1.05 * deepest]
-    across = {"title": {"text": length.label("Approach")}, "range": shown}
-    return drawn(traces, look, meta, xaxis=across)
+    panel = replace(force_panel(fit, look.unit), note="points: measured")
+    return _drawn(panel, look, "fit-loop")
 
 
 def fit_over_time(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
@@ -130,6 +103,7 @@ def fit_over_time(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from viscontact.identification import IndentationRecord, fit_indentation
     >>> from viscontact.indenters import Sphere
     >>> depth = 1e-6 * np.linspace(0.0, 1.0, 11)
@@ -138,39 +112,43 @@ def fit_over_time(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
     >>> fit_over_time(fit).layout.yaxis2.title.text
     'Residual [%]'
     """
-    record, counted = fit.record, np.isfinite(fit.residuals)
-    name, si = ("Force", "N") if fit.given == "approach" else ("Approach", "m")
-    time, unit = look.unit("s", record.times), look.unit(si, fit.measured)
-    text = f"%{{y:.4g}} {unit.symbol}<extra></extra>"
-    below = {"yaxis": "y2", "hovertemplate": "%{y:.2f} %<extra></extra>"}
-    traces = [
-        _dots(time(record.times), unit(fit.measured), look, text),
-        _line(time(record.times[counted]), unit(fit.fitted[counted]), look.warm, text),
-        _dots(time(record.times), 100 * fit.residuals, look, "") | below,
-    ]
-    meta = {"name": "fit-time", "title": unit.label(name), "note": "below: residuals"}
-    residual = {"title": {"text": "Residual [%]"}, "zeroline": True, "domain": _BELOW}
+    above, below = course_of(fit, look.unit)
+    percent = {"yaxis": "y2", "hovertemplate": "%{y:.2f} %<extra></extra>"}
+    traces = _traces(above, look) + [trace | percent for trace in _traces(below, look)]
+    residual = {"title": {"text": below.y.label}, "zeroline": True, "domain": _BELOW}
     return drawn(
         traces,
         look,
-        meta,
-        xaxis={"title": {"text": time.label("Time")}, "anchor": "y2"},
+        {"name": "fit-time", "title": above.y.label, "note": "below: residuals"},
+        xaxis={"title": {"text": above.x.label}, "anchor": "y2"},
         yaxis={"domain": _ABOVE},
         yaxis2=residual,
         hovermode="x",
     )
 
 
-def _dots(x: Floats, y: Floats, look: Look, text: str) -> Part:
-    marker = {"color": look.blue, "size": 4}
-    both = {"x": numbers(x), "y": numbers(y)}
-    return both | {"mode": "markers", "marker": marker, "hovertemplate": text}
+def _drawn(panel: Panel, look: Look, name: str, **layout: Any) -> go.Figure:
+    across: Part = {"title": {"text": panel.x.label}}
+    if panel.x.limits is not None:
+        across["range"] = panel.x.unit(panel.x.limits).tolist()
+    meta = {"name": name, "title": panel.y.label, "note": panel.note}
+    return drawn(_traces(panel, look), look, meta, xaxis=across, **layout)
 
 
-def _line(x: Floats, y: Floats, colour: str, text: str) -> Part:
-    both = {"x": numbers(x), "y": numbers(y)}
-    return both | {"mode": "lines", "line": {"color": colour, "width": 2}, "hovertemplate": text}
-
-
-def _dashed(colour: str) -> Part:
-    return {"color": colour, "width": 1.4, "dash": "dash"}
+def _traces(panel: Panel, look: Look) -> list[Part]:
+    """Points of what was measured, and lines of what was fitted."""
+    colours = {"run": look.blue, "fit": look.warm, "faint": look.faint}
+    traces = []
+    for curve in panel.curves:
+        colour = colours[curve.ink.kind]
+        trace: Part = {
+            **{"x": numbers(panel.x.unit(curve.x)), "y": numbers(panel.y.unit(curve.y))},
+            "hovertemplate": f"%{{y:.4g}} {panel.y.unit.symbol}<extra></extra>",
+        }
+        if curve.look == "hollow":
+            trace |= {"mode": "markers", "marker": {"color": colour, "size": 4}}
+        else:
+            dashes = {"width": 1.4, "dash": "dash"} if curve.look == "dashed" else {"width": 2}
+            trace |= {"mode": "lines", "line": {"color": colour} | dashes}
+        traces.append(trace)
+    return traces

@@ -3,30 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from html import escape
 
 import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.drawing.content.key_axis import KeyAxis
 from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.drawing.content.response import RunGroup, curves_over, points_over, swept_keys
 from viscontact.figures.parts import Part, drawn, numbers
-from viscontact.plot.sweeps.key_axis import KeyAxis, is_number, key_labels
-from viscontact.results.largest_values import (
-    compared_scalars,
-    key_label,
-    largest_values,
-    run_dims,
-    varied_keys,
-)
+from viscontact.results.largest_values import key_label
 from viscontact.results.variables import SCALARS
 from viscontact.results.verdicts import limits_of
 from viscontact.units.formatting import ReadableUnit, format_compact, format_quantity
 
-#: Most keys of runs that are no grid, and most curves in the legend.
-_MOST_KEYS, _MOST_CURVES = 4, 10
+#: Most curves in the legend.
+_MOST_CURVES = 10
 #: A limit beyond this multiple of the largest value is named, but not drawn.
 _FAR = 2.5
 #: Colour of what exceeds its limit.
@@ -68,84 +61,32 @@ def responses(ds: xr.Dataset, look: Look = LIGHT) -> list[go.Figure]:
     >>> figure.layout.xaxis.title.text, figure.layout.meta["title"], figure.data[0].y.tolist()
     ('Load force [N]', 'Approach [µm]', [10.0, 40.0])
     """
-    scalars, keys = compared_scalars(ds), varied_keys(ds)
-    if not scalars or not keys:
-        what = "scalar differs between the finished runs" if keys else "key is varied"
-        raise ValueError(f"responses: no {what}; give a sweep of two finished runs or more")
-    limits = limits_of(ds)
-    ds = ds.squeeze([dim for dim in run_dims(ds) if ds.sizes[dim] == 1], drop=True)
-    if not set(keys) <= set(run_dims(ds)) or len(keys) > 2:
+    swept, limits = swept_keys(ds, "responses"), limits_of(ds)
+    ds, keys = swept.ds, swept.keys
+    if not swept.is_grid:
         return [
             _figure(
-                ds,
                 name,
                 KeyAxis.of(ds, key),
-                list(_points(ds, name, key, look)),
+                [points_over(ds, name, key)],
                 look,
                 limits,
-                str(number),
+                mark=str(number),
             )
-            for name in scalars
-            for number, key in enumerate(keys[:_MOST_KEYS])
+            for name in swept.scalars
+            for number, key in enumerate(keys)
         ]
-    numeric = [key for key in keys if is_number(ds, key)]
-    ds = ds.sortby(numeric)
-    keys = sorted(keys, key=lambda key: (key in numeric) * ds.sizes[key], reverse=True)
     axis, by = KeyAxis.of(ds, keys[0]), ", ".join(map(key_label, keys[1:]))
     return [
-        _figure(ds, name, axis, list(_curves(ds, name, keys, look)), look, limits, by=by)
-        for name in scalars
+        _figure(name, axis, list(curves_over(ds, name, keys)), look, limits, by=by)
+        for name in swept.scalars
     ]
 
 
-@dataclass(frozen=True)
-class _Runs:
-    """Some runs: places on the axis, largest values [SI] with errors, names, and their colour."""
-
-    places: Floats
-    values: Floats
-    errors: Floats
-    missing: Bools
-    names: list[str]
-    label: str
-    colour: str
-    joined: bool
-
-
-def _points(ds: xr.Dataset, name: str, key: str, look: Look) -> Iterator[_Runs]:
-    """All runs over one key."""
-    values, errors = (each.values.ravel() for each in largest_values(ds, name))
-    places = xr.broadcast(ds[key], ds["state"])[0].transpose(*ds["state"].dims).values.ravel()
-    missing = (ds["state"] != "done").values.ravel()
-    at = KeyAxis.of(ds, key).at(places)
-    yield _Runs(at, values, errors, missing, _names(ds), "", look.blue, joined=False)
-
-
-def _curves(ds: xr.Dataset, name: str, keys: list[str], look: Look) -> Iterator[_Runs]:
-    """Runs over the first key, for each value of the second one."""
-    axis, missing = KeyAxis.of(ds, keys[0]), ds["state"] != "done"
-    arrays = (*largest_values(ds, name), missing)
-    values, errors, lost = (each.transpose(*keys).values for each in arrays)
-    shape = (values.shape[0], -1)
-    names = np.array(_names(ds.transpose(*keys, ...)), dtype=object).reshape(shape)
-    labels = key_labels(ds, keys[1]) if len(keys) > 1 else [""]
-    colours = look.instants(len(labels)) if len(labels) > 1 else [look.blue]
-    places, joined = axis.at(ds[keys[0]].values), not axis.texts
-    for row, (label, colour) in enumerate(zip(labels, colours, strict=True)):
-        value, error, is_lost = (each.reshape(shape)[:, row] for each in (values, errors, lost))
-        yield _Runs(places, value, error, is_lost, list(names[:, row]), label, colour, joined)
-
-
-def _names(ds: xr.Dataset) -> list[str]:
-    names = ds["name"].values.ravel() if "name" in ds else np.full(ds["state"].size, "")
-    return [str(name) for name in names]
-
-
-def _figure(  # noqa: PLR0913
-    ds: xr.Dataset,
+def _figure(
     name: str,
     axis: KeyAxis,
-    groups: list[_Runs],
+    groups: list[RunGroup],
     look: Look,
     limits: Mapping[str, float],
     mark: str = "",
@@ -154,10 +95,11 @@ def _figure(  # noqa: PLR0913
     sizes = np.concatenate([group.values for group in groups])
     unit = look.unit(SCALARS[name].units, sizes)
     limit = limits.get(name, np.nan)
+    colours = look.instants(len(groups)) if len(groups) > 1 else [look.blue]
     traces = [
         trace
-        for group in groups
-        for trace in _traces(group, SCALARS[name].units, unit, look, limit)
+        for group, colour in zip(groups, colours, strict=True)
+        for trace in _traces(group, colour, SCALARS[name].units, unit, look, limit)
     ]
     is_near = bool(limit <= _FAR * np.nanmax(sizes))
     line, words = _limit_line(unit, limit, look) if is_near else ([], [])
@@ -193,7 +135,9 @@ def _limit_line(unit: ReadableUnit, limit: float, look: Look) -> tuple[list[Part
     return [both | {"line": line}], [words | {"text": text, "showarrow": False, "font": font}]
 
 
-def _traces(group: _Runs, si: str, unit: ReadableUnit, look: Look, limit: float) -> Iterator[Part]:
+def _traces(
+    group: RunGroup, colour: str, si: str, unit: ReadableUnit, look: Look, limit: float
+) -> Iterator[Part]:
     """Curve with error bars, hollow points that depend on the mesh, crosses without a result."""
     values, errors = unit(group.values), unit(group.errors)
     on_mesh = np.isposinf(group.errors)
@@ -207,26 +151,26 @@ def _traces(group: _Runs, si: str, unit: ReadableUnit, look: Look, limit: float)
     ]
     curve: Part = {
         **{"x": numbers(group.places), "y": numbers(sure), "name": escape(group.label)},
-        "mode": "lines+markers" if group.joined else "markers",
-        "line": {"color": group.colour, "width": 1.8},
-        "marker": {"color": group.colour, "size": 7},
-        "error_y": {"array": numbers(bars), "color": group.colour, "thickness": 1, "width": 3},
+        "mode": "lines+markers" if group.is_joined else "markers",
+        "line": {"color": colour, "width": 1.8},
+        "marker": {"color": colour, "size": 7},
+        "error_y": {"array": numbers(bars), "color": colour, "thickness": 1, "width": 3},
         **{"text": hover, "hovertemplate": "%{text}<extra></extra>", "legendgroup": group.label},
     }
     yield curve
     lost = [f"{escape(run)}: no result" for run in group.names]
     edge = np.full(values.size, 0.02)
-    for chosen, symbol, colour, up, text in (
+    for chosen, symbol, ink, up, text in (
         (beyond & ~on_mesh, "circle", _RED, values, hover),
         (beyond & on_mesh, "circle-open", _RED, values, hover),
-        (~beyond & on_mesh, "circle-open", group.colour, values, hover),
-        (group.missing, "x-thin-open", group.colour, edge, lost),
+        (~beyond & on_mesh, "circle-open", colour, values, hover),
+        (group.missing, "x-thin-open", colour, edge, lost),
     ):
         if chosen.any():
             yield {
                 **{"x": numbers(group.places[chosen]), "y": numbers(up[chosen])},
                 **{"mode": "markers", "showlegend": False, "legendgroup": group.label},
-                "marker": {"color": colour, "size": 8, "symbol": symbol},
+                "marker": {"color": ink, "size": 8, "symbol": symbol},
                 "text": np.array(text)[chosen].tolist(),
                 "hovertemplate": "%{text}<extra></extra>",
                 "yaxis": "y2" if text is lost else "y",
@@ -244,7 +188,7 @@ def _across(axis: KeyAxis) -> Part:
     return found | ({"type": "log", "dtick": "D2"} if axis.is_log else {})
 
 
-def _range(groups: list[_Runs], unit: ReadableUnit, limit: float) -> list[float]:
+def _range(groups: list[RunGroup], unit: ReadableUnit, limit: float) -> list[float]:
     """Range of all values with their errors, and of a limit."""
     sizes = [unit(group.values) for group in groups]
     bars = [np.where(np.isfinite(group.errors), unit(group.errors), 0.0) for group in groups]

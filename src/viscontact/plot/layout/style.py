@@ -34,7 +34,6 @@ _ROW, _FEW_ROWS = 0.18, 3
 _Entry = TypeVar("_Entry")
 
 INK, FAINT, LINE, BODY = LIGHT.ink, LIGHT.faint, LIGHT.blue, LIGHT.warm
-FAULT = "#b00020"
 _RUN_DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)))
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
@@ -178,7 +177,7 @@ def look_of(ink: Ink) -> dict[str, Any]:
         return line | {"color": RUNS[number % len(RUNS)], "linestyle": dashes}
     if ink.kind == "ordered":
         return line | {"color": shades(INSTANTS, 1, LIGHT.late * ink.place)[0]}
-    return line | {"color": {"faint": FAINT, "text": INK, "fault": FAULT}[ink.kind]}
+    return line | {"color": {"fit": BODY, "faint": FAINT, "text": INK}[ink.kind]}
 
 
 def styles_of(names: Sequence[str]) -> list[dict[str, Any]]:

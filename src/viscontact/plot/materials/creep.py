@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.drawing.content.compared_runs import require_runs
+from viscontact.drawing.content.compared_runs import runs_of
 from viscontact.laws import Law
 from viscontact.materials.layers import creeping_laws
 from viscontact.plot.layout import style
@@ -28,14 +28,18 @@ _EARLIEST, _POINTS = 1e-4, 300
 
 
 def creep(
-    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+    results: xr.Dataset | Mapping[str, xr.Dataset],
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
 ) -> Figure:
     """Draw the creep compliance and relaxation modulus of the half-space of a run.
 
     Parameters
     ----------
-    results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`.
+    results : xarray.Dataset, or mapping of str to xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`; several results by the names to
+        print.
     times : array_like, optional
         Draw the span between the least and the largest of these instants [s]; by default
         the time simulated.
@@ -61,7 +65,18 @@ def creep(
     >>> [axes.get_ylabel() for axes in creep(ds).axes]
     ['Creep compliance Φ [1/GPa]', 'Relaxation modulus G [MPa]']
     """
-    return compare_creep({"": results}, times=times, width=width)
+    runs = runs_of(results, _NAME)
+    laws = {
+        f"{name} {part}".strip(): law
+        for name, run in runs.items()
+        for part, law in creeping_laws(recorded_object(run, "material", _NAME)).items()
+    }
+    simulated = np.concatenate([law_times(run) for run in runs.values()])
+    span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
+    positive = span[span > 0]
+    if positive.size == 0 or not np.all(np.isfinite(span)):
+        raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
+    return _curves(laws, curve_times(float(positive.max()), float(positive.min())), width)
 
 
 def compare_creep(
@@ -107,18 +122,7 @@ def compare_creep(
     >>> figure.axes[0].get_ylabel()
     'Creep compliance Φ [1/GPa]'
     """
-    require_runs(runs, _NAME)
-    laws = {
-        f"{name} {part}".strip(): law
-        for name, run in runs.items()
-        for part, law in creeping_laws(recorded_object(run, "material", _NAME)).items()
-    }
-    simulated = np.concatenate([law_times(run) for run in runs.values()])
-    span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
-    positive = span[span > 0]
-    if positive.size == 0 or not np.all(np.isfinite(span)):
-        raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
-    return _curves(laws, curve_times(float(positive.max()), float(positive.min())), width)
+    return creep(runs, times=times, width=width)
 
 
 def creep_curve(

@@ -11,9 +11,12 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.fit_course import course_of, force_panel
+from viscontact.drawing.content.panel import Panel
 from viscontact.identification import Fit, IndentationFit
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.plot.layout.panels import draw_panel
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _WIDE = 4.0  # ratio above which a column is drawn on a logarithmic axis
@@ -152,43 +155,20 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
         figure = style.new_figure(wide, 5.8)
         panels = figure.subplot_mosaic([["loop"], ["time"], ["rest"]], height_ratios=(3, 3, 1.2))
     loop, over_time, below = panels["loop"], panels["time"], panels["rest"]
-    record = fit.record
-    d, F, t = (
-        readable_unit("m", record.approach),
-        readable_unit("N", record.force),
-        readable_unit("s", record.times),
-    )
-    force, approach = (
-        (fit.fitted, record.approach) if fit.given == "approach" else (record.force, fit.fitted)
-    )
-    dots: dict[str, Any] = {
-        "marker": "o",
-        "markersize": MARKER_SIZE,
-        "linestyle": "none",
-        "markerfacecolor": "none",
-        "markeredgecolor": style.LINE,
-        "markeredgewidth": 0.7,
-    }
-    line: dict[str, Any] = {"color": _SECOND, "linewidth": style.LINE_WIDTH}
-    counted = np.isfinite(fit.residuals)
-    loop.plot(d(record.approach), F(record.force), **dots, label="measured")
-    loop.plot(d(approach[counted]), F(force[counted]), **line, label="fitted")
-    loop.set(xlabel=d.label("Approach"), ylabel=F.label("Force"))
+    draw_panel(loop, force_panel(fit))
     style.add_legend(loop, loop.get_lines(), ["measured", "fitted"], loc="upper left")
-    unit, quantity = (F, "Force") if fit.given == "approach" else (d, "Approach")
-    over_time.plot(t(record.times), unit(fit.measured), **dots)
-    over_time.plot(t(record.times[counted]), unit(fit.fitted[counted]), **line)
-    over_time.set_ylabel(unit.label(quantity))
-    over_time.sharex(below)
-    over_time.tick_params(labelbottom=False)
-    below.axhline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
-    below.plot(t(record.times), 100 * fit.residuals, **dots)
-    below.set(xlabel=t.label("Time"), ylabel="Residual [%]")
+    draw_course(over_time, below, course_of(fit))
     style.add_heading(loop, f"{type(fit.law).__name__}, residual {100 * fit.residual:.2g} % rms")
-    for axes in panels.values():
-        style.dress(axes)
     figure.align_ylabels([over_time, below])
     return figure
+
+
+def draw_course(above: Axes, below: Axes, panels: tuple[Panel, Panel]) -> None:
+    """Draw values over time, and their residuals below."""
+    above.sharex(below)
+    above.tick_params(labelbottom=False)
+    for axes, panel in zip((above, below), panels, strict=True):
+        draw_panel(axes, panel)
 
 
 def count_of_terms(fit: Fit) -> str:

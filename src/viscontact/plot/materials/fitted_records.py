@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from viscontact.drawing.content.fit_course import course_panels
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.plot.materials.fitted import MARKER_SIZE
-from viscontact.units.formatting import readable_unit
+from viscontact.plot.materials.fitted import draw_course
 
-_FITTED = "#D55E00"
 _MOST_ACROSS = 3
 _LABELS = {"force": "Force", "approach": "Approach"}
 
@@ -65,29 +62,9 @@ def fitted_records(curves: xr.Dataset, *, width: Width | None = None) -> Figure:
 
 def _draw(record: xr.Dataset, above: Axes, below: Axes) -> None:
     """Draw one record: values above, residuals below."""
-    measured, fitted = record["measured"].values, record["fitted"].values
-    unit = readable_unit(str(record["units"].values[0]), measured)
-    seconds = readable_unit("s", record["time"].values)
-    times, counted = seconds(record["time"].values), np.isfinite(record["residual"].values)
-    dots: dict[str, Any] = {
-        "marker": "o",
-        "markersize": MARKER_SIZE,
-        "linestyle": "none",
-        "markerfacecolor": "none",
-        "markeredgecolor": style.LINE,
-        "markeredgewidth": 0.7,
-    }
-    above.plot(times, unit(measured), **dots)
-    above.plot(times[counted], unit(fitted[counted]), color=_FITTED, linewidth=style.LINE_WIDTH)
-    above.set_ylabel(unit.label(_LABELS[str(record["quantity"].values[0])]))
+    quantity, si = (str(record[name].values[0]) for name in ("quantity", "units"))
+    columns = [record[name].values for name in ("time", "measured", "fitted", "residual")]
+    draw_course(above, below, course_panels(_LABELS[quantity], si, *columns))
     style.add_legend(above, above.get_lines(), ["measured", "fitted"], loc="best")
-    residual = 100 * record["residual"].values
-    root = np.sqrt(np.nanmean(residual**2))
+    root = 100 * np.sqrt(np.nanmean(record["residual"].values ** 2))
     style.add_heading(above, f"{record['name'].values[0]}, residual {root:.2g} % rms")
-    below.axhline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
-    below.plot(times, residual, **dots)
-    below.set(xlabel=seconds.label("Time"), ylabel="Residual [%]")
-    above.sharex(below)
-    above.tick_params(labelbottom=False)
-    for axes in (above, below):
-        style.dress(axes)

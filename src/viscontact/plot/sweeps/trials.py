@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.key_axis import KeyAxis
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.sweeps.key_axis import KeyAxis
+from viscontact.plot.sweeps.key_axis import label_key
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
@@ -62,7 +63,7 @@ def trials(table: xr.Dataset, *, width: Width | None = None) -> Figure:
         style.dress(axes)
         axis = KeyAxis.of(table, key)
         _draw(axes, table, axis.at(table[key].values), unit)
-        axis.label(axes, int(across / columns / _LETTER))
+        label_key(axes, axis, int(across / columns / _LETTER))
     for row in range(rows):
         panels[row * columns].set_ylabel(unit.label(SCALARS[name].label))
     handles, labels = panels[0].get_legend_handles_labels()

@@ -9,9 +9,10 @@ import xarray as xr
 from plotly.graph_objects import Figure
 
 from viscontact.drawing.content.along_run import along_run
+from viscontact.drawing.content.friction import has_friction
 from viscontact.drawing.content.look import DARK, LIGHT, Look
 from viscontact.drawing.content.map import maps_if_any
-from viscontact.figures.friction import friction, has_friction
+from viscontact.figures.friction import friction
 from viscontact.figures.histories import LINEAR, LOGARITHMIC, history, panel_names
 from viscontact.figures.loops import loops
 from viscontact.figures.parts import plain
@@ -47,11 +48,16 @@ def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None)
         "surface": list(map(plain, surface)),
         "start": 0 if maps is None else maps.start,
         "remarks": "" if maps is None else map_remarks(maps.beside(others)),
-        "friction": plain(friction(ds, look, other)) if has_friction(ds) else None,
+        "friction": plain(friction(ds, look, other)) if _has_curve(ds) else None,
         "histories": [plain(each) for each in _histories(ds, look, other)],
         "scale": _scale(ds, look, other),
         "loops": [plain(each) for each in loops(ds, look, other)],
     }
+
+
+def _has_curve(ds: xr.Dataset) -> bool:
+    """Tell whether a result has a curve of friction over speed."""
+    return has_friction(ds) and ds.sizes["speed"] > 1
 
 
 def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list[Figure]:
@@ -59,7 +65,7 @@ def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list
     if not run_axis(ds).is_history and ds.sizes["speed"] < 2:
         return []
     load, response = panel_names(ds)
-    left_out = "friction_coefficient" if has_friction(ds) else ""
+    left_out = "friction_coefficient" if _has_curve(ds) else ""
     names = [name for name in (*load, *response) if name != left_out]
     return [history(ds, name, look, reference) for name in names]
 

@@ -1,0 +1,125 @@
+"""Friction coefficient over speed with the limits of slow and fast motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from viscontact import reference
+from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.panel import FAINT, FIRST, SECOND, Axis, Curve, Ink, Panel, Units
+from viscontact.indenters import Indenter, Paraboloid, Roller, Sphere
+from viscontact.materials.compliance import SeriesCompliance
+from viscontact.materials.material import Material
+from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import readable_unit
+
+NAME = "friction_coefficient"
+#: Bodies of constant curvature along their motion.
+_ROUND = (Paraboloid, Sphere, Roller)
+#: Speeds of the curves of the limits, and room above and below the values, as a factor.
+_SAMPLES, _ROOM = 60, 2.0
+
+
+def has_friction(run: xr.Dataset) -> bool:
+    """Tell whether a result has friction over speed."""
+    return "speed" in run.dims and bool((run[NAME].values > 0).any())
+
+
+def friction_panel(
+    run: xr.Dataset, units: Units = readable_unit, reference: xr.Dataset | None = None
+) -> Panel:
+    """Panel of a result over speed in order, first, a reference beside it, and the limits."""
+    positive = run[NAME].values[run[NAME].values > 0]
+    lowest, highest = float(positive.min()) / _ROOM, float(positive.max()) * _ROOM
+    speeds = limit_speeds(run)
+    limits = [
+        Curve(speeds, limit, name, FAINT, "dashed" if name.endswith("slow motion") else "dotted")
+        for name, limit in friction_limits(run, speeds)
+        if ((limit > lowest) & (limit < highest)).any()
+    ]
+    others = [] if reference is None else [_curve(reference, SECOND)]
+    variable = SCALARS[NAME]
+    return Panel(
+        Axis("Speed", units("m/s", speeds), scale="log"),
+        Axis(variable.label, units(variable.units), (lowest, highest), "log"),
+        (_curve(run, FIRST), *others, *limits),
+        name=NAME,
+    )
+
+
+def _curve(run: xr.Dataset, ink: Ink) -> Curve:
+    title = str(run.attrs.get("title") or f"along {run.attrs.get('along', '')}".strip())
+    return Curve(
+        run["speed"].values, run[NAME].values, title, ink, "joined", error=errors_of(run, NAME)
+    )
+
+
+def limit_speeds(results: xr.Dataset) -> Floats:
+    """Return the speeds at which the curves of the limits are drawn [m/s].
+
+    >>> limit_speeds(xr.Dataset(coords={"speed": [10.0, 0.1]}))[[0, -1]].tolist()
+    [0.1, 10.0]
+    """
+    speeds = results["speed"].values
+    return np.geomspace(speeds.min(), speeds.max(), _SAMPLES)
+
+
+def friction_limits(results: xr.Dataset, speeds: Floats) -> list[tuple[str, Floats]]:
+    """Limits that hold for the body and its material: names, and values at some speeds."""
+    body, series = _round_body(results), _series(results)
+    if body is None or series is None:
+        return []
+    curvature = body.curvatures["xy".index(str(results.attrs["along"]))]
+    found = []
+    if curvature > 0 and not series.fluidity:
+        relaxed = series.instant + float(series.amplitudes.sum())
+        mean_time = float(series.amplitudes @ series.times) / relaxed
+        slow = [
+            reference.slow_friction_coefficient(1 / curvature, mean_time, speed)
+            for speed in speeds.tolist()
+        ]
+        found.append(("limit of slow motion", np.array(slow)))
+    is_ball = not isinstance(body, Roller) and body.curvatures[0] == body.curvatures[1]
+    if is_ball and series.instant > 0:
+        rate = float((series.amplitudes / series.times).sum()) + series.fluidity
+        force = float(results["force"].max())
+        fast = [
+            reference.fast_sphere_friction_coefficient(
+                force, 1 / curvature, series.instant, rate, speed
+            )
+            for speed in speeds.tolist()
+        ]
+        found.append(("limit of fast motion", np.array(fast)))
+    return found
+
+
+def _round_body(results: xr.Dataset) -> Indenter | None:
+    """Indenter of a result, if its curvature is constant."""
+    kind = (case_of(results).get("indenter") or {}).get("type")
+    if kind not in {round_body.__name__ for round_body in _ROUND}:
+        return None
+    body = recorded_object(results, "indenter", "friction")
+    assert isinstance(body, Indenter)
+    return body
+
+
+def _series(results: xr.Dataset) -> SeriesCompliance | None:
+    """Contact compliance of both bodies if only the half-space creeps, and as a series."""
+    material = recorded_object(results, "material", "friction")
+    mate = recorded_object(results, "indenter_material", "friction")
+    if not isinstance(material, Material) or not isinstance(mate, Material | None):
+        return None
+    found = material.contact_compliance()
+    if not isinstance(found, SeriesCompliance) or not found.amplitudes.size + found.fluidity:
+        return None
+    if mate is None:
+        return found
+    other = mate.contact_compliance()
+    if not isinstance(other, SeriesCompliance) or other.amplitudes.size or other.fluidity:
+        return None
+    both = found + other
+    assert isinstance(both, SeriesCompliance)
+    return both
