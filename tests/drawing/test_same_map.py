@@ -125,3 +125,16 @@ def test_tension_is_drawn_in_colours_that_diverge_from_zero() -> None:
     assert (red, blue) == (True, False)
     figure = plot.pressure_map(tensile, style="contours")
     assert figure.axes[-1].get_ylim() == pytest.approx((-0.5, 3.0))
+
+
+def test_levels_end_below_peaks_that_depend_on_the_mesh() -> None:
+    ds = ellipse()
+    ds["peak_pressure_error"] = "time", np.full(ds.sizes["time"], np.inf)
+    ds["pressure"] = ds.pressure.where(ds.pressure < 0.93 * ds.pressure.max(), 3 * ds.pressure)
+    maps = maps_over(ds)
+    scale = maps.scale()
+    high = np.quantile(maps.snapshots[-1].pressure[maps.snapshots[-1].in_contact], 0.97)
+    assert scale.levels[-1] < high < scale.limits[1]
+    figure = plot.pressure_map(ds, style="contours")
+    assert figure.axes[-1].get_ylim()[1] == pytest.approx(scale.unit(scale.levels[-1]))
+    assert "peak depends on the mesh" in figure.axes[0].get_title(loc="left")

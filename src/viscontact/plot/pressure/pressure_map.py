@@ -205,7 +205,7 @@ def _label_contours(
     lowest, highest = np.percentile(pressed, _LABELLED)
     texts = {
         height: format_compact(float(scale.unit(level)))
-        for height, level in zip(_heights(scale), scale.levels, strict=True)
+        for height, level in zip(_heights(scale)[1:-1], scale.levels[1:-1], strict=True)
         if lowest < level < highest
     }
 
