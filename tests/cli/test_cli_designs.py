@@ -12,7 +12,7 @@ import pytest
 import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.sweep import checks
-from viscontact.cli.sweep.plan_options import DesignOptions
+from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.processes.job import Standing
@@ -98,16 +98,16 @@ def test_a_larger_sample_extends_the_smaller_one(
 
 
 def test_the_printed_command_names_all_options() -> None:
-    options = DesignOptions((), False, None, 8, ("load.force=1 N:2 N",), 4, "latin-hypercube")
+    options = PlanOptions((), False, None, 8, ("load.force=1 N:2 N",), 4, "latin-hypercube")
     request = ManyRequest((Path("a.yaml"),), RunRequest(Path("a.yaml"), Path("o")), options)
     assert request.resuming.replace('"', "'") == (
         "viscontact run a.yaml -o o --sample 8 --range 'load.force=1 N:2 N' --seed 4 --method "
         "latin-hypercube --resume"
     )
-    options = DesignOptions(("a=1,2", "b=3,4"), zipped=True)
+    options = PlanOptions(("a=1,2", "b=3,4"), zipped=True)
     request = ManyRequest((Path("a.yaml"),), RunRequest(Path("a.yaml")), options)
     assert request.resuming.endswith("--vary a=1,2 --vary b=3,4 --zip --resume")
-    options = DesignOptions(table=Path("-p.csv"))
+    options = PlanOptions(table=Path("-p.csv"))
     request = ManyRequest((Path("a.yaml"),), RunRequest(Path("a.yaml")), options)
     assert request.resuming.endswith(f"--table .{os.sep}-p.csv --resume")
 
@@ -238,10 +238,10 @@ def test_wildcards_in_names_of_files_are_the_files_next_to_the_case(
 def test_names_that_are_other_values_of_yaml_are_quoted(folder: Path) -> None:
     for name in ("1e3", "a #1", "b"):
         (folder / name).touch()
-    design = DesignOptions(("load.file=[1ab]*",)).design(Path("ball.yaml"))
+    design = PlanOptions(("load.file=[1ab]*",)).design(Path("ball.yaml"))
     assert [row[0] for row in design.rows] == ['"1e3"', '"a #1"', "b", "ball.yaml"]
     (folder / "[1]").touch()
-    assert DesignOptions(("load.file=[1]",)).design(Path("ball.yaml")).rows == (("[1]",),)
+    assert PlanOptions(("load.file=[1]",)).design(Path("ball.yaml")).rows == (("[1]",),)
 
 
 @pytest.mark.usefixtures("idle")
@@ -268,7 +268,7 @@ def test_runs_that_are_not_prepared_are_resumed_by_their_files(
     (folder / "auto.yaml").write_text(CASE.replace("grid:", "title: x #"), encoding="utf-8")
     text = ",".join(f"{n} mN" for n in range(1, 103))
     common = RunRequest(Path("auto.yaml"), Path("out"), resume=True)
-    request = ManyRequest((Path("auto.yaml"),), common, DesignOptions((f"load.force={text}",)))
+    request = ManyRequest((Path("auto.yaml"),), common, PlanOptions((f"load.force={text}",)))
     planned = request.planned()
     runs = [each.request for each in planned]
     assert main(["run", "auto.yaml", "--set", "load.force=5 mN", "-o", "out/auto_force=5mN"]) == 0

@@ -13,7 +13,7 @@ import viscontact as vc
 from viscontact.case.document import read_document
 from viscontact.cli import main
 from viscontact.cli.sweep.common_cells import with_common_cells
-from viscontact.cli.sweep.plan_options import DesignOptions
+from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep import common_cells
@@ -39,7 +39,7 @@ def roller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def sweep(case: Path, *, text: str, resume: bool = False) -> list[RunRequest]:
     """The runs of a `--vary`, with what they share."""
     common = RunRequest(case, Path("all"), resume=resume)
-    planned = ManyRequest((case,), common, DesignOptions((text,))).planned()
+    planned = ManyRequest((case,), common, PlanOptions((text,))).planned()
     return with_common_cells(planned, "--vary")
 
 
@@ -124,7 +124,7 @@ def test_runs_of_other_cases_do_not_count(roller: Path, line: str) -> None:
     roller.write_text(ROLLER + line, encoding="utf-8")
     Path("short.yaml").write_text(ROLLER.replace("8 mm", "3 mm"), encoding="utf-8")
     common = RunRequest(roller, Path("all"))
-    options = DesignOptions(("load.force=75N,200N",))
+    options = PlanOptions(("load.force=75N,200N",))
     both = ManyRequest((roller, Path("short.yaml")), common, options).planned()
     runs = with_common_cells(both, "--vary")
     assert runs[:2] == sweep(roller, text="load.force=75N,200N")

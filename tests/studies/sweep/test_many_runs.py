@@ -25,7 +25,7 @@ import viscontact as vc
 from interrupted_runs import BODIES
 from viscontact.cli import main
 from viscontact.cli.sweep import jobs
-from viscontact.cli.sweep.plan_options import DesignOptions
+from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
 from viscontact.runs.directory.lock import DirectoryInUse, locked
@@ -165,10 +165,10 @@ def test_names_of_variations_may_stand_in_any_path() -> None:
     values = ("1e-3 / MPa", '"x, y"', "-5 µm", "5%", "C:\\x")
     texts = [*(f"a.b={value}" for value in values), "a[2].b=../.."]
     case = Path("a.yaml")
-    names = [DesignOptions((text,)).design(case).name(0) for text in texts]
+    names = [PlanOptions((text,)).design(case).name(0) for text in texts]
     assert names == ["b=1e-3-MPa", "b=x-y", "b=-5µm", "b=5%", "b=C-x", "b="]
     # two keys that end in the same are distinguished by all of their names
-    both = DesignOptions(("load.force=1 N", "other.force=2 N")).design(case)
+    both = PlanOptions(("load.force=1 N", "other.force=2 N")).design(case)
     assert both.name(0) == "load.force=1N_other.force=2N"
 
 

@@ -160,10 +160,10 @@ def run(
             with interruption.postponed():
                 from viscontact.cli.sweep.execution import execute_many
                 from viscontact.cli.sweep.job_array import write_array
-                from viscontact.cli.sweep.plan_options import DesignOptions
+                from viscontact.cli.sweep.plan_options import PlanOptions
                 from viscontact.cli.sweep.request import ManyRequest
                 from viscontact.cli.sweep.single_task import execute_task
-            options = DesignOptions(
+            options = PlanOptions(
                 tuple(varied or ()),
                 zipped,
                 table,

@@ -28,7 +28,7 @@ _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 
 
 @dataclass(frozen=True)
-class DesignOptions:
+class PlanOptions:
     """Options that vary keys, as they were typed."""
 
     varied: tuple[str, ...] = ()  # KEY=VALUE,VALUE,...
@@ -42,7 +42,7 @@ class DesignOptions:
     @property
     def given(self) -> bool:
         """True if any option is given."""
-        return self != DesignOptions()
+        return self != PlanOptions()
 
     @property
     def option(self) -> str:
@@ -83,7 +83,7 @@ class DesignOptions:
 
         Examples
         --------
-        >>> options = DesignOptions(varied=("load.force=2,3",))
+        >>> options = PlanOptions(varied=("load.force=2,3",))
         >>> options.as_typed("--set load.force: cannot read '2'", ["load.force"])
         "--vary load.force: cannot read '2'"
         """

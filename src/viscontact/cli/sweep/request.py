@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from viscontact.cli.sweep.plan_options import DesignOptions
+from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.processes.request import RunRequest, command, no_option
@@ -31,7 +31,7 @@ class ManyRequest:
 
     cases: tuple[Path, ...]
     common: RunRequest
-    options: DesignOptions = field(default_factory=DesignOptions)
+    options: PlanOptions = field(default_factory=PlanOptions)
     jobs: int = 1
     scheduler: str = ""  # of a cluster: address, file, or local
 
