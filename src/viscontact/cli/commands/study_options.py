@@ -19,8 +19,9 @@ Instant = Annotated[
     str,
     typer.Option(
         "--at",
-        metavar="worst|end|TIME",
-        help="Instant of the scalars: their worst value, the last one, or a time.",
+        metavar="worst|end|TIME|SPEED",
+        help="Instant of the scalars: their worst value, the last one, or a time; in steady motion "
+        "a speed.",
     ),
 ]
 
