@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 import viscontact as vc
 from synthetic_sweeps import hertz_sweep, listed
 from viscontact.plot import response
-from viscontact.results.largest_values import compared_scalars, largest_values, varied_keys
+from viscontact.results.largest_values import compared_scalars, largest_values
+from viscontact.results.sweep_axes import varied_keys
 
 FORCES = ([1e3, 2e3, 8e3], "N")
 RADII = ([0.02, 0.01], "m")

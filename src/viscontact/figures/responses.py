@@ -13,7 +13,7 @@ from viscontact.drawing.content.key_axis import KeyAxis
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.response import RunGroup, curves_over, points_over, swept_keys
 from viscontact.figures.parts import Part, drawn, numbers
-from viscontact.results.largest_values import key_label
+from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS
 from viscontact.results.verdicts import limits_of
 from viscontact.units.formatting import ReadableUnit, format_compact, format_quantity

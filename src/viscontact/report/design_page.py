@@ -19,7 +19,7 @@ from viscontact.plot.sweeps.trials import parameters_of, trials
 from viscontact.report.blocks import drawn_figure, listed_notes, remark, text_table, value_cell
 from viscontact.report.creep_gains import gains_over_a_year, relative_change
 from viscontact.report.study_page import StudyPage
-from viscontact.results.largest_values import key_label
+from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity
 

@@ -21,7 +21,7 @@ from viscontact.report.blocks import (
     value_cell,
 )
 from viscontact.report.study_page import StudyPage
-from viscontact.results.largest_values import key_label
+from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import format_quantity
 

@@ -20,16 +20,9 @@ from viscontact.report.study_page import StudyPage
 from viscontact.report.title_block import file_lines, title_lines
 from viscontact.report.verdict_chapter import LEGEND
 from viscontact.results.formatting import format_with_error_in
-from viscontact.results.largest_values import (
-    chief_scalars,
-    compared_scalars,
-    key_label,
-    largest_values,
-    over_of,
-    run_dims,
-    varied_keys,
-)
+from viscontact.results.largest_values import chief_scalars, compared_scalars, largest_values
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT
+from viscontact.results.sweep_axes import key_label, over_of, run_dims, varied_keys
 from viscontact.results.variables import SCALARS
 from viscontact.results.verdicts import limits_of, stated_limits
 from viscontact.units.formatting import format_compact, readable_unit

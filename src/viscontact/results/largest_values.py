@@ -2,54 +2,13 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Hashable
-
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.results.shown_scalars import LONG, OF_LONG_CONTACTS
+from viscontact.results.sweep_axes import varied_keys
 from viscontact.results.variables import Place, error_name, shown_in
-
-#: Coordinates of runs that are no varied keys.
-_NO_KEYS = ("run", "name")
-
-
-def run_dims(ds: xr.Dataset) -> tuple[Hashable, ...]:
-    """Dimensions of the runs in the joint result of a sweep."""
-    return ds["state"].dims
-
-
-def over_of(ds: xr.Dataset) -> str:
-    """Quantity over which the runs of a sweep go, ``"time"`` or ``"speed"``.
-
-    >>> over_of(xr.Dataset({"speed": (("run", "step"), [[1.0]])}))
-    'speed'
-    """
-    return "speed" if "speed" in ds.variables else "time"
-
-
-def varied_keys(ds: xr.Dataset) -> list[str]:
-    """Coordinates of a sweep, or its cases, of which there are several values.
-
-    >>> ds = xr.Dataset({"state": ("F", ["done", "done"])}, {"F": [1.0, 2.0], "G": ("F", [5, 5])})
-    >>> varied_keys(ds)
-    ['F']
-    """
-    dims = set(run_dims(ds))
-    names = [str(name) for name in ds.coords if ds[name].dims and set(ds[name].dims) <= dims]
-    return [name for name in names if name not in _NO_KEYS and np.unique(ds[name]).size > 1]
-
-
-def key_label(key: str) -> str:
-    """Key in words, for axes and headings of tables.
-
-    >>> key_label("material.delayed_modulus"), key_label("indenter[2].radius")
-    ('Material delayed modulus', 'Indenter 2 radius')
-    """
-    words = " ".join(re.findall(r"[^\W_]+", key))
-    return words[:1].upper() + words[1:]
 
 
 def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.backend.arrays import Floats
-from viscontact.results.largest_values import key_label
+from viscontact.results.sweep_axes import key_label
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 #: Least ratio of the largest to the least value on a logarithmic axis.

@@ -10,12 +10,8 @@ import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.key_axis import KeyAxis, is_number, key_labels
-from viscontact.results.largest_values import (
-    compared_scalars,
-    largest_values,
-    run_dims,
-    varied_keys,
-)
+from viscontact.results.largest_values import compared_scalars, largest_values
+from viscontact.results.sweep_axes import run_dims, varied_keys
 
 #: Most keys of runs that are no grid.
 _MOST_KEYS = 4

@@ -22,7 +22,8 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.plot.layout.style import styles_of
 from viscontact.plot.sweeps.key_axis import label_key, place_log_ticks
-from viscontact.results.largest_values import key_label, largest_values, over_of
+from viscontact.results.largest_values import largest_values
+from viscontact.results.sweep_axes import key_label, over_of
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import ReadableUnit, readable_unit
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.results.largest_values import key_label
+from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS
 
 #: Height of a bar and of the rest of a panel [inch], and most bars of a panel.

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats, Integers
-from viscontact.results.largest_values import over_of
 from viscontact.results.run_axis import RUN_AXES, RunAxis
+from viscontact.results.sweep_axes import over_of
 from viscontact.results.variables import error_name
 from viscontact.studies.case_values import At, known_scalar
 
