@@ -75,3 +75,13 @@ def test_only_the_last_state_completes_a_run(make: Callable[[], Analysis[Any, An
 def test_body_without_a_motion_has_none_of_its_scalars() -> None:
     assert "position_x" not in solve(standing())
     assert {"position_x", "friction_coefficient", "heat"} <= set(solve(travelling()))
+
+
+@pytest.mark.parametrize("call", ["simulate", "steady"])
+def test_warnings_name_the_file_that_calls(call: str) -> None:
+    coarse, further = vc.Grid((12, 12), (2.4e-3, 2.4e-3)), {"times": [0.0]}
+    if call == "steady":
+        further = {"speed": [1e-2]}
+    with pytest.warns(vc.AccuracyWarning) as caught:
+        getattr(vc, call)(BALL, RUBBER, LEVEL, grid=coarse, **further)
+    assert {each.filename for each in caught} == {__file__}
