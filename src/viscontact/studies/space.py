@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from scipy.stats import norm
+import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.units.parsing import parse_any_quantity, split_quantity
@@ -93,7 +93,8 @@ class Scatter:
         if self.shape != "normal":
             return replace(self.bounds, logarithmic=self.shape == "log").value(part)
         tail = (1 - BETWEEN) / 2
-        within = float(norm.ppf(min(max(part, 1e-12), 1 - 1e-12)) / norm.ppf(1 - tail))
+        quantile = scipy.special.ndtri  # of the normal distribution
+        within = float(quantile(min(max(part, 1e-12), 1 - 1e-12)) / quantile(1 - tail))
         return self.bounds.value((within + 1) / 2)
 
     def __str__(self) -> str:
