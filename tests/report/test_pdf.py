@@ -19,7 +19,7 @@ from viscontact.cli import main
 from viscontact.notebook.html import element
 from viscontact.report import pdf
 from viscontact.report.pdf import write_pdf, write_sweep_pdf
-from viscontact.report.pdf_blocks import blocks
+from viscontact.report.pdf_content import blocks
 
 #: Text that would be code, mathematics, a label, a reference or emphasis in a source of typst.
 HOSTILE = '#panic("x") $1/0 <label> @ref *bold* _em_ \\ `raw` // "quoted" {a: 1} µ ± ²'

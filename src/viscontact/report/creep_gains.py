@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.notebook.html import element
-from viscontact.report.blocks import remark, text_table
+from viscontact.report.page_elements import remark, text_table
 from viscontact.results.formatting import format_percent, format_with_error
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS

@@ -16,8 +16,14 @@ from viscontact.plot.pressure.line_load import compare_line_loads
 from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
 from viscontact.plot.sweeps.trade_off import trade_off
 from viscontact.plot.sweeps.trials import parameters_of, trials
-from viscontact.report.blocks import drawn_figure, listed_notes, remark, text_table, value_cell
 from viscontact.report.creep_gains import gains_over_a_year, relative_change
+from viscontact.report.page_elements import (
+    drawn_figure,
+    listed_notes,
+    remark,
+    text_table,
+    value_cell,
+)
 from viscontact.report.study_page import StudyPage
 from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS, error_name

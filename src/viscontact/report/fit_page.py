@@ -9,7 +9,7 @@ import xarray as xr
 
 from viscontact.notebook.html import element
 from viscontact.plot.materials.fitted_records import fitted_records
-from viscontact.report.blocks import drawn_figure, listed_notes, remark, text_table
+from viscontact.report.page_elements import drawn_figure, listed_notes, remark, text_table
 from viscontact.report.study_page import StudyPage
 
 

@@ -16,9 +16,9 @@ import xarray as xr
 from viscontact import __version__
 from viscontact.notebook.html import element
 from viscontact.report import accuracy, drawings, limits
-from viscontact.report.blocks import remark, stacked_table
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.report.measured import measured_lines
+from viscontact.report.page_elements import remark, stacked_table
 from viscontact.report.title_block import file_lines
 from viscontact.results.citation import citations
 from viscontact.results.filed_case import FiledCase

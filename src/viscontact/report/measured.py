@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from viscontact.notebook.html import element
 from viscontact.plot.layout import style
 from viscontact.plot.layout.log_time import label_log_time
-from viscontact.report.blocks import remark
 from viscontact.report.drawings import BODIES, drawn
+from viscontact.report.page_elements import remark
 from viscontact.results.filed_case import FiledCase
 from viscontact.units.formatting import readable_unit
 

@@ -30,7 +30,7 @@ from viscontact.plot.histories.history import history_with_load
 from viscontact.report import result_chapters
 from viscontact.report.drawings import drawn
 from viscontact.report.page import run_chapters
-from viscontact.report.pdf_blocks import blocks
+from viscontact.report.pdf_content import blocks
 from viscontact.report.sweep_page import sweep_content
 from viscontact.report.title_block import title_lines
 from viscontact.results.filed_case import FiledCase, started_at

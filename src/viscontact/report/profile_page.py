@@ -11,9 +11,9 @@ import xarray as xr
 
 from viscontact.notebook.html import element
 from viscontact.plot.sweeps.profiles import profiles
-from viscontact.report.blocks import drawn_figure, listed_notes, text_table, value_cell
 from viscontact.report.creep_gains import gains_over_a_year
 from viscontact.report.design_page import before_and_after
+from viscontact.report.page_elements import drawn_figure, listed_notes, text_table, value_cell
 from viscontact.report.study_page import StudyPage
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity

@@ -19,8 +19,8 @@ from viscontact.drawing.content.section import Lines, line_load, section
 from viscontact.figures.histories import LINEAR, LOGARITHMIC
 from viscontact.figures.pressure_map import map_remarks
 from viscontact.notebook.html import element
-from viscontact.report.blocks import remark
 from viscontact.report.limits import notices
+from viscontact.report.page_elements import remark
 from viscontact.report.section_csv import lines_csv
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history

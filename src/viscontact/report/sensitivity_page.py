@@ -12,7 +12,7 @@ import xarray as xr
 from viscontact.notebook.html import element
 from viscontact.plot.sweeps.scatter_bands import scatter_bands
 from viscontact.plot.sweeps.tornado import tornado
-from viscontact.report.blocks import (
+from viscontact.report.page_elements import (
     drawn_figure,
     facts,
     listed_notes,

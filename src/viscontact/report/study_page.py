@@ -11,8 +11,8 @@ from plotly.graph_objects import Figure
 
 from viscontact import __version__
 from viscontact.notebook.html import element
-from viscontact.report.blocks import remark
 from viscontact.report.html_page import html_page
+from viscontact.report.page_elements import remark
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from plotly.graph_objects import Figure
 from viscontact.figures.responses import responses
 from viscontact.notebook.html import element
 from viscontact.plot.sweeps.response import response
-from viscontact.report.blocks import drawn_figure, facts, listed, remark, stacked_table
+from viscontact.report.page_elements import drawn_figure, facts, listed, remark, stacked_table
 from viscontact.report.result_chapters import heading_of, panel
 from viscontact.report.study_page import StudyPage
 from viscontact.report.title_block import file_lines, title_lines

@@ -1,4 +1,4 @@
-"""Blocks of a page of HTML: drawn figures, facts, tables of texts, lists and remarks."""
+"""Elements of a page of HTML: drawn figures, tables of texts, lists and notes."""
 
 from __future__ import annotations
 
