@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -115,7 +115,7 @@ def history_panel(
     is_drawn = not all(lacks_curve(run, name) for run in each)
     return Panel(
         along_run([*each, *([] if reference is None else [reference])], units),
-        Axis(variable.label, y, _limits(curves, from_zero=name == "force")),
+        Axis(variable.label, y, limits_around(curves, from_zero=name == "force")),
         tuple(curves),
         marks=event_marks(each[0]) if len(runs) == 1 else (),
         note=_note(each, name),
@@ -190,7 +190,9 @@ def _has_errors(run: xr.Dataset) -> bool:
     return any(np.isfinite(errors_of(run, name)).any() for name in SCALARS if name in run)
 
 
-def _limits(curves: list[Curve], *, from_zero: bool) -> tuple[float, float] | None:
+def limits_around(
+    curves: Sequence[Curve], *, from_zero: bool = False
+) -> tuple[float, float] | None:
     """Range of curves with their errors [SI]; None without any value."""
     values = np.concatenate([curve.y[np.isfinite(curve.y)] for curve in curves])
     if not values.size:

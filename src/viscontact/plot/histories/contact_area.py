@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.drawing.content.along_run import along_run, within_span
+from viscontact.drawing.content.contact_area import area_panel
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import band_key, draw_band, limit_axis_to_curves
+from viscontact.plot.layout.error_band import band_key
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.plot.layout.panels import scale_along
-from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
-from viscontact.results.stated_errors import stated_error
-from viscontact.units.formatting import readable_unit
+from viscontact.plot.layout.panels import draw_panel
 
 _NAME = "contact-area"
-_COUNTED = "#D55E00"
 #: Largest number of separate dots.
 _APART = 60
 
@@ -68,44 +60,20 @@ def contact_area(
     >>> contact_area(ds).axes[0].get_ylabel()
     'Contact area [mm²]'
     """
-    stored, read = field_times(results, _NAME), snapshot_reader(results)
-    run = within_span(results, ("contact_area", "force", "approach"), times, _NAME, "")
-    first, last = run["time"].values[[0, -1]]
-    shown = np.flatnonzero((stored >= first) & (stored <= last))
-    counted = [_counted(read(int(index))) for index in shown]
-    shares_axes = axes is not None
+    panel, shares_axes = area_panel(results, times, _NAME), axes is not None
     if axes is None:
         wide = page_width(width, style.ONE_COLUMN)
         axes = style.new_figure(wide, min(3.4, 0.85 * wide)).add_subplot()
-    style.dress(axes)
-    area = run["contact_area"].values
-    unit, time = readable_unit("m2", area, counted), along_run([run])
-    instants, error = time.unit(run["time"].values), stated_error(run, "contact_area")
-    look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
-    # Above the dots, of which there may be many.
-    smooth = axes.plot(instants, unit(area), zorder=3, **look)[0]
-    dots = axes.plot(time.unit(stored[shown]), unit(counted), "o", color=_COUNTED)[0]
+    before = len(axes.get_lines())  # in axes of the user's
+    bands = draw_panel(axes, panel)
+    smooth, dots = axes.get_lines()[before:]
+    smooth.set_zorder(3)  # above the dots, of which there may be many
     dots.set_clip_on(False)  # the first and last dot are on the frame
-    dots.set(markersize=3.5 if len(counted) <= _APART else 2.0)
-    bar = None if error is None else unit(error)
-    band = draw_band(axes, instants, unit(area), bar, style.LINE)
-    handles: list[Artist] = [smooth, dots]
-    labels = ["between the cells", "cells counted"]
-    if band is not None:
-        limit_axis_to_curves(axes, unit(area), unit(counted))
-    axes.set_ylabel(unit.label("Contact area"))
-    scale_along(axes, time)
-    for handle, words in band_key([band] if band else [], style.LINE):
-        handles, labels = [*handles, handle], [*labels, words]
+    dots.set_markersize(3.5 if panel.curves[1].x.size <= _APART else 2.0)
+    named = zip((smooth, dots), (curve.name for curve in panel.curves), strict=True)
+    handles, labels = zip(*named, *band_key(bands, style.LINE), strict=True)
     if shares_axes:
         style.add_legend(axes, handles, labels, loc="best")
     else:
-        figure = style.figure_of(axes)
-        style.add_legend_below(figure, handles, labels, columns=2)
+        style.add_legend_below(style.figure_of(axes), handles, labels, columns=2)
     return style.figure_of(axes)
-
-
-def _counted(snapshot: Snapshot) -> float:
-    """Area of the cells in contact [m²]."""
-    dx, dy = snapshot.cell_size
-    return int(snapshot.in_contact.sum()) * dx * dy

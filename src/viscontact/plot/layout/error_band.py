@@ -10,7 +10,6 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.plot.layout import style
@@ -21,9 +20,6 @@ BAND_IN_PARTS = "band: error estimate, where wider than the line"
 NO_BAND = "error estimate within the line's width"
 
 _OPACITY = 0.25
-#: Largest extension of an axis beyond its curve, over the curve's span or its largest value: one
-#: large error does not flatten the curve.
-_SPAN, _SIZE = 1.0, 0.5
 #: Least visible extension of a band beyond its line, to either side [points].
 _SEEN = 0.4
 
@@ -114,14 +110,3 @@ def legend_entries(
     several = len(names) > 1
     runs = zip(lines, names, strict=True) if several else ()
     return [*runs, *band_key(bands, style.FAINT if several else style.LINE)]
-
-
-def limit_axis_to_curves(axes: Axes, *curves: ArrayLike) -> None:
-    """Limit the vertical axis, so that no band extends far beyond the curves."""
-    values = np.concatenate([np.ravel(np.asarray(curve, dtype=np.float64)) for curve in curves])
-    values = values[np.isfinite(values)]
-    if not values.size:
-        return
-    room = max(_SPAN * np.ptp(values), _SIZE * np.abs(values).max())
-    low, high = axes.get_ylim()
-    axes.set_ylim(max(low, values.min() - room), min(high, values.max() + room))
