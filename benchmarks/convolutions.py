@@ -12,9 +12,9 @@ import numpy as np
 from run import reference_convolution, seconds_of
 
 from viscontact.backend.transforms import Transforms, transforms_by
-from viscontact.halfspace.convolution import Convolution
-from viscontact.halfspace.influence import influence_table
-from viscontact.halfspace.preconditioner import Preconditioner
+from viscontact.mechanics.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.influence import influence_table
+from viscontact.mechanics.halfspace.preconditioner import Preconditioner
 
 REPEATS = 40
 MIRRORED = ((False, False), (False, True), (True, True))

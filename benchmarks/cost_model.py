@@ -30,14 +30,14 @@ from passes import counted
 from run import reference_convolution, seconds_of
 
 import viscontact as vc
-from viscontact.contact import conjugate_gradients, domain, equilibrium, winkler
-from viscontact.halfspace import convolution, preconditioner
-from viscontact.problem.problem import Problem
-from viscontact.simulation import stepper
-from viscontact.simulation.observer import Observer
-from viscontact.simulation.setup import prepare_run
-from viscontact.simulation.state_generator import march_run
-from viscontact.time_integration.internal_variables import InternalVariables
+from viscontact.mechanics.contact import conjugate_gradients, domain, equilibrium, winkler
+from viscontact.mechanics.halfspace import convolution, preconditioner
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.time_integration.internal_variables import InternalVariables
+from viscontact.simulation.transient import stepper
+from viscontact.simulation.transient.observer import Observer
+from viscontact.simulation.transient.setup import prepare_run
+from viscontact.simulation.transient.state_generator import march_run
 
 #: Parts of a step, and their functions: the module or class, and the name.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (

@@ -17,14 +17,14 @@ from collections.abc import Callable, Iterator
 from importlib.resources import as_file, files
 
 import viscontact as vc
-from viscontact.accuracy.coarser_results import History, history_of
-from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
-from viscontact.accuracy.error_bars import error_bars
 from viscontact.case import read_case
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.preparation import prepared
-from viscontact.simulation.setup import RunSetup, prepare_run
-from viscontact.simulation.state_generator import march_run
+from viscontact.simulation.accuracy.coarser_results import History, history_of
+from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
+from viscontact.simulation.accuracy.error_bars import error_bars
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
+from viscontact.simulation.transient.state_generator import march_run
 
 #: Cells along an edge, steps, whether the problem is symmetric.
 SIZES = (
@@ -41,14 +41,14 @@ SIZES = (
 
 def examples() -> Iterator[tuple[str, Callable[[], RunSetup]]]:
     """Shipped cases that march over time."""
-    folder = files("viscontact.examples")
+    folder = files("viscontact.case.examples")
     for entry in sorted(folder.iterdir(), key=lambda each: each.name):
         if entry.name.endswith(".yaml") and "kind: steady" not in entry.read_text():
             yield entry.name.removesuffix(".yaml"), lambda entry=entry: _example(entry.name)
 
 
 def _example(name: str) -> RunSetup:
-    with as_file(files("viscontact.examples")) as folder:
+    with as_file(files("viscontact.case.examples")) as folder:
         return prepared(read_case(folder / name)).run.setup
 
 

@@ -21,7 +21,7 @@ from cases import PMMA, Case, roller
 from run import reference_convolution, seconds_of
 
 import viscontact as vc
-from viscontact.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.convolution import Convolution
 
 #: Rows of the largest grid on which a reference convolution is timed.
 LARGEST_WITH_REFERENCE = 1024

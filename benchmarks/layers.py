@@ -17,15 +17,15 @@ from statistics import median
 import numpy as np
 
 import viscontact as vc
-from viscontact.contact.domain import ContactDomain
-from viscontact.contact.equilibrium import solve_contact
-from viscontact.contact.problem import ContactProblem
-from viscontact.contact.rigid_balance import Constraints
-from viscontact.halfspace.elastic_stack import ElasticLayer, ElasticStack
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import solve_contact
+from viscontact.mechanics.contact.problem import ContactProblem
+from viscontact.mechanics.contact.rigid_balance import Constraints
+from viscontact.mechanics.halfspace.elastic_stack import ElasticLayer, ElasticStack
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.reference import layer_sphere
-from viscontact.simulation.march import March
-from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.setup import prepare_run
 
 #: Ball, contact radius after the creep, thickness of the layer, and the law, of 1 s.
 RADIUS, REACH, THICKNESS = 0.02, 1e-3, 0.5e-3

@@ -17,8 +17,8 @@ import time
 import numpy as np
 
 import viscontact as vc
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import prepare_run
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.transient.setup import prepare_run
 
 RADIUS, FORCE, PERIOD = 0.01, 10.0, 100.0
 LAW = vc.FractionalZener(1.5e9, 5e8, 100.0, 0.5)

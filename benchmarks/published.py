@@ -25,7 +25,7 @@ import numpy as np
 from cases import Case, roller
 from scipy import fft
 
-from viscontact.halfspace.influence import influence_table
+from viscontact.mechanics.halfspace.influence import influence_table
 
 MOST_ITERATIONS = 2000
 

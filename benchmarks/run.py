@@ -29,9 +29,9 @@ from published import estimate
 from scipy import fft
 
 from viscontact.backend.transforms import fastest_transforms
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import RunSetup, prepare_run
-from viscontact.simulation.state_generator import march_run
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
+from viscontact.simulation.transient.state_generator import march_run
 
 CELLS, LARGE = (256, 256), (512, 512)
 STEPS = 120

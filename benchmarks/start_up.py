@@ -24,7 +24,7 @@ try:
 except ImportError:  # not on Windows
     resource = None
 
-EXAMPLES = Path(viscontact.__file__).parent / "examples"
+EXAMPLES = Path(viscontact.__file__).parent / "case" / "examples"
 CASE = EXAMPLES / "roller-dogbone-e05.yaml"
 READ = f"from viscontact.case import read_case; read_case({str(CASE)!r})"
 
@@ -36,7 +36,7 @@ from viscontact.cli.entry import limit_libraries, main
 from viscontact.cli.quick_imports import quick_imports
 limit_libraries()
 with quick_imports():
-    from viscontact.simulation.stepper import Stepper
+    from viscontact.simulation.transient.stepper import Stepper
 Stepper.trial = lambda *_: os._exit(0)
 main()
 """

@@ -19,13 +19,13 @@ from run import reference_convolution
 
 import viscontact as vc
 from viscontact.backend.transforms import fastest_transforms, transforms_by
-from viscontact.problem.problem import Problem
-from viscontact.steady_motion.contact import SteadyContact, SteadySolver
-from viscontact.steady_motion.curve import SteadyCurve
-from viscontact.steady_motion.moving_law import moving_law
-from viscontact.steady_motion.preparation import prepare
-from viscontact.steady_motion.problem import steady_problem
-from viscontact.steady_motion.region import Region, find_region
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.steady_motion.contact import SteadyContact, SteadySolver
+from viscontact.simulation.steady_motion.curve import SteadyCurve
+from viscontact.simulation.steady_motion.moving_law import moving_law
+from viscontact.simulation.steady_motion.preparation import prepare
+from viscontact.simulation.steady_motion.problem import steady_problem
+from viscontact.simulation.steady_motion.region import Region, find_region
 
 #: Contact of the tables: modulus, radius, load and relaxation time; the middle of the speeds.
 INSTANT, RADIUS, LOAD, SPEED = 1 / 2000, 10.0, 10.0, 0.1

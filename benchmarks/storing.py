@@ -19,18 +19,18 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from viscontact.case import read_case
-from viscontact.problem.kept_fields import KeptFields
+from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.preparation import prepared
-from viscontact.simulation.setup import RunSetup
-from viscontact.simulation.state_generator import march_run
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.state_generator import march_run
 
 
 def roller(steps: int, cells: tuple[int, int]) -> RunSetup:
     settings = [f"time.steps={steps}", f"grid.shape={list(cells)}"]
-    with as_file(files("viscontact.examples") / "roller-dogbone-e05.yaml") as path:
+    with as_file(files("viscontact.case.examples") / "roller-dogbone-e05.yaml") as path:
         setup = prepared(read_case(path, settings)).run.setup
         assert isinstance(setup, RunSetup)
         return setup

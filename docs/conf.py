@@ -73,7 +73,7 @@ numpydoc_xref_aliases = {
     if name[0].isupper()
 } | {
     "Animation": "viscontact.plot.Animation",
-    "Richardson": "viscontact.accuracy.richardson.Richardson",
+    "Richardson": "viscontact.simulation.accuracy.richardson.Richardson",
     "ndarray": "numpy.ndarray",
     # numpydoc links no name that is its own alias; the dot changes nothing else.
     "xarray.DataArray": ".xarray.DataArray",

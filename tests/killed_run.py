@@ -28,14 +28,14 @@ import numpy as np
 import xarray as xr
 
 import viscontact
+from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.cli import main
 from viscontact.cli.run import execution
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.results.variables import ERRORS
 from viscontact.runs import preparation
 from viscontact.runs.directory import recorder
-from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
 
 SOURCES = Path(viscontact.__file__).parent
 WATCHED = (

@@ -20,7 +20,7 @@ import numpy as np
 import xarray as xr
 
 import viscontact as vc
-from viscontact.problem.kept_fields import KeptFields
+from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from written_states import GRID, faults_of, state

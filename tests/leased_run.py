@@ -17,14 +17,14 @@ from pathlib import Path
 import numpy as np
 
 import viscontact as vc
-from viscontact.problem.problem import Problem
-from viscontact.run_files import STATE_NAME
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.run_files import STATE_NAME
 from viscontact.runs.directory import lock, recorder
 from viscontact.runs.directory.lock_check import LockCheck, LockLost
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
-from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
 
 COUNT = 20
 

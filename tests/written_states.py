@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import Grid
-from viscontact.problem.kept_fields import KeptFields
+from viscontact.mechanics.problem.kept_fields import KeptFields
+from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.results.variables import FIELDS, LINES, scalars_of
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.state import ContactState, Outcome
 
 GRID = Grid((6, 5), (2e-3, 1e-3))
 TIMES = np.arange(12) / 7.0

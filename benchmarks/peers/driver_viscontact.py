@@ -10,10 +10,10 @@ from ladder import Problem, climb
 from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
 
 import viscontact as vc
-from viscontact.contact.domain import ContactDomain
-from viscontact.contact.equilibrium import solve_contact
-from viscontact.contact.problem import ContactProblem
-from viscontact.contact.rigid_balance import Constraints
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import solve_contact
+from viscontact.mechanics.contact.problem import ContactProblem
+from viscontact.mechanics.contact.rigid_balance import Constraints
 
 
 def elastic(problem: Problem, tolerance: float) -> np.ndarray:

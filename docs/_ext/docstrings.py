@@ -26,9 +26,9 @@ _BACK = re.compile(r"(?<=/generated/)([\w.]+)\.html#([\w.]+)")
 #: Modules without their own page, and the pages that describe them.
 MODULE_PAGES = {
     "viscontact.identification.overlap": "theory/identification",
-    "viscontact.series_fits.spectrum": "theory/identification",
+    "viscontact.bodies.series_fits.spectrum": "theory/identification",
     "viscontact.plot": "reference/python/plotting",
-    "viscontact.halfspace.stress": "theory/stresses",
+    "viscontact.mechanics.halfspace.stress": "theory/stresses",
 }
 
 

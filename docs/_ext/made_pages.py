@@ -19,8 +19,8 @@ from sphinx.util.typing import ExtensionMetadata
 from verification_summary import verification_summary
 
 import viscontact
+from viscontact.bodies.materials.library.entry import Entry, entry, names
 from viscontact.case.sections import case_schema
-from viscontact.materials.library.entry import Entry, entry, names
 from viscontact.results.variables import COORDINATES, FIELDS, SCALARS, Variable
 from viscontact.units.formatting import format_quantity
 

@@ -24,7 +24,7 @@ import numpy as np
 import viscontact as vc
 from viscontact import plot, surfaces
 
-with as_file(files("viscontact.examples") / "rough-patch.npz") as path:
+with as_file(files("viscontact.case.examples") / "rough-patch.npz") as path:
     surface = vc.read_surface(path)
 print(surface)
 

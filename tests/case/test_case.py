@@ -59,7 +59,9 @@ load: {kind: step, force: 1 N}
 time: {end: 1 s, steps: 4}
 """
 EXAMPLES = sorted(
-    entry.name for entry in files("viscontact.examples").iterdir() if entry.name.endswith(".yaml")
+    entry.name
+    for entry in files("viscontact.case.examples").iterdir()
+    if entry.name.endswith(".yaml")
 )
 
 
@@ -105,7 +107,7 @@ def test_ten_fields_with_first_and_last_are_kept_by_default(tmp_path: Path) -> N
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_shipped_case_is_valid_and_documented(name: str) -> None:
-    with as_file(files("viscontact.examples") / name) as path:  # data may lie beside it
+    with as_file(files("viscontact.case.examples") / name) as path:  # data may lie beside it
         text, case = path.read_text(encoding="utf-8"), read_case(path)
     assert case.title
     assert text.startswith("# yaml-language-server: $schema=viscontact.schema.json\n")

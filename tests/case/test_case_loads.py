@@ -12,7 +12,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.case import Case, CaseError, case_schema, read_case
-from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 
 CASE: dict[str, Any] = {
     "indenter": {"shape": "sphere", "radius": "10 mm"},

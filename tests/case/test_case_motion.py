@@ -10,12 +10,12 @@ import pytest
 from tests.case.test_case_loads import problem, read
 
 import viscontact as vc
+from viscontact.bodies.loads.motion import STANDING
 from viscontact.case import Case, case_schema
 from viscontact.cli.entry import main
-from viscontact.loads.motion import STANDING
 from viscontact.report.inputs import inputs
 from viscontact.results.summary import summary_scalars
-from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.transient.setup import prepare_run
 
 GRID = {"shape": [16, 24], "size": ["1.6 mm", "2.4 mm"]}
 TRAVEL = {"kind": "travel", "points": [["0 s", "0 mm"], ["2 s", "1 mm"]]}

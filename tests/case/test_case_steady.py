@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from viscontact.bodies.loads.motion import STANDING
 from viscontact.case import CaseError, case_schema, read_case
-from viscontact.loads.motion import STANDING
 
 CASE = """\
 indenter: {shape: paraboloid, radius_x: 10 mm, radius_y: 10 mm}

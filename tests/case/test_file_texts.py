@@ -24,7 +24,7 @@ from viscontact.case.time_grid_output import (
 )
 from viscontact.case.tolerances import nominal
 from viscontact.case.unknown_words import meanings, unknown_word
-from viscontact.time_integration.requested_times import adaptive_times
+from viscontact.mechanics.time_integration.requested_times import adaptive_times
 
 
 def test_diameter_is_half_as_a_radius_to_the_digit():

@@ -22,19 +22,19 @@ import openpyxl
 import pytest
 
 import viscontact as vc
+from viscontact.backend.errors import ConvergenceError
 from viscontact.case import read_case
 from viscontact.cli import main
 from viscontact.cli.results import figures
 from viscontact.cli.run import execution
 from viscontact.cli.terminal import progress
-from viscontact.errors import ConvergenceError
-from viscontact.halfspace.stress_response import HalfSpaceStress
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.halfspace.stress_response import HalfSpaceStress
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.results.formatting import format_percent
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.preparation import prepared
 from viscontact.runs.processes.request import RunRequest
-from viscontact.simulation import stepper
+from viscontact.simulation.transient import stepper
 from viscontact.units.formatting import format_quantity
 
 SPHERE = """\

@@ -14,7 +14,7 @@ from viscontact.cli import main
 from viscontact.cli.sweep import checks
 from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.cli.sweep.request import ManyRequest
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep.manifest import SweepRun, read_manifest

@@ -14,8 +14,8 @@ import xarray as xr
 
 import viscontact as vc
 from interrupted_runs import CASE, COUNT, Killed, folder, same_bits, whole
-from viscontact.accuracy import coarser_runs
 from viscontact.cli import main
+from viscontact.simulation.accuracy import coarser_runs
 
 __all__ = ["folder", "whole"]  # fixtures
 

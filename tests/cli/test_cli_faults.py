@@ -23,7 +23,7 @@ from viscontact.runs import over_time
 from viscontact.runs.directory import checkpoint, recorder
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.simulation import stepper
+from viscontact.simulation.transient import stepper
 
 __all__ = ["folder", "whole"]  # fixtures
 

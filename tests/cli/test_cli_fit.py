@@ -9,10 +9,10 @@ import openpyxl
 import pytest
 
 from viscontact import reference
+from viscontact.bodies.materials.material import Material
 from viscontact.case import read_material
 from viscontact.cli import main
 from viscontact.laws import WLF, Maxwell, RelaxationSeries
-from viscontact.materials.material import Material
 
 T = np.geomspace(0.1, 100.0, 25)
 E = RelaxationSeries(1e9, [2e9, 1e9], [1.0, 30.0])

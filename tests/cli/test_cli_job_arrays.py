@@ -17,7 +17,7 @@ import pytest
 import xarray as xr
 
 from viscontact.cli import main
-from viscontact.run_files import (
+from viscontact.results.run_files import (
     FAILURE_NAME,
     MANIFEST_NAME,
     PROGRESS_NAME,

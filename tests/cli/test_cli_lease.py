@@ -10,7 +10,7 @@ import xarray as xr
 
 from interrupted_runs import at_instant, contents, folder, kill, same_bits, whole
 from viscontact.cli import main
-from viscontact.run_files import LOCK_NAME
+from viscontact.results.run_files import LOCK_NAME
 from viscontact.runs.directory import lock
 from viscontact.runs.directory.lease_file import header
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import viscontact as vc
+from viscontact.bodies.materials import library
 from viscontact.cli import main
-from viscontact.materials import library
 
 ZENER = """\
 material:

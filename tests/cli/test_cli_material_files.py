@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.bodies.materials import library
 from viscontact.case import read_case, read_material
 from viscontact.cli import main
 from viscontact.cli.material.material_files import MaterialOptions, find_material
 from viscontact.laws import SeriesLaw
-from viscontact.materials import library
 
 RELAXATION = "t,E_relax\ns,MPa\n1,3000\n10,2400\n100,1500\n"
 # As an instrument writes that begins with the slowest cycle.

@@ -12,7 +12,7 @@ import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.sweep import single_task
 from viscontact.cli.terminal.messages import INTERRUPTED, stop
-from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep.manifest import read_manifest
 

@@ -36,7 +36,7 @@ from viscontact.runs.directory import recorded, recorder
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.execution import checked_run
-from viscontact.simulation import stepper
+from viscontact.simulation.transient import stepper
 
 __all__ = ["folder", "whole"]  # fixtures
 
@@ -235,7 +235,7 @@ def test_earlier_result_stays_until_the_new_run_has_its_first_instant(
 
     heavier = ["--set", "load={kind: step, force: 5 N}", "-q"]
     with monkeypatch.context() as patched:
-        patched.setattr("viscontact.simulation.stepper.solve_contact", die)
+        patched.setattr("viscontact.simulation.transient.stepper.solve_contact", die)
         with pytest.raises(Killed):
             main(["run", "case.yaml", "--overwrite", *heavier])
     assert contents("case") == before

@@ -18,7 +18,7 @@ import xarray as xr
 import viscontact as vc
 from swept_runs import sweep_of
 from viscontact.cli import main
-from viscontact.run_files import FAILURE_NAME, STATE_NAME
+from viscontact.results.run_files import FAILURE_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
 
 SCANNED = """\

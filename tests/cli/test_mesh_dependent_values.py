@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from figures.figure_data import figures_in
+from drawing.plotly.figure_data import figures_in
 from viscontact.cli import main
 from viscontact.plot import FIGURES
 from viscontact.report import report_page

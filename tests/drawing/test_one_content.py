@@ -12,10 +12,10 @@ from synthetic_sweeps import hertz_sweep
 from viscontact import plot
 from viscontact.drawing.content.history import drawn_scalars, history_panel
 from viscontact.drawing.content.loop import Loop, cycle_panel
-from viscontact.figures.friction import friction
-from viscontact.figures.histories import histories
-from viscontact.figures.indentation_fits import fit_over_time, force_over_approach
-from viscontact.figures.responses import responses
+from viscontact.drawing.plotly.friction import friction
+from viscontact.drawing.plotly.histories import histories
+from viscontact.drawing.plotly.indentation_fits import fit_over_time, force_over_approach
+from viscontact.drawing.plotly.responses import responses
 from viscontact.identification import IndentationRecord, fit_indentation
 from viscontact.indenters import Sphere
 from viscontact.results.variables import SCALARS

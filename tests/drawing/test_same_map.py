@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from synthetic_results import ellipse
 from viscontact import plot
 from viscontact.drawing.content.map import Maps, maps_over
-from viscontact.figures.parts import plain
-from viscontact.figures.pressure_map import pressure_map as interactive_map
-from viscontact.notebook.pressure_map import map_drawing
+from viscontact.drawing.plotly.parts import plain
+from viscontact.drawing.plotly.pressure_map import pressure_map as interactive_map
+from viscontact.drawing.svg.pressure_map import map_drawing
 
 FloatArray = NDArray[np.float64]
 

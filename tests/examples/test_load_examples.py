@@ -106,7 +106,7 @@ def test_roller_that_is_held_approaches_as_an_elastic_one_of_its_compliance(
     "name", ["sphere-load-unload", "afm-indentation", "punch-harmonic", "roller-sentences"]
 )
 def test_example_says_what_to_look_at(name: str) -> None:
-    text = (files("viscontact.examples") / f"{name}.yaml").read_text(encoding="utf-8")
+    text = (files("viscontact.case.examples") / f"{name}.yaml").read_text(encoding="utf-8")
     assert "viscontact plot my" in text
     assert "viscontact run my.yaml" in text
 

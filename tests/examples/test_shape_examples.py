@@ -65,6 +65,6 @@ def test_depth_of_a_held_pyramid_grows_with_the_root_of_the_compliance(tmp_path:
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example_says_what_to_look_at(name: str) -> None:
-    text = (files("viscontact.examples") / f"{name}.yaml").read_text(encoding="utf-8")
+    text = (files("viscontact.case.examples") / f"{name}.yaml").read_text(encoding="utf-8")
     for line in ("viscontact check my.yaml --plot", "viscontact run my.yaml", "viscontact plot my"):
         assert line in text

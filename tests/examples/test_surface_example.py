@@ -15,7 +15,7 @@ from viscontact.cli import main
 
 
 def test_patch_is_what_its_note_says() -> None:
-    source = files("viscontact.examples") / "rough-patch.npz"
+    source = files("viscontact.case.examples") / "rough-patch.npz"
     with as_file(source) as file:
         assert file.stat().st_size < 100_000
         patch = vc.read_surface(file)

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 import viscontact as vc
 from fuzzing import junk
 from fuzzing.damage import damaged
+from viscontact.bodies.materials.cards import Card, write_abaqus, write_ansys
 from viscontact.laws import WLF
-from viscontact.materials.cards import Card, write_abaqus, write_ansys
 
 _UNITS = {"modulus_unit": "MPa", "time_unit": "s", "temperature_unit": "degC"}
 _SERIES = Card(

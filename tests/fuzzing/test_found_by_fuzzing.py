@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.bodies.materials.cards import read_card
 from viscontact.case import CaseError, read_case
 from viscontact.case.loads.sentences import read_sentences, split_sentences
 from viscontact.cli import main
-from viscontact.materials.cards import read_card
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.time_integration.fixed_steps import MAX_STEPS, plan_steps
 from viscontact.runs import preparation
 from viscontact.runs.forecast import forecast
-from viscontact.simulation.setup import prepare_run
-from viscontact.time_integration.fixed_steps import MAX_STEPS, plan_steps
+from viscontact.simulation.transient.setup import prepare_run
 from viscontact.units.parsing import parse_quantity
 
 #: Each of these took minutes, or would have taken hours; now they take tenths of a second [s].

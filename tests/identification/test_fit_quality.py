@@ -7,14 +7,14 @@ import warnings
 import numpy as np
 import pytest
 
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.series_fits.columns import positive_column
+from viscontact.bodies.series_fits.conventions import bulk_arguments
+from viscontact.bodies.series_fits.quality import Reason
+from viscontact.bodies.series_fits.weights import given_weights
 from viscontact.case import read_material
-from viscontact.errors import AccuracyWarning
 from viscontact.identification import Fit, fit_dynamic, fit_relaxation, material_section
 from viscontact.laws import RelaxationSeries
-from viscontact.series_fits.columns import positive_column
-from viscontact.series_fits.conventions import bulk_arguments
-from viscontact.series_fits.quality import Reason
-from viscontact.series_fits.weights import given_weights
 
 OMEGA = np.geomspace(1e-4, 1e4, 49)
 T = np.geomspace(1e-3, 1e5, 49)

@@ -9,11 +9,11 @@ from scipy.optimize import brentq
 from scipy.stats import t as student
 
 from viscontact import AccuracyWarning, reference
+from viscontact.bodies.materials.material import Material
 from viscontact.case import read_material
 from viscontact.identification import IndentationRecord, fit_indentation, material_section
 from viscontact.indenters import Cone, FlatPunch, Paraboloid, Sphere
 from viscontact.laws import Elastic, Maxwell, PowerLaw, Zener
-from viscontact.materials.material import Material
 
 RADIUS, NU = 5e-6, 0.45
 SPHERE = Sphere(RADIUS)

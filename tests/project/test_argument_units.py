@@ -8,7 +8,7 @@ import typing
 
 import pytest
 
-from viscontact.loads.history import Control
+from viscontact.bodies.loads.history import Control
 from viscontact.results.descriptions import STORED_CLASSES
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.numbers import unit_of

@@ -48,7 +48,7 @@ def test_map_names_the_rooms_of_each_floor_and_folders_within_them() -> None:
         if indent == "    ":
             assert all((PACKAGE / floors[-1][-1] / each).is_dir() for each in names.split(", "))
         else:
-            floors[-1].append(names)
+            floors[-1] += names.split(", ")
     assert [sorted(floor) for floor in floors] == [sorted(floor) for floor in FLOORS]
 
 
@@ -71,4 +71,4 @@ def test_name_is_in_its_file(name: str, path: str) -> None:
 def test_paths_and_names_are_read_from_the_page() -> None:
     assert len(PATHS) > 50
     assert len(NAMES) > 15
-    assert ("solve_contact", "contact/equilibrium.py") in NAMES
+    assert ("solve_contact", "mechanics/contact/equilibrium.py") in NAMES

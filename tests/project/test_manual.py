@@ -83,7 +83,7 @@ def test_a_source_links_back_to_the_package_that_documents_a_name() -> None:
     page = "../reference/generated/viscontact.identification.MasterCurve.html"
     relinked = extension("docstrings").linked_back(f"{page}#viscontact.MasterCurve.fit_wlf")
     assert relinked == f"{page}#viscontact.identification.MasterCurve.fit_wlf"
-    name = "viscontact.accuracy.richardson.richardson"
+    name = "viscontact.simulation.accuracy.richardson.richardson"
     same = f"../generated/{name}.html#{name}"
     assert extension("docstrings").linked_back(same) == same
 

@@ -15,7 +15,7 @@ import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.shell import command_for
 
-EXAMPLES = Path(viscontact.__file__).parent / "examples"
+EXAMPLES = Path(viscontact.__file__).parent / "case" / "examples"
 CASE = EXAMPLES / "roller-dogbone-e05.yaml"
 # Not pydantic, which newer versions of Typer read options with.
 HEAVY = ("numpy", "scipy", "xarray", "netCDF4", "pint", "matplotlib")
@@ -33,7 +33,7 @@ COMPUTES = (
 
 FIRST_STEP = """
 from viscontact.cli import main
-from viscontact.simulation.stepper import Stepper
+from viscontact.simulation.transient.stepper import Stepper
 
 class FirstStep(BaseException):
     pass

@@ -38,13 +38,14 @@ ds = vc.simulate(
 vc.simulate(ball, rubber, vc.ramp(0.1, 1.0), times=[0, 1, 2], fields="none")
 reveal_type(vc.simulate(ball, rubber, vc.step(0.1)))  # reveals: xarray.core.dataset.Dataset
 for state in vc.march(ball, rubber, vc.step(0.1), times=np.linspace(0.0, 1.0, 5)):
-    reveal_type(state)  # reveals: viscontact.state.ContactState
+    reveal_type(state)  # reveals: viscontact.mechanics.state.ContactState
     reveal_type(state.approach)  # reveals: float
 reveal_type(law(1.0))  # reveals: float
 reveal_type(law([1, 2]))  # reveals: numpy.ndarray[tuple[Any, ...], numpy.dtype[numpy.float64]]
 reveal_type(law.complex_modulus(1.0))  # reveals: complex
 reveal_type(vc.read_table("creep.csv"))  # reveals: viscontact.tables.table.Table
-reveal_type(vc.Surface(np.zeros((8, 8)), 1e-6))  # reveals: viscontact.surfaces.surface.Surface
+surface = vc.Surface(np.zeros((8, 8)), 1e-6)
+reveal_type(surface)  # reveals: viscontact.bodies.surfaces.surface.Surface
 reveal_type(vc.plot.pressure_map(ds, times=[5.0]))  # reveals: matplotlib.figure.Figure
 reveal_type(vc.reference.hertz_sphere(10.0, 0.01, 2e9).approach)  # reveals: float
 vc.save(ds, "result.nc")

@@ -15,7 +15,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.case import CaseError, read_case
 from viscontact.cli import main
-from viscontact.notebook.html import written
+from viscontact.drawing.svg.html import written
 from viscontact.report import report_page
 from viscontact.report.inputs import Input, inputs
 from viscontact.report.measured import measured_figure, measured_lines

@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.notebook.html import written
+from viscontact.drawing.svg.html import written
 from viscontact.report.input_chapters import material_chapter
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")

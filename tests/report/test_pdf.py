@@ -16,7 +16,7 @@ import viscontact as vc
 from synthetic_sweeps import hertz_sweep
 from viscontact import plot
 from viscontact.cli import main
-from viscontact.notebook.html import element
+from viscontact.drawing.svg.html import element
 from viscontact.report import pdf
 from viscontact.report.pdf import write_pdf, write_sweep_pdf
 from viscontact.report.pdf_content import blocks

@@ -17,16 +17,16 @@ import xarray as xr
 from ruamel.yaml import YAML
 
 import viscontact as vc
-from figures.figure_data import Data, array_of, shown_at, title_of
+from drawing.plotly.figure_data import Data, array_of, shown_at, title_of
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.section import section
-from viscontact.figures.histories import history, panel_names
-from viscontact.figures.parts import plain
-from viscontact.figures.pressure_map import MOST_CELLS, pressure_map
-from viscontact.notebook.html import as_script
+from viscontact.drawing.plotly.histories import history, panel_names
+from viscontact.drawing.plotly.parts import plain
+from viscontact.drawing.plotly.pressure_map import MOST_CELLS, pressure_map
+from viscontact.drawing.svg.html import as_script
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.inputs import inputs

@@ -18,7 +18,7 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 import viscontact as vc
-from figures.figure_data import Data, array_of, figures_in, shown_at, title_of, unit_of
+from drawing.plotly.figure_data import Data, array_of, figures_in, shown_at, title_of, unit_of
 from synthetic_results import (
     ELLIPSE_AXES,
     ELLIPSE_MIDDLE,

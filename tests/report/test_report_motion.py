@@ -10,16 +10,16 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact import plot
+from viscontact.bodies.loads.motion import Motion
 from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.section import section
-from viscontact.figures.histories import history, panel_names
-from viscontact.figures.loops import loops
-from viscontact.figures.pressure_map import pressure_map
-from viscontact.figures.sections import draw_section
-from viscontact.loads.motion import Motion
-from viscontact.notebook.result_overview import result_overview
+from viscontact.drawing.plotly.histories import history, panel_names
+from viscontact.drawing.plotly.loops import loops
+from viscontact.drawing.plotly.pressure_map import pressure_map
+from viscontact.drawing.plotly.sections import draw_section
+from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.report.page import report_page
 from viscontact.report.section_csv import lines_csv
 

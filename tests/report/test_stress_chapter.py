@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 import viscontact as vc
-from viscontact.notebook.html import written
+from viscontact.drawing.svg.html import written
 from viscontact.report.stress_chapter import stress_chapter, stress_text
 from viscontact.results.peak_stress import PeakStress, peak_stress
 

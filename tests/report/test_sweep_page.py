@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from figures.figure_data import figures_in
+from drawing.plotly.figure_data import figures_in
 from synthetic_sweeps import hertz_sweep
 from viscontact.report import sweep_page, write_sweep_report
 from viscontact.report.sweep_page import MOST_ROWS

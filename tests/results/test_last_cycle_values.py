@@ -15,7 +15,7 @@ from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
 from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import loops_of
-from viscontact.figures.loops import loops
+from viscontact.drawing.plotly.loops import loops
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
 from viscontact.results.last_cycle_values import last_cycle, worst_notes, worst_places

@@ -8,10 +8,10 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact import plot
-from viscontact.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
-from viscontact.halfspace.layered_stress import LayeredStress
-from viscontact.halfspace.stress import stress_on_plane, stress_on_section
-from viscontact.problem.stress_history import stress_history
+from viscontact.mechanics.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
+from viscontact.mechanics.halfspace.layered_stress import LayeredStress
+from viscontact.mechanics.halfspace.stress import stress_on_plane, stress_on_section
+from viscontact.mechanics.problem.stress_history import stress_history
 
 GRID = vc.Grid((32, 32), (0.5e-3, 0.5e-3))
 STIFF = vc.Material(vc.Elastic(160e9), poisson_ratio=0.25)

@@ -23,7 +23,6 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 import viscontact as vc
-from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main
 from viscontact.cli.run.summary import print_summary
 from viscontact.plot import COMPARISONS, FIGURES
@@ -32,6 +31,7 @@ from viscontact.report.accuracy import error_rows
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.summary import headline, summary_rows
 from viscontact.results.variables import SCALARS, scalars_of, scalars_with_error
+from viscontact.simulation.accuracy.error_models import ERROR_MODELS
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}

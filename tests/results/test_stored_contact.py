@@ -7,11 +7,11 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from viscontact.mechanics.state import FIELD_NAMES
 from viscontact.results.snapshots import take_snapshots
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.results.stored_result import stored_result
 from viscontact.results.variables import FIELDS
-from viscontact.state import FIELD_NAMES
 
 RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
 

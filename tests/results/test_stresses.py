@@ -8,7 +8,7 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact import plot
-from viscontact.halfspace.stress import stress_on_section
+from viscontact.mechanics.halfspace.stress import stress_on_section
 from viscontact.results.recorded_case import recorded_grid
 
 GRID = vc.Grid((40, 40), (2.6e-3, 2.6e-3))

@@ -14,15 +14,13 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.accuracy.coarser_results import history_of
-from viscontact.accuracy.error_bars import ZERO_WITHOUT_CONTACT
-from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main
 from viscontact.cli.sweep.table import print_table
-from viscontact.figures.histories import histories, panel_names
-from viscontact.notebook.result_overview import result_overview
+from viscontact.drawing.plotly.histories import histories, panel_names
+from viscontact.drawing.svg.result_overview import result_overview
+from viscontact.mechanics.problem.kept_fields import NO_FIELDS
+from viscontact.mechanics.state import ContactState
 from viscontact.plot import history
-from viscontact.problem.kept_fields import NO_FIELDS
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
 from viscontact.results import variables
@@ -43,7 +41,9 @@ from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.state import ContactState
+from viscontact.simulation.accuracy.coarser_results import history_of
+from viscontact.simulation.accuracy.error_bars import ZERO_WITHOUT_CONTACT
+from viscontact.simulation.accuracy.error_models import ERROR_MODELS
 from viscontact.web.runs.live_scalars import grown
 
 EVERYWHERE = ~Place.NOWHERE
@@ -177,7 +177,7 @@ def test_older_result_is_shown_without_the_new_scalar(
 ) -> None:
     # Pictures of the bodies show no scalars; of the others, no pixels are counted here.
     monkeypatch.setattr("viscontact.report.drawings.as_svg", lambda figure: b"<svg/>")
-    monkeypatch.setattr("viscontact.plot.layout.saving._DOTS_PER_INCH", 30)
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 30)
     files = [str(tmp_path / name) for name in ("result.nc", "newer.nc")]
     for run, file in zip((older, extended), files, strict=True):
         vc.save(run, file)

@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.problem.arguments import contact_problem
+from viscontact.mechanics.problem.arguments import contact_problem
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.solving import solve
-from viscontact.simulation.setup import prepare_run
-from viscontact.steady_motion.preparation import prepare
-from viscontact.steady_motion.problem import steady_problem
+from viscontact.simulation.steady_motion.preparation import prepare
+from viscontact.simulation.steady_motion.problem import steady_problem
+from viscontact.simulation.transient.setup import prepare_run
 
 RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
 BALL, LEVEL = vc.Sphere(0.01), vc.step(0.1, tilt_x=0.0, tilt_y=0.0)

@@ -13,9 +13,9 @@ from viscontact.runs.resources import PROGRAM
 #: A creeping sphere on many cells; the memory of the process before and after a run on a few.
 RUN = """
 import viscontact as vc
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.resources import run_memory
-from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.transient.setup import prepare_run
 
 def resident(key):
     lines = open("/proc/self/status").read().splitlines()

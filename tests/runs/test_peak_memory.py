@@ -12,7 +12,7 @@ import pytest
 import viscontact as vc
 from viscontact.cli import main
 
-CASE = Path(vc.__file__).parent / "examples" / "roller-dogbone-e05.yaml"
+CASE = Path(vc.__file__).parent / "case" / "examples" / "roller-dogbone-e05.yaml"
 
 #: Of the process itself: what its parent had before it began does not count here.
 RUN = """

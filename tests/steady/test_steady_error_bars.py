@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.steady_motion.error_bars import WITH_ERROR
+from viscontact.simulation.steady_motion.error_bars import WITH_ERROR
 
 COMPLIANCE, RADIUS, FORCE, TIME = 1 / 2000, 10.0, 10.0, 10.0
 

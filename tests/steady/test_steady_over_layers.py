@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.resources import curve_memory
 from viscontact.runs.steady_forecast import steady_forecast
-from viscontact.steady_motion.preparation import SteadySetup, prepare
-from viscontact.steady_motion.problem import steady_problem
+from viscontact.simulation.steady_motion.preparation import SteadySetup, prepare
+from viscontact.simulation.steady_motion.problem import steady_problem
 
 RUBBER = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.45)
 CORE = vc.Material(vc.Elastic(50e6), poisson_ratio=0.3)

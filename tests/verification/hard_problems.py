@@ -15,7 +15,7 @@ import viscontact as vc
 from verification.hard_bodies import hard_body
 from viscontact.laws import SeriesLaw
 from viscontact.loads import LoadPoint
-from viscontact.meshing.elastic_estimate import estimate_contact
+from viscontact.simulation.meshing.elastic_estimate import estimate_contact
 
 #: Cells of a grid, about; and least and most of them along a side.
 CELLS, FEWEST, MOST = 1600, 12, 400

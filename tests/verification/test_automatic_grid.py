@@ -12,10 +12,10 @@ import pytest
 
 import viscontact as vc
 from viscontact import reference
-from viscontact.meshing import mesh_choice as meshes
-from viscontact.meshing.refinement import TRIAL_TOLERANCE_SHARE
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import prepare_run
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.meshing import mesh_choice as meshes
+from viscontact.simulation.meshing.refinement import TRIAL_TOLERANCE_SHARE
+from viscontact.simulation.transient.setup import prepare_run
 
 STIFF = vc.Material(vc.Elastic(1e9), 0.4)
 #: J(inf)/J(0) = 10.

@@ -16,13 +16,13 @@ import pytest
 
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
-from viscontact.accuracy.coarser_results import history_of
-from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
-from viscontact.accuracy.error_bars import error_bars, error_bars_from
-from viscontact.accuracy.singular_peaks import SINGULAR
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import prepare_run
-from viscontact.simulation.state_generator import march_run
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.accuracy.coarser_results import history_of
+from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
+from viscontact.simulation.accuracy.error_bars import error_bars, error_bars_from
+from viscontact.simulation.accuracy.singular_peaks import SINGULAR
+from viscontact.simulation.transient.setup import prepare_run
+from viscontact.simulation.transient.state_generator import march_run
 
 COVERED, MEDIAN = 0.95, 5.0  # what the bars promise
 COVERED_EACH = 0.90  # of each quantity by itself

@@ -8,9 +8,9 @@ from scipy.optimize import brentq
 
 import viscontact as vc
 from viscontact import reference
-from viscontact.problem.problem import Problem
-from viscontact.simulation.march import March
-from viscontact.simulation.setup import prepare_run
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.setup import prepare_run
 
 RADIUS, THICKNESS = 0.01, 1e-3
 SHEAR, RATIO, TIME = 2e6, 5.0, 0.5

@@ -13,12 +13,12 @@ import viscontact as vc
 from verification.creeping_bodies import BODIES
 from verification.indenting import deviation
 from verification.pressing import BALL, FORCE, RADIUS, grid_around, over_time
-from viscontact.materials.compliance import SeriesCompliance
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import prepare_run
-from viscontact.time_integration import plan as choice
-from viscontact.time_integration.boltzmann_sum import BoltzmannSum
-from viscontact.time_integration.internal_variables import InternalVariables
+from viscontact.bodies.materials.compliance import SeriesCompliance
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.time_integration import plan as choice
+from viscontact.mechanics.time_integration.boltzmann_sum import BoltzmannSum
+from viscontact.mechanics.time_integration.internal_variables import InternalVariables
+from viscontact.simulation.transient.setup import prepare_run
 
 
 @st.composite

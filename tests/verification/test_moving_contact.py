@@ -11,17 +11,17 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.accuracy.coarser_runs import plan_coarser_runs
-from viscontact.checks.motion import left_after
-from viscontact.contact.resistance import resistance_by_displacement
-from viscontact.grid import AutomaticGrid
-from viscontact.problem.kept_fields import NO_FIELDS
-from viscontact.problem.problem import Problem
+from viscontact.bodies.grid import AutomaticGrid
+from viscontact.mechanics.contact.resistance import resistance_by_displacement
+from viscontact.mechanics.problem.kept_fields import NO_FIELDS
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
-from viscontact.simulation import setup
-from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.accuracy.coarser_runs import plan_coarser_runs
+from viscontact.simulation.checks.motion import left_after
+from viscontact.simulation.transient import setup
+from viscontact.simulation.transient.setup import prepare_run
 
 #: A Zener body that relaxes from 2000 to 200 with a retardation time of 10; J = Phi for nu = 0.
 J0, J1, TIME = 1 / 2000, 1 / 200 - 1 / 2000, 10.0
@@ -167,7 +167,7 @@ def test_work_of_a_cycle_that_ends_unloaded_is_heat() -> None:
 
 
 def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) -> None:
-    import viscontact.simulation.stepper as stepper
+    import viscontact.simulation.transient.stepper as stepper
 
     counts, solve = [], stepper.solve_contact
 

@@ -11,7 +11,7 @@ import pytest
 import viscontact as vc
 from verification.pressing import BALL, ELASTIC, MODULUS, RADIUS, order
 from viscontact import reference
-from viscontact.halfspace.stress import stress_on_section
+from viscontact.mechanics.halfspace.stress import stress_on_section
 from viscontact.reference import full_contact_pressure, westergaard
 
 WAVE, HEIGHT = 1e-3, 1e-6  # wavelength and amplitude [m]

@@ -5,11 +5,11 @@ import pytest
 from scipy.optimize import brentq
 
 import viscontact as vc
-from viscontact.problem.problem import Problem
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.reference import layer_sphere, slow_friction_coefficient
-from viscontact.steady_motion.preparation import prepare
-from viscontact.steady_motion.problem import steady_problem
-from viscontact.steady_motion.state import resistance_of
+from viscontact.simulation.steady_motion.preparation import prepare
+from viscontact.simulation.steady_motion.problem import steady_problem
+from viscontact.simulation.steady_motion.state import resistance_of
 
 from .rolling_strip import bonded, on_core, rolling_strip
 

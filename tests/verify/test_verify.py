@@ -8,10 +8,10 @@ from functools import partial
 import numpy as np
 import pytest
 
+from viscontact.backend.errors import ConvergenceError
+from viscontact.bodies.materials.material import Material
 from viscontact.cli import main
-from viscontact.errors import ConvergenceError
 from viscontact.laws import Zener
-from viscontact.materials.material import Material
 from viscontact.verify import CASES, Case, Comparison, Quantity, run_cases, write_table
 from viscontact.verify.case import observed_order, run_case
 from viscontact.verify.creeping import G, all_bodies, zener

@@ -199,7 +199,9 @@ def test_a_file_that_was_given_is_read(client: TestClient) -> None:
 
 
 def test_every_example_is_there_and_can_be_run(client: TestClient) -> None:
-    shipped = {path.stem for path in (Path(vc.__file__).parent / "examples").glob("*.yaml")}
+    shipped = {
+        path.stem for path in (Path(vc.__file__).parent / "case" / "examples").glob("*.yaml")
+    }
     examples = client.get("/api/examples").json()
     assert {each["name"] for each in examples} == shipped
     for each in examples:
@@ -327,7 +329,7 @@ def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path:
 def test_spectrum_of_a_measured_surface_is_drawn_below_its_shape(
     missing: bool, client: TestClient
 ) -> None:
-    examples = files("viscontact.examples")
+    examples = files("viscontact.case.examples")
     given = np.load(io.BytesIO((examples / "rough-patch.npz").read_bytes()))
     arrays = {name: np.array(given[name]) for name in given.files}
     if missing:

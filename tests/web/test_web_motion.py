@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
-from viscontact.run_files import PROGRESS_NAME
+from viscontact.results.run_files import PROGRESS_NAME
 from viscontact.web.runs.live_scalars import grown
 from web.calculator_page import CASE, asking
 

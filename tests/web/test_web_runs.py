@@ -21,7 +21,7 @@ import pytest
 import xarray as xr
 from fastapi.testclient import TestClient
 
-from figures.figure_data import array_of
+from drawing.plotly.figure_data import array_of
 from viscontact.cli import main
 from viscontact.drawing.content.look import LIGHT
 from viscontact.results.run_axis import TIME

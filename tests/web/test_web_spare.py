@@ -16,8 +16,8 @@ import pytest
 import xarray as xr
 from fastapi.testclient import TestClient
 
+from viscontact.backend.errors import AccuracyWarning
 from viscontact.cli import main
-from viscontact.errors import AccuracyWarning
 from viscontact.web import calculator, first_use
 from viscontact.web.runs import queue
 from viscontact.web.workspace.folder import Folder

@@ -12,10 +12,10 @@ import pytest
 from fastapi.testclient import TestClient
 
 import viscontact as vc
-from figures.figure_data import array_of
+from drawing.plotly.figure_data import array_of
 from viscontact import reference
 from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
-from viscontact.run_files import RESULT_NAME
+from viscontact.results.run_files import RESULT_NAME
 from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.folder import Folder
 from viscontact.web.workspace.pictures import PictureChoice, comparison_of, figure_of

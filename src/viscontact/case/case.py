@@ -7,17 +7,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from viscontact.bodies.loads.steady_motion import SteadyMotion
+from viscontact.bodies.series_fits.fit import Fit
+from viscontact.bodies.surfaces import Surface
 from viscontact.case.document import Document
 from viscontact.case.error_messages import object_problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
-from viscontact.display import Displayable, DisplayableGroup
-from viscontact.loads.steady_motion import SteadyMotion
-from viscontact.problem.problem import Problem
-from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.series_fits.fit import Fit
-from viscontact.surfaces import Surface
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.tables import split_sheet
+from viscontact.units.display import Displayable, DisplayableGroup
 from viscontact.units.formatting import format_quantity
 
 #: Files of a run other than its case; names with a leading dot are reserved as well.

@@ -10,7 +10,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from viscontact import loads
+from viscontact.bodies import loads
+from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case.data_file import DataFile
 from viscontact.case.quantities import (
     CycleCount,
@@ -23,8 +25,6 @@ from viscontact.case.quantities import (
     SpeedCount,
 )
 from viscontact.case.section_choice import ChosenBy
-from viscontact.loads.motion import Motion
-from viscontact.loads.steady_motion import SteadyMotion
 from viscontact.tables import read_rows, read_table
 
 #: Columns of a table of the path.

@@ -11,15 +11,15 @@ from typing import Any, TypeVar
 
 from pydantic import TypeAdapter
 
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
 from viscontact.case.document import document_of
 from viscontact.case.indenters.shapes import Shapes, combined
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.materials.layers import AnyBody
 from viscontact.case.time_grid_output import Time
-from viscontact.indenters import Indenter
-from viscontact.loads import LoadHistory
-from viscontact.materials.layers import Layered
-from viscontact.materials.material import Material
 
 #: Kinds of the sections that are read here.
 _KINDS: dict[str, Any] = {

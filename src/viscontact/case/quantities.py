@@ -17,9 +17,12 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from viscontact.grid import COARSEST, FINEST
-from viscontact.loads.harmonic import MOST_CYCLES
-from viscontact.time_integration.requested_times import COARSEST_TIME_ERROR, FINEST_TIME_ERROR
+from viscontact.bodies.grid import COARSEST, FINEST
+from viscontact.bodies.loads.harmonic import MOST_CYCLES
+from viscontact.mechanics.time_integration.requested_times import (
+    COARSEST_TIME_ERROR,
+    FINEST_TIME_ERROR,
+)
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import parse_quantity
 

@@ -10,6 +10,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.series_fits.fit import Fit
 from viscontact.case.case import Case
 from viscontact.case.document import Document, as_written, document_of, read_document
 from viscontact.case.error_messages import corrected, problem
@@ -21,9 +23,7 @@ from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, is_steady
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
-from viscontact.loads.motion import STANDING, Motion
-from viscontact.problem.kept_fields import KeptFields
-from viscontact.series_fits.fit import Fit
+from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.tables import split_sheet
 
 # Largest number of problems that are reported.

@@ -8,6 +8,10 @@ from typing import Annotated, Any
 from pydantic import Field, model_validator
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.indenters.shapes import Shapes
@@ -17,13 +21,9 @@ from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.case.title_block import TitleBlock
-from viscontact.grid import Grid
-from viscontact.loads import LoadHistory
-from viscontact.loads.motion import Motion
-from viscontact.loads.steady_motion import SteadyMotion, constant_load
-from viscontact.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
-from viscontact.time_integration.moving_times import CellTimes, moving_times
-from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.mechanics.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
+from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.dimensions import DIMENSIONS
 

@@ -9,13 +9,13 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from viscontact.bodies.materials import library
+from viscontact.bodies.materials.material import Material
 from viscontact.case.document import Document, read_document, with_section
 from viscontact.case.error_messages import problem
 from viscontact.case.errors import CaseError
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.material import MaterialAlone
-from viscontact.materials import library
-from viscontact.materials.material import Material
 
 
 def shipped_material(name: str) -> Material:

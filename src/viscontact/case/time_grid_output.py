@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from viscontact import grid
 from viscontact.backend.arrays import Floats
+from viscontact.bodies import grid
 from viscontact.case.quantities import (
     CellCount,
     Duration,
@@ -22,8 +22,8 @@ from viscontact.case.quantities import (
     StepCount,
     TimeTolerance,
 )
-from viscontact.time_integration.moving_times import CellTimes
-from viscontact.time_integration.requested_times import (
+from viscontact.mechanics.time_integration.moving_times import CellTimes
+from viscontact.mechanics.time_integration.requested_times import (
     AdaptiveTimes,
     adaptive_times,
     log_times,

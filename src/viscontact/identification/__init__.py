@@ -1,5 +1,8 @@
 """Identification of laws from creep, relaxation, oscillation and indentation measurements."""
 
+from viscontact.bodies.series_fits.fit import Fit
+from viscontact.bodies.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.bodies.series_fits.quality import Misfit, Reason
 from viscontact.identification.contact_point import ContactPoint, find_contact
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.indentation import fit_indentation
@@ -14,9 +17,6 @@ from viscontact.identification.master_curve import (
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.section import material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
-from viscontact.series_fits.fit import Fit
-from viscontact.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
-from viscontact.series_fits.quality import Misfit, Reason
 
 __all__ = [
     "ContactPoint",

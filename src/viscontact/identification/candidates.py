@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscontact import laws
 from viscontact.backend.arrays import Floats
+from viscontact.bodies import laws
 
 
 @dataclass(frozen=True)

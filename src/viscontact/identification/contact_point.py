@@ -8,9 +8,9 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.indenters import Indenter
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.record import IndentationRecord, elastic_force
-from viscontact.indenters import Indenter
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
 
@@ -46,7 +46,7 @@ class ContactPoint:
     Examples
     --------
     >>> from viscontact.identification.contact_point import deflection_in_contact
-    >>> from viscontact.indenters import Sphere
+    >>> from viscontact.bodies.indenters import Sphere
     >>> z = np.linspace(0.0, 3e-6, 301)
     >>> bent = deflection_in_contact(Sphere(5e-6), 1e4, 0.1, z - 2e-6)
     >>> found = find_contact(ForceCurve(z, z, 1e-8 + 0.001 * z + bent, 0.1), Sphere(5e-6))

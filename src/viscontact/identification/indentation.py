@@ -12,12 +12,12 @@ from scipy.special import stdtrit
 
 from viscontact import reference
 from viscontact.backend.arrays import Floats
-from viscontact.errors import AccuracyWarning
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.laws import Elastic
+from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate, candidate
 from viscontact.identification.indentation_fit import IndentationFit, compared
 from viscontact.identification.record import IndentationRecord
-from viscontact.laws import Elastic
-from viscontact.materials.material import Material
 from viscontact.units.numbers import whole
 
 _ELEMENTS = 60  # relative error of the force about 1e-4, far below the scatter of any record
@@ -87,8 +87,8 @@ def fit_indentation(
 
     Examples
     --------
-    >>> from viscontact.indenters import Sphere
-    >>> from viscontact.laws import Elastic
+    >>> from viscontact.bodies.indenters import Sphere
+    >>> from viscontact.bodies.laws import Elastic
     >>> d = 1e-6 * np.concatenate([np.linspace(0, 1, 11), np.linspace(0.9, 0, 10)])
     >>> force = 16 / 3 * 2e6 * np.sqrt(5e-6) * d**1.5  # Hertz, nu = 0.5: 8/3 G R^0.5 2 d^1.5
     >>> record = IndentationRecord(Sphere(5e-6), np.linspace(0, 2, 21), d, force)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.display import Displayable
+from viscontact.bodies.laws import Law
+from viscontact.bodies.materials.material import Material
 from viscontact.identification.record import IndentationRecord
-from viscontact.laws import Law
-from viscontact.materials.material import Material
+from viscontact.units.display import Displayable
 from viscontact.units.formatting import format_quantity
 
 _TOUCH = 0.05  # of the largest force: smaller ones may be scatter without contact
@@ -47,7 +47,7 @@ class IndentationFit(Displayable):
     Examples
     --------
     >>> from viscontact.identification import fit_indentation
-    >>> from viscontact.indenters import Sphere
+    >>> from viscontact.bodies.indenters import Sphere
     >>> depth = 1e-6 * np.linspace(0.0, 1.0, 11)
     >>> force = 16 / 3 * 2e6 * np.sqrt(5e-6) * depth**1.5  # Hertz with G = 2 MPa, nu = 0.5
     >>> record = IndentationRecord(Sphere(5e-6), np.linspace(0.0, 1.0, 11), depth, force)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.display import Displayable
+from viscontact.bodies.series_fits.columns import positive_column, require_rows
 from viscontact.identification.overlap import Curve
-from viscontact.series_fits.columns import positive_column, require_rows
+from viscontact.units.display import Displayable
 
 #: Columns of each kind of test, and whether the first one rises with time.
 KINDS_OF_TEST = ((("compliance",), True), (("modulus",), False), (("storage", "loss"), False))

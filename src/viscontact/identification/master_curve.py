@@ -10,15 +10,15 @@ from typing import Unpack
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.display import Displayable
+from viscontact.bodies.laws import Shift, TabulatedShift
+from viscontact.bodies.series_fits.columns import positive_column, require_trend
+from viscontact.bodies.series_fits.fit import Fit
+from viscontact.bodies.series_fits.prony import FitOptions
+from viscontact.bodies.series_fits.table_fit import fit_measured
 from viscontact.identification.isotherm import KINDS_OF_TEST, Isotherm
 from viscontact.identification.overlap import log_shift
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
-from viscontact.laws import Shift, TabulatedShift
-from viscontact.series_fits.columns import positive_column, require_trend
-from viscontact.series_fits.fit import Fit
-from viscontact.series_fits.prony import FitOptions
-from viscontact.series_fits.table_fit import fit_measured
+from viscontact.units.display import Displayable
 
 _OWNER = "build_master_curve"
 # Tolerance for a warmer set that is slower than a colder one by scatter.
@@ -137,7 +137,7 @@ def build_master_curve(
 
     Examples
     --------
-    >>> from viscontact.laws import WLF, RelaxationSeries
+    >>> from viscontact.bodies.laws import WLF, RelaxationSeries
     >>> law, rule = RelaxationSeries(1e6, [1e9], [10.0]), WLF(293.15, 12.0, 70.0)
     >>> t = np.geomspace(0.01, 10.0, 16)
     >>> sets = [

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.display import Displayable
-from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
+from viscontact.units.display import Displayable
 from viscontact.units.formatting import format_quantity
 
 _LEAST_ROWS = 5

@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import fields
 from textwrap import wrap
 
-from viscontact.identification.indentation_fit import IndentationFit
-from viscontact.laws import (
+from viscontact.bodies.laws import (
     Burgers,
     CreepSeries,
     Elastic,
@@ -18,7 +17,8 @@ from viscontact.laws import (
     RelaxationSeries,
     Zener,
 )
-from viscontact.series_fits.fit import Fit
+from viscontact.bodies.series_fits.fit import Fit
+from viscontact.identification.indentation_fit import IndentationFit
 
 _DIGITS = 6
 
@@ -41,7 +41,7 @@ def material_section(fit: Fit | IndentationFit) -> str:
     Examples
     --------
     >>> import numpy as np
-    >>> from viscontact.series_fits.prony import fit_relaxation
+    >>> from viscontact.bodies.series_fits.prony import fit_relaxation
     >>> t = np.geomspace(0.1, 100.0, 20)
     >>> fit = fit_relaxation(t, 1e9 + 2e9 * np.exp(-t / 5.0), data="uniaxial", poisson_ratio=0.4)
     >>> print(material_section(fit))

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
 from viscontact.backend.arrays import Floats
-from viscontact.laws import WLF, Arrhenius
-from viscontact.laws.time_temperature import GAS_CONSTANT
-from viscontact.series_fits.columns import positive_column, require_rows
+from viscontact.bodies.laws import WLF, Arrhenius
+from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
+from viscontact.bodies.series_fits.columns import positive_column, require_rows
 
 # Starting values: the universal constants.
 _UNIVERSAL = (17.44, 51.6)

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.notebook.html import element
+from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import remark, text_table
 from viscontact.results.formatting import format_percent, format_with_error
 from viscontact.results.stated_errors import errors_of

@@ -10,12 +10,12 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.notebook.html import element
-from viscontact.plot.histories.history import compare_histories
-from viscontact.plot.pressure.line_load import compare_line_loads
-from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles
-from viscontact.plot.sweeps.trade_off import trade_off
-from viscontact.plot.sweeps.trials import parameters_of, trials
+from viscontact.drawing.matplotlib.histories.history import compare_histories
+from viscontact.drawing.matplotlib.pressure.line_load import compare_line_loads
+from viscontact.drawing.matplotlib.pressure.pressure_profile import compare_pressure_profiles
+from viscontact.drawing.matplotlib.sweeps.trade_off import trade_off
+from viscontact.drawing.matplotlib.sweeps.trials import parameters_of, trials
+from viscontact.drawing.svg.html import element
 from viscontact.report.creep_gains import gains_over_a_year, relative_change
 from viscontact.report.page_elements import (
     drawn_figure,

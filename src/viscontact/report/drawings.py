@@ -10,16 +10,16 @@ from xml.etree.ElementTree import Element
 import xarray as xr
 from matplotlib.figure import Figure
 
-from viscontact.indenters import Indenter
-from viscontact.laws import Elastic
-from viscontact.materials.layers import creeping_laws
-from viscontact.notebook.curves import law_drawings
-from viscontact.notebook.html import element
-from viscontact.notebook.shapes import indenter_drawings
-from viscontact.notebook.stack import stack_drawing
-from viscontact.plot import creep_curve, draw_indenter, friction
-from viscontact.plot.layout.saving import as_svg
-from viscontact.plot.materials.creep import curve_times
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.laws import Elastic
+from viscontact.bodies.materials.layers import creeping_laws
+from viscontact.drawing.matplotlib import creep_curve, draw_indenter, friction
+from viscontact.drawing.matplotlib.layout.saving import as_svg
+from viscontact.drawing.matplotlib.materials.creep import curve_times
+from viscontact.drawing.svg.curves import law_drawings
+from viscontact.drawing.svg.html import element
+from viscontact.drawing.svg.shapes import indenter_drawings
+from viscontact.drawing.svg.stack import stack_drawing
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times

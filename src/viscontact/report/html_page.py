@@ -11,8 +11,8 @@ from plotly.graph_objects import Figure
 from plotly.offline import get_plotlyjs
 
 from viscontact import __version__
-from viscontact.figures.parts import plain
-from viscontact.notebook.html import as_script, element, written
+from viscontact.drawing.plotly.parts import plain
+from viscontact.drawing.svg.html import as_script, element, written
 
 
 def html_page(title: str, parts: Iterable[Element], figures: Sequence[Figure] = ()) -> str:

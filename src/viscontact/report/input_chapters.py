@@ -14,7 +14,7 @@ import scipy
 import xarray as xr
 
 from viscontact import __version__
-from viscontact.notebook.html import element
+from viscontact.drawing.svg.html import element
 from viscontact.report import accuracy, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.report.measured import measured_lines
@@ -24,10 +24,10 @@ from viscontact.results.citation import citations
 from viscontact.results.filed_case import FiledCase
 from viscontact.results.formatting import format_scalar
 from viscontact.results.run_axis import SPEED, run_axis
+from viscontact.results.run_files import CASE_NAME
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.summary import legend
 from viscontact.results.variables import SCALARS
-from viscontact.run_files import CASE_NAME
 from viscontact.units.formatting import format_quantity
 
 

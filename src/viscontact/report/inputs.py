@@ -12,8 +12,8 @@ import xarray as xr
 from viscontact.results.argument_table import argument_rows
 from viscontact.results.filed_case import FiledCase
 from viscontact.results.recorded_case import case_of
+from viscontact.results.run_files import CASE_NAME, RESULT_NAME
 from viscontact.results.typed_rows import typed_rows
-from viscontact.run_files import CASE_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
 
 _PARTS = {

@@ -9,10 +9,10 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.materials.layers import named_parts
+from viscontact.bodies.materials.layers import named_parts
+from viscontact.mechanics.state import Outcome
 from viscontact.results.recorded_case import case_of, is_layered, recorded_object
 from viscontact.results.run_axis import creep_times, run_axis
-from viscontact.state import Outcome
 from viscontact.units.formatting import format_number, format_quantity
 
 

@@ -10,9 +10,9 @@ from xml.etree.ElementTree import Element
 import xarray as xr
 from matplotlib.figure import Figure
 
-from viscontact.notebook.html import element
-from viscontact.plot.layout import style
-from viscontact.plot.layout.log_time import label_log_time
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.log_time import label_log_time
+from viscontact.drawing.svg.html import element
 from viscontact.report.drawings import BODIES, drawn
 from viscontact.report.page_elements import remark
 from viscontact.results.filed_case import FiledCase

@@ -12,11 +12,11 @@ import xarray as xr
 from plotly.graph_objects import Figure
 
 from viscontact.drawing.content.map import Maps, maps_if_any
-from viscontact.figures.histories import histories
-from viscontact.figures.loops import loops
-from viscontact.figures.pressure_map import outlines, pressure_map
-from viscontact.figures.sections import sections
-from viscontact.notebook.html import element
+from viscontact.drawing.plotly.histories import histories
+from viscontact.drawing.plotly.loops import loops
+from viscontact.drawing.plotly.pressure_map import outlines, pressure_map
+from viscontact.drawing.plotly.sections import sections
+from viscontact.drawing.svg.html import element
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.html_page import html_page
 from viscontact.report.spots_chapter import spots_chapter

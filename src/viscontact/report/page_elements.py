@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from viscontact.notebook.html import element
-from viscontact.plot.layout import style
-from viscontact.plot.layout.saving import as_svg
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.saving import as_svg
+from viscontact.drawing.svg.html import element
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import error_name
 

@@ -17,8 +17,7 @@ from matplotlib import get_data_path
 from matplotlib.figure import Figure
 
 from viscontact import __version__
-from viscontact.notebook.html import element
-from viscontact.plot import (
+from viscontact.drawing.matplotlib import (
     contact_outline,
     hysteresis,
     line_load,
@@ -26,7 +25,8 @@ from viscontact.plot import (
     pressure_map,
     pressure_profile,
 )
-from viscontact.plot.histories.history import history_with_load
+from viscontact.drawing.matplotlib.histories.history import history_with_load
+from viscontact.drawing.svg.html import element
 from viscontact.report import result_chapters
 from viscontact.report.drawings import drawn
 from viscontact.report.page import run_chapters

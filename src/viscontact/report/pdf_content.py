@@ -23,7 +23,7 @@ def blocks(part: Element) -> Iterator[dict[str, Any]]:
 
     Examples
     --------
-    >>> from viscontact.notebook.html import element
+    >>> from viscontact.drawing.svg.html import element
     >>> list(blocks(element("section", element("h2", "Load"), element("p", "#sum [1 N]"))))
     [{'kind': 'heading', 'level': 2, 'text': 'Load'}, \
 {'kind': 'text', 'faint': False, 'text': '#sum [1 N]'}]

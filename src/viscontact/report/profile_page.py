@@ -9,8 +9,8 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.notebook.html import element
-from viscontact.plot.sweeps.profiles import profiles
+from viscontact.drawing.matplotlib.sweeps.profiles import profiles
+from viscontact.drawing.svg.html import element
 from viscontact.report.creep_gains import gains_over_a_year
 from viscontact.report.design_page import before_and_after
 from viscontact.report.page_elements import drawn_figure, listed_notes, text_table, value_cell

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from viscontact.indenters import HeightMap
+from viscontact.bodies.indenters import HeightMap
 
 
 def is_left_out(described: Any) -> bool:

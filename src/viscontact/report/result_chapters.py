@@ -16,9 +16,9 @@ from plotly.graph_objects import Figure
 from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Lines, line_load, section
-from viscontact.figures.histories import LINEAR, LOGARITHMIC
-from viscontact.figures.pressure_map import map_remarks
-from viscontact.notebook.html import element
+from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC
+from viscontact.drawing.plotly.pressure_map import map_remarks
+from viscontact.drawing.svg.html import element
 from viscontact.report.limits import notices
 from viscontact.report.page_elements import remark
 from viscontact.report.section_csv import lines_csv

@@ -9,9 +9,9 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.notebook.html import element
-from viscontact.plot.sweeps.scatter_bands import scatter_bands
-from viscontact.plot.sweeps.tornado import tornado
+from viscontact.drawing.matplotlib.sweeps.scatter_bands import scatter_bands
+from viscontact.drawing.matplotlib.sweeps.tornado import tornado
+from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import (
     drawn_figure,
     facts,

@@ -8,8 +8,8 @@ from xml.etree.ElementTree import Element
 
 import xarray as xr
 
-from viscontact.notebook.html import element
-from viscontact.plot import contact_spots
+from viscontact.drawing.matplotlib import contact_spots
+from viscontact.drawing.svg.html import element
 from viscontact.report.drawings import drawn
 from viscontact.results.contact_spots import last_spots
 

@@ -8,8 +8,8 @@ from xml.etree.ElementTree import Element
 
 import xarray as xr
 
-from viscontact.notebook.html import element
-from viscontact.plot import stress_section
+from viscontact.drawing.matplotlib import stress_section
+from viscontact.drawing.svg.html import element
 from viscontact.report.drawings import drawn
 from viscontact.results.formatting import format_with_error
 from viscontact.results.peak_stress import PeakStress, peak_stress

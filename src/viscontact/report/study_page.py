@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 from plotly.graph_objects import Figure
 
 from viscontact import __version__
-from viscontact.notebook.html import element
+from viscontact.drawing.svg.html import element
 from viscontact.report.html_page import html_page
 from viscontact.report.page_elements import remark
 

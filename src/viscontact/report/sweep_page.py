@@ -11,9 +11,9 @@ import numpy as np
 import xarray as xr
 from plotly.graph_objects import Figure
 
-from viscontact.figures.responses import responses
-from viscontact.notebook.html import element
-from viscontact.plot.sweeps.response import response
+from viscontact.drawing.matplotlib.sweeps.response import response
+from viscontact.drawing.plotly.responses import responses
+from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import drawn_figure, facts, listed, remark, stacked_table
 from viscontact.report.result_chapters import heading_of, panel
 from viscontact.report.study_page import StudyPage

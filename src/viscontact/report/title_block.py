@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 import xarray as xr
 
-from viscontact.notebook.html import element
+from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import remark
 from viscontact.results.filed_case import FiledCase, started_at
 

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 import xarray as xr
 
-from viscontact.plot.histories.margins import margin_history
+from viscontact.drawing.matplotlib.histories.margins import margin_history
 from viscontact.report.page_elements import drawn_figure, remark, stacked_table
 from viscontact.results.run_axis import run_axis
 from viscontact.results.verdicts import Verdict, verdicts

@@ -6,7 +6,7 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.display import Displayable, result_explorer, result_plots
+from viscontact.units.display import Displayable, result_explorer, result_plots
 
 
 @xr.register_dataset_accessor("viscontact")

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.laws import Law
-from viscontact.loads import LoadHistory, LoadProgram
-from viscontact.loads.motion import Motion
+from viscontact.bodies.laws import Law
+from viscontact.bodies.loads import LoadHistory, LoadProgram
+from viscontact.bodies.loads.motion import Motion
 from viscontact.results.descriptions import STORED_CLASSES, rebuild
 from viscontact.units.formatting import format_quantity
 

@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.state import ContactState
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
@@ -23,7 +24,6 @@ from viscontact.results.variables import (
     scalar_attributes,
     scalars_of,
 )
-from viscontact.state import ContactState
 
 
 def to_dataset(

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from viscontact import indenters, laws, loads
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.materials.layers import Layer, Layered
-from viscontact.materials.material import Material
+from viscontact.bodies import indenters, laws, loads
+from viscontact.bodies.grid import AutomaticGrid, Grid
+from viscontact.bodies.materials.layers import Layer, Layered
+from viscontact.bodies.materials.material import Material
 from viscontact.units.axis_flags import AxisFlags
 
 _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from viscontact.backend.arrays import Field, Floats
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.state import ContactState
 from viscontact.results.variables import FIELDS
-from viscontact.state import ContactState
 from viscontact.units.formatting import format_quantity
 
 

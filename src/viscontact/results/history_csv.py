@@ -9,11 +9,11 @@ from typing import IO
 
 import xarray as xr
 
+from viscontact.mechanics.state import Outcome
 from viscontact.results.margins import margins
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import field_times
 from viscontact.results.variables import SCALARS, error_name
-from viscontact.state import Outcome
 from viscontact.units.formatting import format_quantity
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
 from viscontact.results.descriptions import STORED_CLASSES, parse_case, rebuild
 from viscontact.units.axis_flags import AxisFlags
 

@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Field, Floats
-from viscontact.contact.body_edge import Outline
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.body_edge import Outline
 from viscontact.results.run_axis import TIME, RunAxis
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.formatting import format_quantity

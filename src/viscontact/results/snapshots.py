@@ -10,8 +10,8 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.contact.body_edge import Outline, trace_outline
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.body_edge import Outline, trace_outline
 from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot

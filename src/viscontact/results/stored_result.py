@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, Union
 import netCDF4
 import numpy as np
 
-from viscontact.run_files import RESULT_NAME
+from viscontact.results.run_files import RESULT_NAME
 
 if TYPE_CHECKING:
     import xarray as xr

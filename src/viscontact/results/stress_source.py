@@ -12,17 +12,17 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.halfspace.elastic_stack import ElasticStack
-from viscontact.halfspace.layered_stress import LayeredStress
-from viscontact.halfspace.stack_waves import interface_depths
-from viscontact.halfspace.stress import Stress, stress_on_plane, stress_on_section
-from viscontact.halfspace.stress_lines import Progress, part_of
-from viscontact.halfspace.stress_response import HalfSpaceStress, StressResponse
-from viscontact.materials.layers import Layered
-from viscontact.problem.series_body import ANY_TIMES, span_of
-from viscontact.problem.stress_history import StressHistory, stress_history
-from viscontact.problem.surface import as_elastic
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.materials.layers import Layered
+from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
+from viscontact.mechanics.halfspace.layered_stress import LayeredStress
+from viscontact.mechanics.halfspace.stack_waves import interface_depths
+from viscontact.mechanics.halfspace.stress import Stress, stress_on_plane, stress_on_section
+from viscontact.mechanics.halfspace.stress_lines import Progress, part_of
+from viscontact.mechanics.halfspace.stress_response import HalfSpaceStress, StressResponse
+from viscontact.mechanics.problem.series_body import ANY_TIMES, span_of
+from viscontact.mechanics.problem.stress_history import StressHistory, stress_history
+from viscontact.mechanics.problem.surface import as_elastic
 from viscontact.results.recorded_case import (
     is_layered,
     recorded_grid,

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.grid import Grid
-from viscontact.halfspace.stress import Stress
-from viscontact.halfspace.stress_influence import COMPONENTS
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.halfspace.stress import Stress
+from viscontact.mechanics.halfspace.stress_influence import COMPONENTS
 from viscontact.results.recorded_case import across_period
 from viscontact.results.stress_source import Body, stress_source
 
@@ -66,9 +66,9 @@ def section_stresses(
     Notes
     -----
     For a constant Poisson's ratio the stresses follow from the present pressure alone, whatever
-    the body remembers: see `viscontact.halfspace.stress`. In layers that creep differently they
-    follow from its history, in terms whose relative error is the attribute ``splitting_error``:
-    the pressure of all instants from time 0 on has to be stored.
+    the body remembers: see `viscontact.mechanics.halfspace.stress`. In layers that creep
+    differently they follow from its history, in terms whose relative error is the attribute
+    ``splitting_error``: the pressure of all instants from time 0 on has to be stored.
 
     Examples
     --------

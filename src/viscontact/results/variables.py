@@ -1,8 +1,8 @@
 """The table of a result's variables: units, names, labels, errors, and where each is shown.
 
 A new scalar is one entry of `SCALARS`, with an attribute of the same name in `ContactState` and,
-if it has an error bar, its model in `viscontact.accuracy.error_models.ERROR_MODELS`. The dataset,
-the netCDF and CSV files, the tables, cards, pages and figures read the table.
+if it has an error bar, its model in `viscontact.simulation.accuracy.error_models.ERROR_MODELS`. The
+dataset, the netCDF and CSV files, the tables, cards, pages and figures read the table.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.state import Outcome
+from viscontact.mechanics.state import Outcome
 
 
 class Place(Flag):

@@ -8,17 +8,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
 
-from viscontact.accuracy.coarser_results import History
-from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.problem.kept_fields import KeptFields
-from viscontact.problem.problem import Problem
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.problem.kept_fields import KeptFields
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.descriptions import describe
 from viscontact.results.run_axis import RunAxis
 from viscontact.runs.forecast import Forecast
-from viscontact.state import ContactState, Outcome
-from viscontact.time_integration.restart_data import RestartData
+from viscontact.simulation.accuracy.coarser_results import History
+from viscontact.simulation.accuracy.error_bars import ErrorBars
 
 
 class States(Protocol):

@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.checks.half_space_theory import SINGULAR_KINDS
-from viscontact.checks.mesh import WARNING_CELLS
-from viscontact.grid import Grid
-from viscontact.loads import LoadHistory, MixedHistory
-from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadHistory, MixedHistory
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
+from viscontact.simulation.checks.half_space_theory import SINGULAR_KINDS
+from viscontact.simulation.checks.mesh import WARNING_CELLS
+from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
 from viscontact.units.formatting import format_number, format_quantity
 
 #: Ends of the body up to this multiple of the grid are drawn as well.

@@ -6,23 +6,28 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscontact.checks.contact_geometry import Geometry
-from viscontact.checks.half_space_theory import (
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.checks.contact_geometry import Geometry
+from viscontact.simulation.checks.half_space_theory import (
     body_warnings,
     corner_warnings,
     strain_warnings,
     warnings_of_covers,
 )
-from viscontact.checks.material import (
+from viscontact.simulation.checks.material import (
     data_warnings,
     early_warnings,
 )
-from viscontact.checks.sampling import Sampling, local_approach, map_warnings, texture_warnings
-from viscontact.checks.singularities import strain_of
-from viscontact.meshing.elastic_estimate import ContactEstimate
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import RunSetup
-from viscontact.simulation.warning_rules import (
+from viscontact.simulation.checks.sampling import (
+    Sampling,
+    local_approach,
+    map_warnings,
+    texture_warnings,
+)
+from viscontact.simulation.checks.singularities import strain_of
+from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.warning_rules import (
     contact_change_warnings,
     geometry_of,
     setup_warnings,

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscontact.accuracy.coarser_runs import usual_coarsening
 from viscontact.backend.transforms import fast_length
-from viscontact.grid import Grid
-from viscontact.loads import LoadPoint, MixedHistory
-from viscontact.meshing.contact_place import locate_contact
-from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
-from viscontact.problem.problem import Problem
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadPoint, MixedHistory
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import run_memory
-from viscontact.simulation.setup import RunSetup
+from viscontact.simulation.accuracy.coarser_runs import usual_coarsening
+from viscontact.simulation.meshing.contact_place import locate_contact
+from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
+from viscontact.simulation.transient.setup import RunSetup
 
 #: Time of the first and of each later step at tolerance 1e-6, in times of a plain convolution, and
 #: the overhead of a step [s]; measured on the shipped rollers and spheres.
@@ -51,8 +51,8 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
     Examples
     --------
     >>> import viscontact as vc
-    >>> from viscontact.problem.problem import Problem
-    >>> from viscontact.simulation.setup import prepare_run
+    >>> from viscontact.mechanics.problem.problem import Problem
+    >>> from viscontact.simulation.transient.setup import prepare_run
     >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((64, 64), (2e-3, 2e-3))
     >>> run = prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(0.1), grid))

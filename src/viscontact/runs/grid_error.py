@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from viscontact.simulation.setup import RunSetup
+from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_number, format_quantity
 
 #: Loads from this fraction of the largest one on count as the largest.

@@ -6,26 +6,26 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from viscontact.accuracy.coarser_results import History
-from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.problem.problem import Problem
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.run_axis import SPEED
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.resources import curve_memory
 from viscontact.runs.steady_forecast import curve_seconds, steady_forecast
-from viscontact.state import ContactState
-from viscontact.steady_motion.curve import SteadyCurve
-from viscontact.steady_motion.preparation import SteadySetup
-from viscontact.steady_motion.record import (
+from viscontact.simulation.accuracy.coarser_results import History
+from viscontact.simulation.accuracy.error_bars import ErrorBars
+from viscontact.simulation.steady_motion.curve import SteadyCurve
+from viscontact.simulation.steady_motion.preparation import SteadySetup
+from viscontact.simulation.steady_motion.record import (
     describe_steady_problem,
     errors_by_name,
     on_grid,
     steady_attributes,
 )
-from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from viscontact.accuracy.coarser_results import History
-from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.problem.problem import Problem
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.run_axis import TIME
 from viscontact.runs.analysis import Analysis
@@ -17,11 +17,11 @@ from viscontact.runs.forecast import Forecast, forecast, run_seconds
 from viscontact.runs.grid_error import grid_error_rows
 from viscontact.runs.progress_made import progress_made
 from viscontact.runs.resources import run_memory
-from viscontact.simulation.march import March
-from viscontact.simulation.provenance import describe_problem, run_attributes
-from viscontact.simulation.setup import RunSetup
-from viscontact.state import ContactState
-from viscontact.time_integration.restart_data import RestartData
+from viscontact.simulation.accuracy.coarser_results import History
+from viscontact.simulation.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.provenance import describe_problem, run_attributes
+from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
 

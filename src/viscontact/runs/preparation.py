@@ -5,19 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.bodies.grid import Grid
 from viscontact.case import Case
-from viscontact.errors import ConvergenceError, DomainError
-from viscontact.grid import Grid
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.resources import least_memory
-from viscontact.simulation.found_events import carried_out
-from viscontact.simulation.setup import prepare_run
-from viscontact.steady_motion.preparation import prepare
-from viscontact.steady_motion.problem import steady_problem
+from viscontact.simulation.steady_motion.preparation import prepare
+from viscontact.simulation.steady_motion.problem import steady_problem
+from viscontact.simulation.transient.found_events import carried_out
+from viscontact.simulation.transient.setup import prepare_run
 from viscontact.units.formatting import format_number
 
 

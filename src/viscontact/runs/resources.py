@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import accumulate
 
-from viscontact.grid import Grid
-from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.simulation.setup import RunSetup
-from viscontact.steady_motion.preparation import SteadySetup
-from viscontact.time_integration.boltzmann_sum import BLOCK_STEPS
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
+from viscontact.mechanics.time_integration.boltzmann_sum import BLOCK_STEPS
+from viscontact.simulation.steady_motion.preparation import SteadySetup
+from viscontact.simulation.transient.setup import RunSetup
 
 #: Memory of the program [bytes]. It takes 120 to 190 MB, since the buffers of the linear algebra
 #: library differ between processors.
@@ -96,8 +96,8 @@ def least_memory(
 ) -> float:
     """Lower bound of the memory of a run [bytes], known before it is set up.
 
-    >>> from viscontact.laws import Zener
-    >>> from viscontact.materials.material import Material
+    >>> from viscontact.bodies.laws import Zener
+    >>> from viscontact.bodies.materials.material import Material
     >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber.contact_compliance()) / 1e6)
     374

@@ -9,21 +9,21 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.checks.arguments import unusual_radius
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.indenters import Indenter
-from viscontact.loads import LoadHistory, LoadProgram
-from viscontact.loads.motion import Motion
-from viscontact.materials.layers import Layered
-from viscontact.materials.material import Material
-from viscontact.problem.arguments import contact_problem
+from viscontact.bodies.grid import AutomaticGrid, Grid
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.loads import LoadHistory, LoadProgram
+from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.problem.arguments import contact_problem
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.solving import solve
-from viscontact.simulation.found_events import carried_out
-from viscontact.simulation.progress_bar import ProgressBar, reported
-from viscontact.simulation.setup import prepare_run
-from viscontact.simulation.state_generator import Progress
-from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.simulation.checks.arguments import unusual_radius
+from viscontact.simulation.transient.found_events import carried_out
+from viscontact.simulation.transient.progress_bar import ProgressBar, reported
+from viscontact.simulation.transient.setup import prepare_run
+from viscontact.simulation.transient.state_generator import Progress
 
 
 def simulate(  # noqa: PLR0913

@@ -9,14 +9,14 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.accuracy.coarser_results import history_of
-from viscontact.accuracy.error_bars import ErrorBars
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.mechanics.state import ContactState
 from viscontact.results.dataset import to_dataset
 from viscontact.runs.analysis import Analysis
-from viscontact.simulation.provenance import date_and_time
-from viscontact.simulation.state_generator import Progress
-from viscontact.state import ContactState
+from viscontact.simulation.accuracy.coarser_results import history_of
+from viscontact.simulation.accuracy.error_bars import ErrorBars
+from viscontact.simulation.transient.provenance import date_and_time
+from viscontact.simulation.transient.state_generator import Progress
 
 #: Frames between a warning and the caller of `simulate` or `steady`.
 _CALLER = 3

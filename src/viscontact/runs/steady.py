@@ -8,18 +8,18 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.indenters import Indenter
-from viscontact.loads import LoadHistory
-from viscontact.materials.layers import Layered
-from viscontact.materials.material import Material
-from viscontact.problem.arguments import contact_problem
+from viscontact.bodies.grid import AutomaticGrid, Grid
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.problem.arguments import contact_problem
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.solving import solve
-from viscontact.simulation.progress_bar import ProgressBar, reported
-from viscontact.simulation.state_generator import Progress
-from viscontact.steady_motion.preparation import prepare
-from viscontact.steady_motion.problem import steady_problem
+from viscontact.simulation.steady_motion.preparation import prepare
+from viscontact.simulation.steady_motion.problem import steady_problem
+from viscontact.simulation.transient.progress_bar import ProgressBar, reported
+from viscontact.simulation.transient.state_generator import Progress
 
 
 def steady(  # noqa: PLR0913

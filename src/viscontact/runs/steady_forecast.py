@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 
-from viscontact.checks.half_space_theory import warnings_of_covers
-from viscontact.grid import Grid
-from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
+from viscontact.bodies.grid import Grid
 from viscontact.runs.forecast import Forecast, convolution_time
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import curve_memory
-from viscontact.steady_motion.curve import geometry_of, run_warnings
-from viscontact.steady_motion.preparation import SteadySetup, estimate_at
+from viscontact.simulation.checks.half_space_theory import warnings_of_covers
+from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
+from viscontact.simulation.steady_motion.curve import geometry_of, run_warnings
+from viscontact.simulation.steady_motion.preparation import SteadySetup, estimate_at
 from viscontact.units.formatting import format_quantity
 
 #: Time at a speed in times of a plain convolution on its grid, with that of the coarser contact,

@@ -1,1 +1,1 @@
-"""The simulation: checked set-up, time stepper, observer, grid enlargement."""
+"""Runs over time and over speed: checks, grids, marches, error bars."""

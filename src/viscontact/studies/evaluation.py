@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Literal, Protocol
 
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.studies.executors.chosen import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
 from viscontact.studies.journal import Journal
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
 
 #: Errors below this are due to the solver's tolerance and have no order.
 SOLVED = 1e-8

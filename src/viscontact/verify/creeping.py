@@ -17,7 +17,7 @@ import numpy as np
 from scipy.special import erfcx
 
 from viscontact.backend.arrays import Floats
-from viscontact.laws import (
+from viscontact.bodies.laws import (
     Burgers,
     CreepSeries,
     Elastic,
@@ -30,7 +30,7 @@ from viscontact.laws import (
     TabulatedRelaxation,
     Zener,
 )
-from viscontact.materials.material import Material
+from viscontact.bodies.materials.material import Material
 
 TimeFunction = Callable[[Floats], Floats]
 

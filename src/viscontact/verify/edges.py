@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from viscontact import reference
-from viscontact.grid import Grid
-from viscontact.indenters import FlatPunch, Roller
-from viscontact.loads import step
-from viscontact.state import ContactState
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import FlatPunch, Roller
+from viscontact.bodies.loads import step
+from viscontact.mechanics.state import ContactState
 from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 from viscontact.verify.elastic import BODY, MODULUS
 from viscontact.verify.indentation import FORCE, press

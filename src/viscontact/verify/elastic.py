@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from viscontact import reference
-from viscontact.grid import Grid
-from viscontact.indenters import Cone, FlatPunch, Paraboloid, Roller
-from viscontact.laws import Elastic
-from viscontact.loads import step
-from viscontact.materials.material import Material
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Cone, FlatPunch, Paraboloid, Roller
+from viscontact.bodies.laws import Elastic
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.material import Material
 from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 from viscontact.verify.indentation import BALL, FORCE, RADIUS, grid_around, press
 

@@ -12,13 +12,13 @@ from functools import partial
 import numpy as np
 
 from viscontact import reference
-from viscontact.grid import Grid
-from viscontact.indenters import FlatPunch, Roller
-from viscontact.laws import CreepSeries, Elastic
-from viscontact.loads import ForceHistory, harmonic, step
-from viscontact.loads.history import Control
-from viscontact.materials.material import Material
-from viscontact.time_integration.requested_times import log_times
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import FlatPunch, Roller
+from viscontact.bodies.laws import CreepSeries, Elastic
+from viscontact.bodies.loads import ForceHistory, harmonic, step
+from viscontact.bodies.loads.history import Control
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, fractional_zener, tabulated_creep, zener
 from viscontact.verify.indentation import FORCE, RADIUS, CaseRun, press, press_ball

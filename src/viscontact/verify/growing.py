@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from viscontact import reference
-from viscontact.loads import ramp, step
-from viscontact.time_integration.requested_times import log_times
+from viscontact.bodies.loads import ramp, step
+from viscontact.mechanics.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history
 from viscontact.verify.creeping import CreepingBody, all_bodies, maxwell, zener
 from viscontact.verify.indentation import FORCE, RADIUS, press_ball

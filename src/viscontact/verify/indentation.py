@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.indenters import Indenter, Paraboloid
-from viscontact.loads import LoadHistory
-from viscontact.materials.layers import Layered
-from viscontact.materials.material import Material
-from viscontact.simulation.state_generator import march
-from viscontact.state import ContactState, Outcome
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Indenter, Paraboloid
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.simulation.transient.state_generator import march
 
 RADIUS, FORCE = 0.01, 10.0  # of the ball [m], on it [N]
 BALL = Paraboloid(RADIUS, RADIUS)  # Hertz's sphere is a paraboloid

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from viscontact import reference
-from viscontact.laws import Zener
-from viscontact.loads import step
-from viscontact.materials.layers import Layer, Layered
-from viscontact.materials.material import Material
+from viscontact.bodies.laws import Zener
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.layers import Layer, Layered
+from viscontact.bodies.materials.material import Material
 from viscontact.reference import LayerContact
 from viscontact.verify.case import Case, Comparison, Quantity, single
 from viscontact.verify.indentation import RADIUS, grid_around, press

@@ -8,12 +8,12 @@ import numpy as np
 from scipy.integrate import quad
 
 from viscontact import reference
-from viscontact.grid import Grid
-from viscontact.indenters import Paraboloid, Swept
-from viscontact.laws import Zener
-from viscontact.loads import step
-from viscontact.materials.material import Material
-from viscontact.simulation.state_generator import march
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Paraboloid, Swept
+from viscontact.bodies.laws import Zener
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.material import Material
+from viscontact.simulation.transient.state_generator import march
 from viscontact.verify.case import Case, Comparison, Quantity, history, single, with_mean_error
 from viscontact.verify.elastic import BODY, MODULUS
 

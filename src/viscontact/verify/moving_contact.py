@@ -7,12 +7,12 @@ import math
 import numpy as np
 
 from viscontact import reference
-from viscontact.grid import Grid
-from viscontact.indenters import Paraboloid, Waviness
-from viscontact.laws import CreepSeries
-from viscontact.loads import ForceHistory, Travel, reciprocating, step
-from viscontact.materials.material import Material
-from viscontact.simulation.state_generator import march
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Paraboloid, Waviness
+from viscontact.bodies.laws import CreepSeries
+from viscontact.bodies.loads import ForceHistory, Travel, reciprocating, step
+from viscontact.bodies.materials.material import Material
+from viscontact.simulation.transient.state_generator import march
 from viscontact.verify.case import Case, Comparison, Quantity, single
 
 _INSTANT, _DELAYED, _TIME = 5e-10, 4.5e-9, 10.0  # J0, J1 [1/Pa] and retardation time [s]

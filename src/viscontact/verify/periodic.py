@@ -6,14 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from viscontact.grid import Grid
-from viscontact.indenters import Waviness
-from viscontact.laws import Zener
-from viscontact.loads import step
-from viscontact.materials.material import Material
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Waviness
+from viscontact.bodies.laws import Zener
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.state import ContactState
 from viscontact.reference import WavyContact, full_contact_pressure, westergaard
-from viscontact.simulation.state_generator import march
-from viscontact.state import ContactState
+from viscontact.simulation.transient.state_generator import march
 from viscontact.verify.case import Case, Comparison, Quantity, single
 from viscontact.verify.elastic import BODY, MODULUS
 

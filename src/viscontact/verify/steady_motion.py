@@ -9,12 +9,12 @@ from functools import partial
 import xarray as xr
 
 from viscontact import reference
-from viscontact.errors import AccuracyWarning
-from viscontact.grid import Grid
-from viscontact.indenters import Indenter, Paraboloid
-from viscontact.laws import CreepSeries
-from viscontact.loads import step
-from viscontact.materials.material import Material
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Indenter, Paraboloid
+from viscontact.bodies.laws import CreepSeries
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.material import Material
 from viscontact.runs.steady import steady
 from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from viscontact import reference
 from viscontact.backend.arrays import Floats
-from viscontact.loads import ApproachHistory, ForceHistory, harmonic, triangle
-from viscontact.time_integration.requested_times import uniform_times
+from viscontact.bodies.loads import ApproachHistory, ForceHistory, harmonic, triangle
+from viscontact.mechanics.time_integration.requested_times import uniform_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, maxwell, zener
 from viscontact.verify.indentation import (

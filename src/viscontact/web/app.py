@@ -22,7 +22,7 @@ from viscontact.web.routes import case_routes, run_routes
 from viscontact.web.workspace.problems import Problem, RequestError
 
 _STATIC = Path(__file__).parent / "static"
-_FIGURES = Path(__file__).parents[1] / "figures"
+_FIGURES = Path(__file__).parents[1] / "drawing" / "plotly"
 
 #: Media types of static files; operating systems differ in their own tables.
 _MEDIA_TYPES = {

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from viscontact.grid import Grid
-from viscontact.indenters import Sphere
-from viscontact.laws import Zener
-from viscontact.loads import step
-from viscontact.materials.material import Material
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Sphere
+from viscontact.bodies.laws import Zener
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.material import Material
 from viscontact.report.run_data import run_data
 from viscontact.results.netcdf import open_results, save
 from viscontact.results.summary import summary_rows

@@ -21,7 +21,7 @@ import xarray as xr
 
 import leased_run
 from leased_run import COUNT, leased, opened
-from viscontact.run_files import LOCK_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import LOCK_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory import lease, lease_file, lock_probe
 from viscontact.runs.directory.lease import Lease, LeaseHeld
 from viscontact.runs.directory.lease_file import LeaseFile, current_lease, header

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from viscontact.run_files import LOCK_NAME
+from viscontact.results.run_files import LOCK_NAME
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 
 HOLDER = """

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from viscontact.mechanics.state import ContactState
 from viscontact.results.variables import scalars_of
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.state import ContactState
 from written_states import state
 
 

@@ -19,10 +19,10 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact.backend import transforms
-from viscontact.contact.equilibrium import ContactSolution
-from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
-from viscontact.problem.problem import Problem
-from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.mechanics.contact.equilibrium import ContactSolution
+from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory import recorder
 from viscontact.runs.directory.checkpoint import (
     LAYOUT,
@@ -35,8 +35,8 @@ from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.recorded import ChangedCaseError, Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
-from viscontact.simulation import stepper
-from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.simulation.transient import stepper
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
 
 COUNT = 12
 #: Fields of the first and the last instant.

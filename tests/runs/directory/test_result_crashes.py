@@ -16,10 +16,10 @@ import netCDF4
 import numpy as np
 import pytest
 
+from viscontact.mechanics.state import ContactState
 from viscontact.runs.directory import result_writer
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.state import ContactState
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 
 NAME = "result.nc"
@@ -217,7 +217,7 @@ from pathlib import Path
 import numpy as np
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.state import ContactState
+from viscontact.mechanics.state import ContactState
 from written_states import GRID, state
 path, room, times, position = Path(sys.argv[1]), int(sys.argv[2]), np.arange(300.0), None
 resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))

@@ -15,7 +15,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.problem.kept_fields import NO_FIELDS, KeptFields
+from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.results.variables import FIELDS, LINES, scalars_of
 from viscontact.runs.directory import result_writer
 from viscontact.runs.directory.netcdf_layout import Contents

@@ -16,7 +16,7 @@ import viscontact as vc
 from studies.executors.test_local import CASE, contents, lines
 from studies.executors.test_recorded_many import runs
 from viscontact.cli import main
-from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 
 distributed = pytest.importorskip("distributed")
 pytestmark = [

@@ -17,7 +17,7 @@ import xarray as xr
 
 from interrupted_runs import BODIES
 from viscontact.cli import main
-from viscontact.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME
+from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME
 from viscontact.runs.execution.case_digests import digests_of
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Ended

@@ -25,7 +25,7 @@ import pytest
 import viscontact as vc
 from interrupted_runs import CASE
 from viscontact.cli import main
-from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME, RESULT_NAME
+from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME, RESULT_NAME
 from viscontact.studies.sweep.manifest import read_manifest
 
 AUTOMATIC = """\

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from tests.studies.sensitivity.cases import HERTZ, written
 
+from viscontact.bodies.grid import Grid
 from viscontact.case import read_case
-from viscontact.grid import Grid
 from viscontact.studies.sensitivity.common_grid import coarser, covering, grid_setting
 from viscontact.studies.sensitivity.inputs import inputs_of
 from viscontact.studies.sensitivity.plan import planned

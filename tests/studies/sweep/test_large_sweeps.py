@@ -12,7 +12,7 @@ import pytest
 
 import viscontact as vc
 from swept_runs import sweep_of
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.directory import netcdf_layout
 from viscontact.studies.sweep.collecting import write_joint_result
 from viscontact.studies.sweep.joint_layout import JointLayout, joint_layout

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from viscontact.cli import main
 from viscontact.cli.sweep.recorded_sweep import RecordedSweep, recorded_runs
 from viscontact.cli.terminal.messages import CommandError
-from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME, STATE_NAME
+from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME, STATE_NAME
 from viscontact.studies.sweep.manifest import DESIGNS, SweepRun, read_manifest, write_manifest
 
 CASE = """\

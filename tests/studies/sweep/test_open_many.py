@@ -12,8 +12,8 @@ import xarray as xr
 
 import viscontact as vc
 from swept_runs import sweep_of
+from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, STATE_NAME
 from viscontact.results.variables import ERRORS, SCALARS, scalars_of
-from viscontact.run_files import FAILURE_NAME, PROGRESS_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
 from viscontact.studies.sweep.axes import sweep_axes
 from viscontact.studies.sweep.collecting import slabs, write_joint_result

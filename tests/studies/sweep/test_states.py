@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing

@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 import viscontact as vc
-from viscontact.loads.motion import Motion
+from viscontact.bodies.loads.motion import Motion
 
 Array = np.ndarray
 

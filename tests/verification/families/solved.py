@@ -9,13 +9,13 @@ import numpy as np
 
 import viscontact as vc
 from verification.families.exact_run import ExactRun
-from viscontact.accuracy.coarser_results import history_of
-from viscontact.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
-from viscontact.accuracy.error_bars import error_bars_from
-from viscontact.errors import ConvergenceError, DomainError
-from viscontact.problem.problem import Problem
-from viscontact.simulation.setup import prepare_run
-from viscontact.simulation.state_generator import march_run
+from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.accuracy.coarser_results import history_of
+from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
+from viscontact.simulation.accuracy.error_bars import error_bars_from
+from viscontact.simulation.transient.setup import prepare_run
+from viscontact.simulation.transient.state_generator import march_run
 
 #: Values below this part of the run's largest count as zero: the work after an elastic cycle, say.
 ZERO = 2e-3

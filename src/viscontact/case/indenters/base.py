@@ -7,7 +7,7 @@ from functools import cached_property
 
 from pydantic import Field, model_validator
 
-from viscontact import indenters
+from viscontact.bodies import indenters
 from viscontact.case.data_file import FileSection
 from viscontact.case.quantities import Angle, Offset
 

@@ -10,12 +10,12 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from viscontact import indenters, surfaces
+from viscontact.bodies import indenters, surfaces
+from viscontact.bodies.surfaces.plausibility import described, levelling_note
+from viscontact.bodies.surfaces.pressing import require_complete, require_map
 from viscontact.case.data_file import DataFile
 from viscontact.case.indenters.base import Shape
 from viscontact.case.quantities import Length, NotNegativeLength, Section
-from viscontact.surfaces.plausibility import described, levelling_note
-from viscontact.surfaces.pressing import require_complete, require_map
 from viscontact.units.formatting import format_quantity
 
 

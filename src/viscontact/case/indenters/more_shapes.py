@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from viscontact import indenters
+from viscontact.bodies import indenters
 from viscontact.case.data_file import DataFile
 from viscontact.case.indenters.base import Shape
 from viscontact.case.quantities import Angle, Length, Offset, OpenAngle

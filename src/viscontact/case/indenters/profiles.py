@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from viscontact import indenters
+from viscontact.bodies import indenters
 from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import (
     Force,

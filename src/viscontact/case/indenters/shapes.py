@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from viscontact import indenters
+from viscontact.bodies import indenters
 from viscontact.case.indenters import more_shapes
 from viscontact.case.indenters.base import Shape
 from viscontact.case.indenters.height_maps import HeightMap

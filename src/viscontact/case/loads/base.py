@@ -9,6 +9,8 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads.history import Control
 from viscontact.case.loads.levels import APPROACH_EXAMPLE, Tilt
 from viscontact.case.quantities import (
     Force,
@@ -16,8 +18,6 @@ from viscontact.case.quantities import (
     Pressure,
     Section,
 )
-from viscontact.loads import LoadHistory
-from viscontact.loads.history import Control
 from viscontact.units.dimensions import DIMENSIONS
 
 #: Example of a mean pressure; that of a modulus would be too large.

@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from viscontact.bodies.loads import ApproachHistory, ForceHistory, LoadHistory
+from viscontact.bodies.loads.history import Control
 from viscontact.case.data_file import DataFile
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
@@ -18,8 +20,6 @@ from viscontact.case.quantities import (
     Instant,
     Pressure,
 )
-from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
-from viscontact.loads.history import Control
 from viscontact.tables import Table, read_table
 from viscontact.units.formatting import format_quantity
 

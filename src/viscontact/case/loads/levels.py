@@ -9,8 +9,8 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact.bodies.loads.history import Control
 from viscontact.case.quantities import Quantity
-from viscontact.loads.history import Control
 from viscontact.units.dimensions import DIMENSIONS
 
 #: Example of an approach; that of a length would be too large.

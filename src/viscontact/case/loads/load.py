@@ -6,7 +6,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, WithJsonSchema
 
-from viscontact import loads
+from viscontact.bodies import loads
+from viscontact.bodies.loads import LoadHistory, LoadProgram
+from viscontact.bodies.loads.history import Control
+from viscontact.bodies.loads.mixed import as_history
+from viscontact.bodies.loads.program_sentences import FORMS, parsed_sentences
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import Controlled, Load, force_or_approach
 from viscontact.case.loads.history import History
@@ -19,10 +23,6 @@ from viscontact.case.quantities import (
     Offset,
 )
 from viscontact.case.section_choice import ChosenBy
-from viscontact.loads import LoadHistory, LoadProgram
-from viscontact.loads.history import Control
-from viscontact.loads.mixed import as_history
-from viscontact.loads.program_sentences import FORMS, parsed_sentences
 from viscontact.units.dimensions import DIMENSIONS
 
 _SCHEMA = {

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, NoReturn
 
+from viscontact.bodies.loads.harmonic import STEPS_PER_CYCLE
+from viscontact.bodies.loads.history import Control
 from viscontact.case.loads.grammar import Rate, Reading
 from viscontact.case.loads.levels import Level
 from viscontact.case.loads.sentences import EXAMPLE, Sentence
-from viscontact.loads.harmonic import STEPS_PER_CYCLE
-from viscontact.loads.history import Control
 from viscontact.units.formatting import format_quantity
 
 #: Largest number of points; each is a step of the run.

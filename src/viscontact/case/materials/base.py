@@ -11,6 +11,8 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
+from viscontact.bodies.laws import Law, Shift
+from viscontact.bodies.materials.material import Material
 from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.quantities import (
     Duration,
@@ -20,8 +22,6 @@ from viscontact.case.quantities import (
     Section,
     Temperature,
 )
-from viscontact.laws import Law, Shift
-from viscontact.materials.material import Material
 
 
 class Medium(Section):

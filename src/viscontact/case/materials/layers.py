@@ -18,13 +18,13 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact.bodies.materials import library
+from viscontact.bodies.materials.layers import Layer as BuiltLayer
+from viscontact.bodies.materials.layers import Layered
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.material import AnyMaterial, Laws, OrName, from_library
 from viscontact.case.quantities import Length, Section
 from viscontact.case.section_choice import ChosenBy
-from viscontact.materials import library
-from viscontact.materials.layers import Layer as BuiltLayer
-from viscontact.materials.layers import Layered
 
 #: Word for a base that does not yield.
 RIGID: Literal["rigid"] = "rigid"

@@ -16,6 +16,9 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError
 
+from viscontact.bodies.laws import Law
+from viscontact.bodies.materials import library
+from viscontact.bodies.materials.material import Material
 from viscontact.case.data_file import DataFile
 from viscontact.case.document import read_document, with_section
 from viscontact.case.materials.base import Medium
@@ -31,9 +34,6 @@ from viscontact.case.materials.spring_laws import (
 )
 from viscontact.case.quantities import Section
 from viscontact.case.section_choice import ChosenBy
-from viscontact.laws import Law
-from viscontact.materials import library
-from viscontact.materials.material import Material
 
 
 class LawFile(FromFile):

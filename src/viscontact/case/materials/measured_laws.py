@@ -11,17 +11,17 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from viscontact import laws
+from viscontact.bodies import laws
+from viscontact.bodies.laws import Law
+from viscontact.bodies.materials.cards import Card, read_card
+from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits.fit import Fit
+from viscontact.bodies.series_fits.table_fit import is_oscillation
 from viscontact.case.data_file import DataFile
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.measured_record import measured_record
 from viscontact.case.materials.oscillation import fit_note, fit_oscillation, fit_warning
 from viscontact.case.quantities import Modulus
-from viscontact.laws import Law
-from viscontact.materials.cards import Card, read_card
-from viscontact.materials.material import Material
-from viscontact.series_fits.fit import Fit
-from viscontact.series_fits.table_fit import is_oscillation
 from viscontact.tables import Table, read_table
 from viscontact.units.parsing import parse_scale
 from viscontact.units.temperatures import in_celsius

@@ -6,10 +6,10 @@ import warnings
 
 import numpy as np
 
-from viscontact.errors import AccuracyWarning
-from viscontact.series_fits.fit import Fit
-from viscontact.series_fits.prony import FitOptions
-from viscontact.series_fits.table_fit import fit_measured, measured_columns
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.series_fits.fit import Fit
+from viscontact.bodies.series_fits.prony import FitOptions
+from viscontact.bodies.series_fits.table_fit import fit_measured, measured_columns
 from viscontact.tables import Table
 
 

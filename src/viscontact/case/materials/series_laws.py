@@ -6,10 +6,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from viscontact import laws
+from viscontact.bodies import laws
+from viscontact.bodies.laws import Law
 from viscontact.case.materials.base import Medium
 from viscontact.case.quantities import Compliance, Duration, Exponent, Fluidity, ModulusOrZero
-from viscontact.laws import Law
 
 _DATA = "compliances are deviatoric (Phi = 1/(2G)), shear (1/G) or uniaxial (1/E)"
 

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from viscontact import laws
+from viscontact.bodies import laws
 from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import MolarEnergy, Temperature, TemperatureDifference
 from viscontact.case.section_choice import ChosenBy

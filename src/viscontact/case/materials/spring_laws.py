@@ -6,10 +6,10 @@ from typing import Any, ClassVar, Literal
 
 from pydantic import Field
 
-from viscontact import laws
+from viscontact.bodies import laws
+from viscontact.bodies.laws import Law
 from viscontact.case.materials.base import Medium
 from viscontact.case.quantities import Duration, Exponent, Modulus, ModulusOrZero, Viscosity
-from viscontact.laws import Law
 
 
 class Springs(Medium):

@@ -85,7 +85,7 @@ def _schema_text() -> str:
 
 def _examples() -> dict[str, Traversable]:
     """Shipped case files by name."""
-    found = {Path(entry.name): entry for entry in files("viscontact.examples").iterdir()}
+    found = {Path(entry.name): entry for entry in files("viscontact.case.examples").iterdir()}
     return {path.stem: found[path] for path in sorted(found) if path.suffix == ".yaml"}
 
 
@@ -113,7 +113,7 @@ def _is(path: Path, content: bytes) -> bool:
 def _data_of(text: str) -> dict[str, bytes]:
     """Contents of the shipped files that a case names."""
     named = re.findall(r"^[ -]*file: *([\w.-]+)", text, re.MULTILINE)
-    return {name: (files("viscontact.examples") / name).read_bytes() for name in named}
+    return {name: (files("viscontact.case.examples") / name).read_bytes() for name in named}
 
 
 def _write_example(output: Path, text: str, data: dict[str, bytes], *, overwrite: bool) -> None:

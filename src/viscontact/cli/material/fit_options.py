@@ -7,10 +7,10 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Self
 
+from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.identification import ForceCurve, read_force_curve
 from viscontact.identification.force_curve import tabulated_curve
-from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
-from viscontact.series_fits.prony import FitOptions
 from viscontact.tables import Table
 from viscontact.units.parsing import parse_quantity
 

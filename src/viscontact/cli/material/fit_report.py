@@ -10,11 +10,15 @@ from pathlib import Path
 
 import numpy as np
 
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.laws import WLF
+from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits.table_fit import fit_measured, measured_columns
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.material.table_choice import say_chosen
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.errors import AccuracyWarning
 from viscontact.identification import (
     Fit,
     ForceCurve,
@@ -29,10 +33,6 @@ from viscontact.identification import (
     material_section,
 )
 from viscontact.identification.instrument_curves import is_instrument_file
-from viscontact.indenters import Indenter
-from viscontact.laws import WLF
-from viscontact.materials.material import Material
-from viscontact.series_fits.table_fit import fit_measured, measured_columns
 from viscontact.tables import Table, read_table
 from viscontact.units.temperatures import in_celsius
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from viscontact.bodies.materials import library as materials
+from viscontact.bodies.materials.cards import is_card
 from viscontact.case import CaseError, read_material, read_section, shipped_material
 from viscontact.cli.material.fit_options import read_stress
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.material.table_choice import say_chosen
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.materials import library as materials
-from viscontact.materials.cards import is_card
 from viscontact.tables import Table, is_spreadsheet, read_table, read_text
 
 _CASE_SUFFIXES = (".yaml", ".yml", ".toml")

@@ -12,13 +12,13 @@ from rich.console import Console
 from rich.table import Table
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.laws import WLF, Arrhenius, Elastic, Shift
+from viscontact.bodies.materials import library
+from viscontact.bodies.materials.library import Entry
+from viscontact.bodies.materials.material import Material
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.results.figures import plot_package, save
 from viscontact.cli.terminal.messages import refuse
-from viscontact.laws import WLF, Arrhenius, Elastic, Shift
-from viscontact.materials import library
-from viscontact.materials.library import Entry
-from viscontact.materials.material import Material
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.temperatures import in_celsius
 

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.laws import TabulatedCreep, TabulatedRelaxation
+from viscontact.bodies.materials.cards import Card, write_abaqus, write_ansys
+from viscontact.bodies.materials.material import Material
 from viscontact.case.data_file import is_same_file
 from viscontact.cli.material.material_files import MaterialOptions
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.laws import TabulatedCreep, TabulatedRelaxation
-from viscontact.materials.cards import Card, write_abaqus, write_ansys
-from viscontact.materials.material import Material
 from viscontact.units.parsing import parse_unit
 
 FORMS = ("abaqus", "ansys", "csv")

@@ -9,9 +9,9 @@ from typing import TypeGuard
 
 import numpy as np
 
-from viscontact.laws import SeriesLaw, Shift, TabulatedCreep, TabulatedRelaxation
-from viscontact.materials.library import Entry, Points
-from viscontact.materials.material import Material
+from viscontact.bodies.laws import SeriesLaw, Shift, TabulatedCreep, TabulatedRelaxation
+from viscontact.bodies.materials.library import Entry, Points
+from viscontact.bodies.materials.material import Material
 
 # Time span for a law without time constants [s].
 _ANY_TIMES = (1e-3, 1e6)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.studies.sweep.manifest import read_manifest
 from viscontact.studies.sweep.states import State, run_state
 

@@ -111,7 +111,7 @@ def draw_comparison(
 def plot_package() -> Any:
     """Return `viscontact.plot`, or name the missing package."""
     try:
-        from viscontact import plot
+        from viscontact.drawing import matplotlib as plot
     except ModuleNotFoundError as error:
         if error.name != "matplotlib":
             raise

@@ -7,7 +7,7 @@ from typing import Any
 
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.studies.sweep.filed_sweep import filed_attributes
 from viscontact.studies.sweep.open_many import open_many
 

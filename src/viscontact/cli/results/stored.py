@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from viscontact.cli.terminal.messages import refuse
+from viscontact.mechanics.state import Outcome
 from viscontact.results.recorded_case import case_of
 from viscontact.results.run_axis import run_axis
+from viscontact.results.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.results.stored_result import Result, StoredResult, stored_result
 from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
-from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.progress_made import progress_made
-from viscontact.state import Outcome
 
 if TYPE_CHECKING:
     import xarray as xr

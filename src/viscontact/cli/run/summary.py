@@ -20,8 +20,8 @@ from viscontact.results.contact_spots import last_spots
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import RunAxis, run_axis
+from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.results.summary import SummaryRow, legend, summary_rows
-from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
 
 #: Blanks between columns.

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
+from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.case import CaseError
 from viscontact.cli.studies.arguments import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
-from viscontact.errors import ConvergenceError, DomainError
 from viscontact.studies.design.conclusions import InfeasibleError
 
 T = TypeVar("T")

@@ -14,7 +14,7 @@ from viscontact.cli.studies.execution import (
     show,
     write_report,
 )
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.studies.sensitivity.result import SensitivityResult
 from viscontact.studies.sensitivity.result_files import TABLE_NAME, write_table
 from viscontact.studies.sensitivity.sensitivity import sensitivity

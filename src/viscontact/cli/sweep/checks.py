@@ -17,7 +17,7 @@ from pathlib import Path
 from viscontact.case import Case, CaseError, read_case
 from viscontact.cli.sweep.request import ManyRequest, PlannedRun
 from viscontact.cli.terminal.messages import CommandError, refuse
-from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import in_use
 from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied

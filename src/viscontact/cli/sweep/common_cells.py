@@ -10,7 +10,7 @@ from viscontact.case import CaseError
 from viscontact.case.document import read_document
 from viscontact.cli.sweep.request import PlannedRun
 from viscontact.cli.terminal.messages import CommandError, say
-from viscontact.run_files import CASE_NAME
+from viscontact.results.run_files import CASE_NAME
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep.common_cells import (
     KEY,

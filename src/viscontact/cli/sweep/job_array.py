@@ -13,7 +13,7 @@ from viscontact.cli.sweep.jobs import checked_sweep
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.streams import printing
-from viscontact.run_files import MANIFEST_NAME, STOP_NAME
+from viscontact.results.run_files import MANIFEST_NAME, STOP_NAME
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.execution import before_the_first_step

@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from viscontact.cli.sweep.request import PlannedRun
 from viscontact.cli.terminal.messages import refuse
-from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
+from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.studies.sweep import continuation
 from viscontact.studies.sweep.case_digests import changed_since, with_digests

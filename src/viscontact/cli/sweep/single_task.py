@@ -20,7 +20,7 @@ from viscontact.cli.terminal.messages import (
     refuse,
     stop,
 )
-from viscontact.run_files import MANIFEST_NAME, RESULT_NAME, STOP_NAME
+from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME, STOP_NAME
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import DirectoryInUse, is_locked, locked
 from viscontact.runs.execution.checked_run import checked_run

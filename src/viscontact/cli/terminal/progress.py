@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 from viscontact.cli.terminal.messages import say
-from viscontact.simulation.state_generator import Progress as Report
-from viscontact.state import ContactState
+from viscontact.mechanics.state import ContactState
+from viscontact.simulation.transient.state_generator import Progress as Report
 from viscontact.units.formatting import format_quantity
 
 #: A plain line is printed after this part of the work, or after this time [s].

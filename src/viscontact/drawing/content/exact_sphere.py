@@ -6,8 +6,8 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.indenters import Indenter, Paraboloid, Sphere
-from viscontact.loads import ForceHistory
+from viscontact.bodies.indenters import Indenter, Paraboloid, Sphere
+from viscontact.bodies.loads import ForceHistory
 from viscontact.reference import LeeRadokContact, lee_radok_ramp, lee_radok_step
 from viscontact.results.recorded_case import is_layered, recorded_object
 

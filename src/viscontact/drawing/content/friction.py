@@ -7,10 +7,10 @@ import xarray as xr
 
 from viscontact import reference
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.indenters import Indenter, Paraboloid, Roller, Sphere
+from viscontact.bodies.materials.compliance import SeriesCompliance
+from viscontact.bodies.materials.material import Material
 from viscontact.drawing.content.panel import FAINT, FIRST, SECOND, Axis, Curve, Ink, Panel, Units
-from viscontact.indenters import Indenter, Paraboloid, Roller, Sphere
-from viscontact.materials.compliance import SeriesCompliance
-from viscontact.materials.material import Material
 from viscontact.results.recorded_case import case_of, recorded_object
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS

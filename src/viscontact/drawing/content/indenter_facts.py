@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from textwrap import wrap
 
-from viscontact.indenters import (
+from viscontact.bodies.indenters import (
     CombinedIndenter,
     HeightMap,
     Indenter,
@@ -16,7 +16,7 @@ from viscontact.indenters import (
     Roller,
     Sphere,
 )
-from viscontact.indenters.cross_section import Section
+from viscontact.bodies.indenters.cross_section import Section
 from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.descriptions import describe
 from viscontact.units.formatting import format_compact, readable_unit

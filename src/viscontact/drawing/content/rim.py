@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import splev, splprep
 
 from viscontact.backend.arrays import Bools, Floats, Integers
-from viscontact.contact.body_edge import Outline
+from viscontact.mechanics.contact.body_edge import Outline
 from viscontact.results.snapshots import Snapshot
 
 # Cells beyond the border of a period: a corner of the rim is up to one and a half cells from its

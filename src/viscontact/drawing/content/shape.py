@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.indenters import Indenter
-from viscontact.indenters.cross_section import (
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.indenters.cross_section import (
     POINTS,
     SHOWN_PART,
     Section,
@@ -95,7 +95,7 @@ def natural_size(indenter: Indenter) -> tuple[float, float]:
     --------
     A cap an eighth of the radius high:
 
-    >>> from viscontact.indenters import Sphere
+    >>> from viscontact.bodies.indenters import Sphere
     >>> [round(extent, 3) for extent in natural_size(Sphere(radius=1.0))]
     [0.968, 0.968]
     """

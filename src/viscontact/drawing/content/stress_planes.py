@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.halfspace.stress_lines import Progress, part_of
+from viscontact.mechanics.halfspace.stress_lines import Progress, part_of
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.stress_source import StressSource
 from viscontact.units.formatting import format_quantity

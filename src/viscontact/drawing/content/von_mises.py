@@ -14,7 +14,7 @@ from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import Axis, Curve, Panel
 from viscontact.drawing.content.stress_planes import stress_sections
-from viscontact.halfspace.stress_lines import Progress, part_of
+from viscontact.mechanics.halfspace.stress_lines import Progress, part_of
 from viscontact.results.run_axis import require_time
 from viscontact.results.snapshots import field_times, take_snapshots
 from viscontact.results.stress_source import stress_source

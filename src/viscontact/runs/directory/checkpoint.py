@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from viscontact import __version__
+from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
-from viscontact.time_integration.restart_data import RestartData
 
 #: Layout of the restart data; raise it with every change of a name or a meaning in them.
 LAYOUT = 3

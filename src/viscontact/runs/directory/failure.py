@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from viscontact.run_files import FAILURE_NAME
+from viscontact.results.run_files import FAILURE_NAME
 from viscontact.runs.directory.atomic_files import replacing
 
 

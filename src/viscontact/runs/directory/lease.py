@@ -15,7 +15,7 @@ import time as clock
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 
-from viscontact.run_files import LOCK_NAME
+from viscontact.results.run_files import LOCK_NAME
 from viscontact.runs.directory.lease_file import (
     DURATION,
     LeaseFile,

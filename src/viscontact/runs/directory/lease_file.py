@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from viscontact.run_files import LOCK_NAME
+from viscontact.results.run_files import LOCK_NAME
 
 #: Time without renewal after which a lease may be taken over [s].
 DURATION = 60.0

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from viscontact.run_files import LOCK_NAME
+from viscontact.results.run_files import LOCK_NAME
 from viscontact.runs.directory.lease import Lease, LeaseHeld
 from viscontact.runs.directory.lease_file import (
     DURATION,

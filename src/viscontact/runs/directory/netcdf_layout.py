@@ -12,8 +12,9 @@ import netCDF4
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.problem.kept_fields import ALL_FIELDS, KeptFields
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
+from viscontact.mechanics.state import ContactState
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
     AXES,
@@ -29,7 +30,6 @@ from viscontact.results.variables import (
     scalars_of,
     scalars_with_error,
 )
-from viscontact.state import ContactState
 
 #: Memory for rows that are copied from one file to another [bytes].
 BLOCK = 2**23

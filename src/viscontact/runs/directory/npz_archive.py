@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
-from viscontact.time_integration.restart_data import RestartData
+from viscontact.mechanics.time_integration.restart_data import RestartData
 
 #: Name of the JSON outline among the arrays, and the key in it that refers to an array.
 _OUTLINE, _ARRAY = "outline", "__array__"

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any, Self
 
 from viscontact.backend.arrays import Floats
+from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.results.variables import AXES, error_name, scalars_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
-from viscontact.state import ContactState, Outcome
 
 #: Longest first line of a progress log [bytes].
 LONGEST_LINE = 2**16

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Self
 
-from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.analysis import Analysis, States, fits_single_precision
 from viscontact.runs.directory.atomic_files import fresh_name
 from viscontact.runs.directory.checkpoint import (

@@ -8,16 +8,16 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
 from typing import NamedTuple, Self
 
-from viscontact.accuracy.error_bars import ErrorBars
+from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.results.run_files import STATE_NAME
 from viscontact.results.variables import ALLOWABLE, error_name
-from viscontact.run_files import STATE_NAME
 from viscontact.runs.analysis import States
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.recorded import Recorded, remove_restart_files
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.simulation.state_generator import Progress
-from viscontact.state import ContactState, Outcome
+from viscontact.simulation.accuracy.error_bars import ErrorBars
+from viscontact.simulation.transient.state_generator import Progress
 
 _LOG = logging.getLogger("viscontact")
 

@@ -13,9 +13,9 @@ from typing import Any, Self
 import netCDF4
 import numpy as np
 
-from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.state import ContactState
 from viscontact.results.enlarged_grid import enlargement
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -34,8 +34,8 @@ from viscontact.runs.directory.netcdf_layout import (
 )
 from viscontact.runs.directory.stored_result import check_result, stored_grid
 from viscontact.runs.directory.write_guard import WriteGuard
-from viscontact.simulation.provenance import date_and_time
-from viscontact.state import ContactState
+from viscontact.simulation.accuracy.error_bars import ErrorBars
+from viscontact.simulation.transient.provenance import date_and_time
 
 #: Rows of scalars that wait in memory at most.
 WAITING = 4096

@@ -10,7 +10,7 @@ from typing import Any
 import netCDF4
 import numpy as np
 
-from viscontact.grid import Grid
+from viscontact.bodies.grid import Grid
 from viscontact.results.descriptions import parse_case
 from viscontact.results.variables import AXES
 from viscontact.runs.directory.checkpoint import REMEDY

@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from viscontact.errors import ConvergenceError, DomainError
-from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse, stop
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock import DirectoryInUse, awaited_lease, locked
@@ -22,7 +22,7 @@ from viscontact.runs.execution.run_directory import reserved, write_case
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import INTERRUPTED, RunRequest
-from viscontact.simulation.state_generator import Progress
+from viscontact.simulation.transient.state_generator import Progress
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import hashlib
 from viscontact.case.case import Case
 from viscontact.case.errors import dotted
 from viscontact.results.filed_case import FiledCase
-from viscontact.run_files import CASE_NAME
+from viscontact.results.run_files import CASE_NAME
 
 
 def filed_case(case: Case) -> FiledCase:

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 from viscontact.case import Case, CaseError
 from viscontact.case.document import read_document
 from viscontact.case.yaml_source import parse
-from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.recorded import Recorded

@@ -12,7 +12,7 @@ from viscontact.case.data_file import is_same_file
 from viscontact.case.document import read_document
 from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
-from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.checkpoint import is_checkpoint

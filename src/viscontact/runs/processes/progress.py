@@ -8,7 +8,7 @@ from contextlib import suppress
 from os import stat_result
 from typing import Any
 
-from viscontact.run_files import PROGRESS_NAME
+from viscontact.results.run_files import PROGRESS_NAME
 from viscontact.runs.directory.progress_log import reached_in
 from viscontact.runs.processes.job import Job, Standing
 

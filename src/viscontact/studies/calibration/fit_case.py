@@ -10,7 +10,7 @@ from warnings import warn
 
 import numpy as np
 
-from viscontact.errors import AccuracyWarning
+from viscontact.backend.errors import AccuracyWarning
 from viscontact.studies.calibration.notes import notes_on
 from viscontact.studies.calibration.preparation import (
     Record,

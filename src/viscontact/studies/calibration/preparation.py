@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from viscontact.bodies.grid import Grid
 from viscontact.case import Case
-from viscontact.grid import Grid
 from viscontact.studies.calibration.record import ContactRecord, Drive, chosen_drive, read_record
 from viscontact.studies.calibration.response import Experiment, cells_of
 from viscontact.studies.calibration.unknowns import Unknown, case_settings

@@ -10,8 +10,8 @@ from typing import Any, Literal
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.loads.history import Control
 from viscontact.identification.record import finite_column
-from viscontact.loads.history import Control
 from viscontact.tables import read_table
 from viscontact.units.formatting import format_quantity
 

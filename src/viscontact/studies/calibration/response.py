@@ -9,17 +9,17 @@ from pathlib import Path
 
 import numpy as np
 
-from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.grid import AutomaticGrid, Grid
+from viscontact.bodies.loads import ApproachHistory, ForceHistory, LoadHistory
+from viscontact.bodies.loads.history import Control
 from viscontact.case import Case
-from viscontact.errors import AccuracyWarning
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
-from viscontact.loads.history import Control
-from viscontact.problem.kept_fields import NO_FIELDS
-from viscontact.problem.problem import Problem
-from viscontact.simulation.march import March
-from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.mechanics.problem.kept_fields import NO_FIELDS
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.accuracy.coarser_grids import aligned_spacing, coarser_grid
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
 from viscontact.studies.calibration.record import ContactRecord, Drive, compared_column
 from viscontact.studies.case_values import case_with
 from viscontact.studies.evaluation import Entry, Level

@@ -13,12 +13,12 @@ import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.case import yaml_source
-from viscontact.display import write_study_report
 from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.response import Experiment
 from viscontact.studies.calibration.search import NoResidualsError, Optimum
 from viscontact.studies.calibration.unknowns import Unknown, case_settings
 from viscontact.studies.case_values import case_with
+from viscontact.units.display import write_study_report
 from viscontact.units.parsing import split_quantity
 
 _DIGITS = 6

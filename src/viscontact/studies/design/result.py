@@ -11,9 +11,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.errors import AccuracyWarning
 from viscontact.case import Case, read_case
-from viscontact.display import write_study_report
-from viscontact.errors import AccuracyWarning
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.studies.case_values import places_of
@@ -24,6 +23,7 @@ from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
+from viscontact.units.display import write_study_report
 
 
 @dataclass(frozen=True)

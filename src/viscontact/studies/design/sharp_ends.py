@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from viscontact.checks.half_space_theory import AT_THE_END
-from viscontact.indenters import (
+from viscontact.bodies.indenters import (
     Chamfer,
     CylindricalProfile,
     FullCrown,
@@ -12,6 +11,7 @@ from viscontact.indenters import (
     Roller,
     TwoRadiiCrown,
 )
+from viscontact.simulation.checks.half_space_theory import AT_THE_END
 
 _SHARP = (CylindricalProfile, PartialCrown, FullCrown, TwoRadiiCrown, Chamfer)
 

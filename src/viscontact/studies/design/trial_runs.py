@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.bodies.grid import Grid
 from viscontact.case import Case
-from viscontact.grid import Grid
 from viscontact.studies.case_values import case_with, result_of
 from viscontact.studies.design.goals import Constraint, Goal, magnitude
 from viscontact.studies.design.scenarios import Scenario

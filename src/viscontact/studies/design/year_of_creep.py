@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.bodies.loads import ApproachHistory, ForceHistory
 from viscontact.case import Case
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.loads import ApproachHistory, ForceHistory
 from viscontact.runs.single import simulate
 
 #: Durations of creep that a design states [s].

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Self
 
-from viscontact.run_files import STOP_NAME
+from viscontact.results.run_files import STOP_NAME
 from viscontact.runs.machine.threads import limit_threads
 from viscontact.studies.executors.task import RecordedTask, TaskEnd, perform
 

@@ -10,12 +10,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Self
 
-from viscontact.errors import ConvergenceError, DomainError
-from viscontact.grid import Grid
-from viscontact.loads import MixedHistory
-from viscontact.problem.arguments import contact_problem
-from viscontact.problem.problem import Problem
-from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import MixedHistory
+from viscontact.mechanics.problem.arguments import contact_problem
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.analysis import plain_case
 from viscontact.runs.command_error import CommandError, refuse
 from viscontact.runs.directory.differences import NOTHING, differences
@@ -28,9 +28,9 @@ from viscontact.runs.execution.run_directory import refuse_no_directory, reserve
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.processes.request import DONE, INTERRUPTED, STOPPED
-from viscontact.simulation.found_events import carried_out
-from viscontact.simulation.provenance import describe_problem
-from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.transient.found_events import carried_out
+from viscontact.simulation.transient.provenance import describe_problem
+from viscontact.simulation.transient.setup import prepare_run
 from viscontact.studies.executors.task import ONE_AT_A_TIME, TaskEnd
 
 _INTERRUPTED = TaskEnd("interrupted", INTERRUPTED)

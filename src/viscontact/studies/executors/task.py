@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol, Self
 
-from viscontact.run_files import ATTEMPT_NAME
+from viscontact.mechanics.state import ContactState
+from viscontact.results.run_files import ATTEMPT_NAME
 from viscontact.runs.command_error import CommandError
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
@@ -22,8 +23,7 @@ from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Child
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED, RunRequest
-from viscontact.simulation.state_generator import Progress
-from viscontact.state import ContactState
+from viscontact.simulation.transient.state_generator import Progress
 
 #: Longest predicted duration of a run that is computed in the process of its task [s].
 LONGEST_WARM = 10.0

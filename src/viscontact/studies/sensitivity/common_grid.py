@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscontact.grid import Grid
-from viscontact.meshing.refinement import good_shape
+from viscontact.bodies.grid import Grid
+from viscontact.simulation.meshing.refinement import good_shape
 
 #: Cells that may be longer than those that another run would choose by this factor.
 TOLERATED = 1.5

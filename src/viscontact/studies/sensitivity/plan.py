@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.bodies.grid import Grid
 from viscontact.case import Case, CaseError
-from viscontact.grid import Grid
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.studies.case_values import case_with
 from viscontact.studies.evaluation import Level

@@ -9,9 +9,9 @@ from os import PathLike
 import numpy as np
 import xarray as xr
 
-from viscontact.display import write_study_report
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
+from viscontact.units.display import write_study_report
 from viscontact.units.formatting import format_quantity
 
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.results.filed_case import FiledCase, started_at
+from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.results.variables import ALLOWABLE
-from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import opened
 from viscontact.studies.sweep.manifest import read_manifest
 from viscontact.studies.sweep.states import State, run_state

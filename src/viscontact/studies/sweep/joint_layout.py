@@ -12,12 +12,12 @@ import xarray as xr
 
 from viscontact import __version__
 from viscontact.backend.arrays import Floats
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.results.variables import (
     AXES,
     ERRORS,
     scalar_attributes,
 )
-from viscontact.run_files import MANIFEST_NAME
 from viscontact.studies.sweep.axes import SweepAxes, sweep_axes
 from viscontact.studies.sweep.manifest import SweepRun, read_manifest
 from viscontact.studies.sweep.run_scalars import COLUMNS, RunOutline, run_outline, run_scalars

@@ -10,8 +10,8 @@ import xarray as xr
 from xarray.backends import BackendArray
 from xarray.core import indexing
 
+from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.variables import FIELDS, LINES
-from viscontact.run_files import RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import opened
 from viscontact.studies.sweep.joint_layout import JointLayout
 from viscontact.studies.sweep.states import State

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.directory.atomic_files import replacing
 
 #: Kinds of designs: combinations, pairs, rows of a table, random samples, or several case files.

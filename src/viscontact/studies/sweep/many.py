@@ -15,7 +15,7 @@ import xarray as xr
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import fitting
 from viscontact.runs.single import simulate
-from viscontact.simulation.progress_bar import ProgressBar, reported
+from viscontact.simulation.transient.progress_bar import ProgressBar, reported
 from viscontact.studies.executors.chosen import (
     BEHIND_MAIN,
     number_of_workers,

@@ -8,8 +8,8 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.grid import Grid
-from viscontact.materials.material import Material
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.materials.material import Material
 from viscontact.runs.resources import PROGRAM, least_memory
 from viscontact.runs.single import simulate
 

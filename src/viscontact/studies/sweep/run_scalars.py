@@ -12,11 +12,11 @@ import netCDF4
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.mechanics.state import Outcome
+from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.results.variables import AXES, ERRORS, SCALARS
-from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.runs.directory.netcdf_layout import described_fields, opened
 from viscontact.runs.directory.progress_log import reached_in
-from viscontact.state import Outcome
 from viscontact.studies.sweep.states import last_line
 
 #: Columns of a table of scalars.

@@ -10,7 +10,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from viscontact.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.request import DONE, INTERRUPTED

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
 
-from viscontact.run_files import (
+from viscontact.results.run_files import (
     CASE_NAME,
     MANIFEST_NAME,
     PROGRESS_NAME,

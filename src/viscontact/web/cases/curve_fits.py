@@ -7,11 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.case.data_file import is_plain_name
 from viscontact.drawing.content.look import Look
-from viscontact.errors import AccuracyWarning
-from viscontact.figures.indentation_fits import contact_point, fit_over_time, force_over_approach
-from viscontact.figures.parts import plain
+from viscontact.drawing.plotly.indentation_fits import (
+    contact_point,
+    fit_over_time,
+    force_over_approach,
+)
+from viscontact.drawing.plotly.parts import plain
 from viscontact.identification import (
     ContactPoint,
     ForceCurve,
@@ -24,7 +29,6 @@ from viscontact.identification import (
 )
 from viscontact.identification.force_curve import tabulated_curve
 from viscontact.identification.instrument_curves import is_instrument_file, split_number
-from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.tables import Table, read_table, split_sheet
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity

@@ -7,21 +7,21 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
+from viscontact.bodies.loads import MixedHistory
+from viscontact.bodies.materials.layers import Layered, creeping_laws
+from viscontact.bodies.materials.material import Material
 from viscontact.case import Case, CaseError, Parts
 from viscontact.drawing.content.shape import natural_size
-from viscontact.loads import MixedHistory
-from viscontact.materials.layers import Layered, creeping_laws
-from viscontact.materials.material import Material
-from viscontact.notebook.curves import law_span
-from viscontact.plot import (
+from viscontact.drawing.matplotlib import (
     creep_curve,
     draw_indenter,
     draw_load,
     draw_power_spectrum,
     fitted_series,
 )
-from viscontact.plot.layout.page import Width
-from viscontact.plot.materials.creep import curve_times
+from viscontact.drawing.matplotlib.layout.page import Width
+from viscontact.drawing.matplotlib.materials.creep import curve_times
+from viscontact.drawing.svg.curves import law_span
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from viscontact.bodies.grid import Grid
 from viscontact.case import Case
-from viscontact.grid import Grid
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
-from viscontact.time_integration.requested_times import AdaptiveTimes
 
 #: Largest numbers of steps or speeds and of cells, and least number of cells over each extent of
 #: the contact.

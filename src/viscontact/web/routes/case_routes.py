@@ -14,11 +14,11 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel
 
 from viscontact import __version__
+from viscontact.bodies.materials import library
 from viscontact.case import case_schema
 from viscontact.case.yaml_source import rewritten
 from viscontact.drawing.figures import compared_names, names_of
-from viscontact.materials import library
-from viscontact.plot.layout.page import Width
+from viscontact.drawing.matplotlib.layout.page import Width
 from viscontact.results.run_axis import SPEED, TIME
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import unit_ladder
@@ -117,7 +117,7 @@ def examples() -> list[dict[str, Any]]:
 
 @cache
 def _examples() -> list[dict[str, Any]]:
-    shipped = {Path(entry.name): entry for entry in files("viscontact.examples").iterdir()}
+    shipped = {Path(entry.name): entry for entry in files("viscontact.case.examples").iterdir()}
     texts = {
         path.stem: shipped[path].read_text(encoding="utf-8")
         for path in sorted(shipped)

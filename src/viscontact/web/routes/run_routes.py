@@ -13,11 +13,11 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse, StreamingResponse
 
-from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
+from viscontact.drawing.matplotlib import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.report import write_report
 from viscontact.report.run_data import run_data
 from viscontact.results.history_csv import write_history
-from viscontact.run_files import CASE_NAME, RESULT_NAME
+from viscontact.results.run_files import CASE_NAME, RESULT_NAME
 from viscontact.units.systems import AUTOMATIC
 from viscontact.web.guard import REPORT_POLICY
 from viscontact.web.routes.case_routes import AppCalculator, CaseText

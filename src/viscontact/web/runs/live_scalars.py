@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from viscontact.drawing.content.look import Look
-from viscontact.figures.growing import growing
-from viscontact.figures.parts import plain
+from viscontact.drawing.plotly.growing import growing
+from viscontact.drawing.plotly.parts import plain
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
+from viscontact.results.run_files import PROGRESS_NAME
 from viscontact.results.variables import SCALARS, Place, labels_in
-from viscontact.run_files import PROGRESS_NAME
 from viscontact.runs.directory.progress_log import reached_in
 from viscontact.units.formatting import format_quantity
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from viscontact.results.run_axis import RUN_AXES, RunAxis
-from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Child, Ended, RunProcess
 from viscontact.runs.processes.job import Job, Standing

@@ -12,12 +12,12 @@ from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.friction import has_friction
 from viscontact.drawing.content.look import DARK, LIGHT, Look
 from viscontact.drawing.content.map import maps_if_any
-from viscontact.figures.friction import friction
-from viscontact.figures.histories import LINEAR, LOGARITHMIC, history, panel_names
-from viscontact.figures.loops import loops
-from viscontact.figures.parts import plain
-from viscontact.figures.pressure_map import map_remarks, pressure_map
-from viscontact.figures.sections import sections
+from viscontact.drawing.plotly.friction import friction
+from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC, history, panel_names
+from viscontact.drawing.plotly.loops import loops
+from viscontact.drawing.plotly.parts import plain
+from viscontact.drawing.plotly.pressure_map import map_remarks, pressure_map
+from viscontact.drawing.plotly.sections import sections
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.units.systems import SYSTEMS
 from viscontact.web.workspace.problems import RequestError

@@ -16,9 +16,9 @@ import xarray as xr
 from viscontact.drawing.figures import names_of
 from viscontact.results.netcdf import open_results
 from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
+from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.summary import summary_rows
 from viscontact.results.variables import SCALARS
-from viscontact.run_files import RESULT_NAME
 from viscontact.units.formatting import format_quantity
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.pictures import DAMAGED

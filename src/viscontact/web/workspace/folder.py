@@ -18,7 +18,7 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from viscontact.case.data_file import is_plain_name
-from viscontact.run_files import CASE_NAME
+from viscontact.results.run_files import CASE_NAME
 from viscontact.runs.directory.atomic_files import put_in_place
 from viscontact.web.workspace.problems import RequestError
 
@@ -176,7 +176,7 @@ class Folder:
 
     def _put_shipped_files(self) -> None:
         """Copy the files that shipped examples read into the folder."""
-        for entry in files("viscontact.examples").iterdir():
+        for entry in files("viscontact.case.examples").iterdir():
             path = self.path / _FILES / entry.name
             if path.suffix in _SHIPPED and not path.exists():
                 _write(path, entry.read_bytes())

@@ -14,10 +14,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.drawing.choice import FigureChoice, UnknownFigureError, require_one_axis
-from viscontact.plot.layout.saving import written
+from viscontact.drawing.matplotlib.layout.saving import written
 from viscontact.results.netcdf import open_results
 from viscontact.results.run_axis import run_axis
-from viscontact.run_files import RESULT_NAME
+from viscontact.results.run_files import RESULT_NAME
 from viscontact.web.workspace.problems import RequestError
 
 Kind = Literal["svg", "png", "pdf"]

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
-from viscontact.indenters.profile import Profile
+from viscontact.bodies.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
 from viscontact.studies.design.goals import Value
 from viscontact.studies.design.profiles.deviations import deviating

@@ -11,8 +11,8 @@ from typing import Any, Literal
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.indenters import LogarithmicProfile
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import LogarithmicProfile
 from viscontact.studies.case_values import (
     case_path,
     fingerprint,

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Roller
+from viscontact.bodies.indenters.profile import Profile
+from viscontact.bodies.laws import Elastic
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
 from viscontact.case import Case
-from viscontact.grid import Grid
-from viscontact.indenters import Roller
-from viscontact.indenters.profile import Profile
-from viscontact.laws import Elastic
-from viscontact.materials.layers import Layered
-from viscontact.materials.material import Material
 from viscontact.studies.case_values import case_with
 from viscontact.studies.design.scenarios import Scenario
 

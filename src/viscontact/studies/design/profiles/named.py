@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from viscontact.indenters import CylindricalProfile, FullCrown, LogarithmicProfile
-from viscontact.indenters.logarithmic import JOHNS_GOHAR
-from viscontact.indenters.profile import Profile
+from viscontact.bodies.indenters import CylindricalProfile, FullCrown, LogarithmicProfile
+from viscontact.bodies.indenters.logarithmic import JOHNS_GOHAR
+from viscontact.bodies.indenters.profile import Profile
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.profiles.minimax import cost
 from viscontact.studies.design.profiles.profile_runs import ProfileRuns

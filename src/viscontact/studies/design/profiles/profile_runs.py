@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.grid import Grid
-from viscontact.indenters.profile import Profile
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters.profile import Profile
 from viscontact.runs.single import simulate
 from viscontact.studies.case_values import At
 from viscontact.studies.design.goals import Value, magnitude

@@ -12,14 +12,14 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.indenters.profile import Profile
 from viscontact.case import Case
-from viscontact.display import write_study_report
-from viscontact.errors import AccuracyWarning
-from viscontact.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
 from viscontact.runs.single import simulate
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller, case_with_table
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
+from viscontact.units.display import write_study_report
 
 #: Profiles of the table beside the named ones.
 CASE, FREE, ELASTIC = "case", "free", "free, without creep"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.indenters.profile import Profile
-from viscontact.indenters.tabulated import TabulatedProfile
+from viscontact.bodies.indenters.profile import Profile
+from viscontact.bodies.indenters.tabulated import TabulatedProfile
 
 #: Last digit of a drop [m].
 RESOLUTION = 1e-10
@@ -29,7 +29,7 @@ def tabulated(x: Floats, drop: Floats) -> TabulatedProfile:
 def finite_table(profile: Profile, x: Floats, half_length: float) -> Floats:
     """Drops of a profile at positions [m], continued where they are infinite at the ends.
 
-    >>> from viscontact.indenters import LogarithmicProfile
+    >>> from viscontact.bodies.indenters import LogarithmicProfile
     >>> line = finite_table(LogarithmicProfile(1.0), np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 1.0)
     >>> line.round(3).tolist()
     [0.863, 0.288, 0.0, 0.288, 0.863]

@@ -1,0 +1,1 @@
+"""Bodies: shapes, creep laws, materials, measured surfaces, loads and grids."""

@@ -1,0 +1,243 @@
+"""Time-temperature superposition: shift factors by WLF, Arrhenius or a table.
+
+A thermorheologically simple body has one law, Phi_r(t), at a reference temperature; at
+temperature T it is Phi_r(t/a_T), with one shift factor a_T for all its times. All temperatures
+are absolute, in kelvin: 20 °C is 293.15 K.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
+from viscontact.units.display import Displayable
+from viscontact.units.numbers import check_fields, positive, store, unit_of
+
+#: Molar gas constant, exact since 2019 [J/(mol K)].
+GAS_CONSTANT = 8.31446261815324
+
+
+class Shift(Displayable, ABC):
+    """A rule that gives the shift factor a_T of each temperature.
+
+    ``law.slowed(shift.factor(T))`` is the law at temperature T.
+    """
+
+    @overload
+    def factor(self, temperature: float) -> float: ...
+    @overload
+    def factor(self, temperature: Sequence[float] | Floats) -> Floats: ...
+    def factor(self, temperature: ArrayLike) -> float | Floats:
+        """Return the shift factor a_T.
+
+        Parameters
+        ----------
+        temperature : float or array_like
+            Absolute temperature T > 0 [K].
+
+        Returns
+        -------
+        float or ndarray
+            Ratio of all times to those at the reference temperature [-], of the shape of
+            `temperature`: above 1 where it is colder.
+
+        Raises
+        ------
+        ValueError
+            If a temperature is not positive, or where the rule does not hold.
+        """
+        T = np.asarray(temperature, dtype=np.float64)
+        wrong = ~(np.isfinite(T) & (T > 0))
+        if wrong.any():
+            raise ValueError(
+                f"temperature must be a finite number above 0 K, got {T[wrong].flat[0]:.6g} K; "
+                "temperatures are absolute: 20 °C is 293.15 K"
+            )
+        with np.errstate(over="ignore", under="ignore"):
+            factors = np.exp(self._log_factor(T))
+        beyond = ~((factors > 0) & np.isfinite(factors))
+        if beyond.any():
+            raise ValueError(
+                f"temperature: {T[beyond].flat[0]:.6g} K is so far from the reference temperature "
+                "that its shift factor is no number any more; choose a nearer one"
+            )
+        return float(factors) if T.ndim == 0 else factors
+
+    @abstractmethod
+    def _log_factor(self, temperature: Floats) -> Floats:
+        """Return ln a_T."""
+
+
+@dataclass(frozen=True)
+class WLF(Shift):
+    """Williams-Landel-Ferry (WLF) equation, for polymers above their glass transition.
+
+    Parameters
+    ----------
+    reference_temperature : float
+        Absolute temperature T_r > 0 at which a_T = 1 [K].
+    c1 : float
+        Constant C_1 > 0, of the decimal logarithm [-].
+    c2 : float
+        Constant C_2 > 0 [K].
+
+    Raises
+    ------
+    ValueError
+        If one is not a positive finite number.
+
+    Notes
+    -----
+    log10 a_T = -C_1 (T - T_r) / (C_2 + T - T_r) [1]_, for T above T_r - C_2, where it is
+    infinite. Abaqus and Ansys take the same two constants of the decimal logarithm. Multiply C_1
+    by log10(e) = 0.4343 if yours are of the natural one.
+
+    References
+    ----------
+    .. [1] M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701-3707.
+
+    Examples
+    --------
+    The "universal" constants at 50 K above the glass transition:
+
+    >>> print(f"{WLF(373.15, 17.44, 51.6).factor(423.15):.3e}")
+    2.614e-09
+    """
+
+    reference_temperature: float = field(metadata={"unit": "K"})
+    c1: float = field(metadata={"unit": "1"})
+    c2: float = field(metadata={"unit": "K"})
+
+    def __post_init__(self) -> None:
+        check_fields(self, "reference_temperature", "c1", "c2")
+
+    def _log_factor(self, temperature: Floats) -> Floats:
+        above = temperature - self.reference_temperature
+        too_cold = ~(self.c2 + above > 0)
+        if too_cold.any():
+            raise ValueError(
+                f"WLF: must be used above T_r - C_2 = {self.reference_temperature - self.c2:.6g} "
+                f"K, where its shift factor is infinite, got {temperature[too_cold].flat[0]:.6g} "
+                "K; use Arrhenius or a table of factors below the glass transition"
+            )
+        return np.asarray(-np.log(10.0) * self.c1 * above / (self.c2 + above))
+
+
+@dataclass(frozen=True)
+class Arrhenius(Shift):
+    """Arrhenius equation: one activation energy at all temperatures.
+
+    Parameters
+    ----------
+    reference_temperature : float
+        Absolute temperature T_r > 0 at which a_T = 1 [K].
+    activation_energy : float
+        Energy E_a > 0 [J/mol].
+
+    Raises
+    ------
+    ValueError
+        If one is not a positive finite number.
+
+    Notes
+    -----
+    ln a_T = (E_a/R) (1/T - 1/T_r), with the molar gas constant R: Ferry, Viscoelastic Properties
+    of Polymers, 3rd ed., Wiley, 1980, chapter 11.
+
+    Examples
+    --------
+    >>> print(f"{Arrhenius(293.15, 80e3).factor(303.15):.4f}")
+    0.3387
+    """
+
+    reference_temperature: float = field(metadata={"unit": "K"})
+    activation_energy: float = field(metadata={"unit": "J/mol"})
+
+    def __post_init__(self) -> None:
+        check_fields(self, "reference_temperature", "activation_energy")
+
+    def _log_factor(self, temperature: Floats) -> Floats:
+        scale = self.activation_energy / GAS_CONSTANT
+        return np.asarray(scale * (1.0 / temperature - 1.0 / self.reference_temperature))
+
+
+@dataclass(frozen=True)
+class TabulatedShift(Shift):
+    """Measured shift factors, linear in ln a_T between them.
+
+    Parameters
+    ----------
+    temperatures : sequence of float
+        Absolute temperatures, increasing, two or more [K].
+    factors : sequence of float
+        Shift factors a_T > 0, one for each, falling or equal [-].
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive, the temperatures do not increase or the factors rise: a
+        body is not slower where it is warmer.
+
+    Notes
+    -----
+    Nothing is extrapolated: a temperature outside the table is refused.
+
+    Examples
+    --------
+    >>> shift = TabulatedShift([283.15, 293.15, 303.15], [100.0, 1.0, 0.1])
+    >>> print(f"{shift.factor(288.15):.4f}")
+    10.0000
+    """
+
+    temperatures: Sequence[float] = field(metadata={"unit": "K"})
+    factors: Sequence[float] = field(metadata={"unit": "1"})
+    _OWNER: ClassVar[str] = "TabulatedShift"
+
+    def __post_init__(self) -> None:
+        temperatures = self._column("temperatures", self.temperatures)
+        factors = self._column("factors", self.factors)
+        if len(temperatures) != len(factors) or len(temperatures) < 2:
+            raise ValueError(
+                f"{self._OWNER}: temperatures and factors must have equal lengths of at least 2, "
+                f"got {len(temperatures)} temperatures and {len(factors)} factors"
+            )
+        for i in range(1, len(temperatures)):
+            self._require_order(i, temperatures, factors)
+        store(self, temperatures=temperatures, factors=factors)
+
+    def _column(self, name: str, values: Sequence[float]) -> tuple[float, ...]:
+        unit = unit_of(type(self), name) or "1"
+        return tuple(
+            positive(f"{self._OWNER}: {name}[{i}]", value, unit) for i, value in enumerate(values)
+        )
+
+    def _require_order(
+        self, i: int, temperatures: tuple[float, ...], factors: tuple[float, ...]
+    ) -> None:
+        if not temperatures[i] > temperatures[i - 1]:
+            raise ValueError(
+                f"{self._OWNER}: temperatures[{i}] must be above the one before, "
+                f"{temperatures[i - 1]!r} K, got {temperatures[i]!r} K"
+            )
+        if factors[i] > factors[i - 1]:
+            raise ValueError(
+                f"{self._OWNER}: factors[{i}] must not be above the one before, "
+                f"{factors[i - 1]!r}, got {factors[i]!r}; a_T falls where it gets warmer "
+                "(are these 1/a_T, or logarithms?)"
+            )
+
+    def _log_factor(self, temperature: Floats) -> Floats:
+        first, last = self.temperatures[0], self.temperatures[-1]
+        outside = ~((first <= temperature) & (temperature <= last))
+        if outside.any():
+            raise ValueError(
+                f"{self._OWNER}: must be used between {first:.6g} and {last:.6g} K, got "
+                f"{temperature[outside].flat[0]:.6g} K; WLF and Arrhenius hold beyond a table"
+            )
+        return np.asarray(np.interp(temperature, self.temperatures, np.log(self.factors)))

@@ -1,0 +1,30 @@
+"""Load histories: force or approach over time, eccentricity and tilt."""
+
+from viscontact.bodies.loads.approach import ApproachHistory
+from viscontact.bodies.loads.force import ForceHistory
+from viscontact.bodies.loads.harmonic import HarmonicHistory, harmonic
+from viscontact.bodies.loads.history import LoadHistory, LoadPoint
+from viscontact.bodies.loads.mixed import MixedHistory
+from viscontact.bodies.loads.program import Condition, LoadProgram, Segment
+from viscontact.bodies.loads.reciprocation import Reciprocation, reciprocating
+from viscontact.bodies.loads.standard import ramp, step, triangle
+from viscontact.bodies.loads.travel import Travel
+
+__all__ = [
+    "ApproachHistory",
+    "Condition",
+    "ForceHistory",
+    "HarmonicHistory",
+    "LoadHistory",
+    "LoadPoint",
+    "LoadProgram",
+    "MixedHistory",
+    "Reciprocation",
+    "Segment",
+    "Travel",
+    "harmonic",
+    "ramp",
+    "reciprocating",
+    "step",
+    "triangle",
+]

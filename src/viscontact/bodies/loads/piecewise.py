@@ -1,0 +1,156 @@
+"""Piecewise linear load histories with jumps."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.bodies.loads import arguments
+from viscontact.bodies.loads.history import Cycle, LoadHistory, LoadInstant, LoadPoint
+from viscontact.units.numbers import finite
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class PiecewiseHistory(LoadHistory):
+    """A history by points; a time given twice is a jump, from the first value to the second."""
+
+    times: Floats
+
+    def at(self, time: float, *, side: str = "right") -> LoadPoint:
+        """Return the prescribed load at an instant.
+
+        Parameters
+        ----------
+        time : float
+            The instant [s].
+        side : {"right", "left"}
+            Which value to take at a jump: the one just after it or the one just before.
+
+        Returns
+        -------
+        LoadPoint
+            Force or approach, eccentricities and tilts; before the first point the force is 0 and
+            eccentricities and tilts have their first values.
+
+        Raises
+        ------
+        ValueError
+            If the time is not a finite number, or the side is neither of the two.
+
+        Examples
+        --------
+        >>> from viscontact.bodies.loads import ApproachHistory, ForceHistory
+        >>> point = ForceHistory([0, 2], [0, 10], eccentricity_x=0.003).at(1.0)
+        >>> point.force, point.eccentricity_x, point.tilt_x
+        (5.0, 0.003, None)
+        >>> ApproachHistory([0, 2], [0, 1e-5]).at(1.0).approach
+        5e-06
+        """
+        instant = np.asarray(finite("time", time, "s"))
+        level = float(self.level_at(instant, side=side))
+        values: dict[str, Any] = {"force": None, self.control: level}
+        for name in arguments.TAIL:
+            of = getattr(self, name)
+            values[name] = None if of is None else float(self._interpolate(of, instant, side))
+        return LoadPoint(**values)
+
+    @cached_property
+    def kinks(self) -> Floats:
+        """All distinct instants of the points, increasing: kinks, jumps, first and last [s]."""
+        return np.unique(self.times)
+
+    @cached_property
+    def jumps(self) -> Floats:
+        """Instants where, under load, force, approach, eccentricity or tilt jumps [s].
+
+        A history that starts with a force has its first jump there.
+        """
+        kinks = self.kinks
+        before, after = self.level_at(kinks, side="left"), self.level_at(kinks)
+        changed = before != after
+        for name in arguments.TAIL:
+            of = getattr(self, name)
+            if of is not None:
+                left, right = (self._interpolate(of, kinks, side) for side in ("left", "right"))
+                changed |= left != right
+        loaded = self._loaded_at(kinks, "left") | self._loaded_at(kinks, "right")
+        return np.asarray(kinks[changed & loaded])
+
+    def _loaded_at(self, times: Floats, side: str) -> Bools:
+        """True where contact is possible: under a force, or with an approach above 0 or a tilt."""
+        level = self.level_at(times, side=side)
+        if self.control == "force":
+            return np.asarray(level != 0)
+        tilts = [of for of in (getattr(self, name) for name in arguments.TILTS) if of is not None]
+        tilted = [self._interpolate(of, times, side) != 0 for of in tilts]
+        return np.asarray(np.logical_or.reduce([level > 0, *tilted]))
+
+    @cached_property
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """From valley to valley of one level: a first rise begins them, a fall ends each."""
+        valleys = self._valleys()
+        same = 1e-9 * max(self.largest_level, 0.0)
+        return tuple(
+            (begin, end)
+            for (low, begin), (back, end) in itertools.pairwise(valleys)
+            if abs(back - low) <= same
+        )
+
+    def _valleys(self) -> list[tuple[float, LoadInstant]]:
+        """Levels and instants of the first rise's begin and of the end of each fall."""
+        plateaus = self._plateaus()
+        levels = [level for level, _, _ in plateaus]
+        rises = [k for k in range(len(levels) - 1) if levels[k + 1] > levels[k]]
+        if not rises:
+            return []
+        begins = set(rises)
+        falls = [
+            (level, first)
+            for k, (level, first, _) in enumerate(plateaus)
+            if k > rises[0] and level < levels[k - 1] and (k + 1 == len(levels) or k in begins)
+        ]
+        return [(levels[rises[0]], plateaus[rises[0]][2]), *falls]
+
+    def _plateaus(self) -> list[tuple[float, LoadInstant, LoadInstant]]:
+        """Successive different levels at the points, each with its first and last instant."""
+        plateaus: list[tuple[float, LoadInstant, LoadInstant]] = []
+        # However far a stage is withdrawn, apart is apart.
+        levels = [np.maximum(self.level_at(self.kinks, side=s), 0.0) for s in ("left", "right")]
+        for time, *both in zip(self.kinks.tolist(), *(of.tolist() for of in levels), strict=True):
+            for level, side in zip(both, ("left", "right"), strict=True):
+                moment = (time, side)
+                if plateaus and plateaus[-1][0] == level:
+                    plateaus[-1] = (level, plateaus[-1][1], moment)
+                else:
+                    plateaus.append((level, moment, moment))
+        return plateaus
+
+    def _interpolate(self, values: float | Floats, times: Floats, side: str) -> Floats:
+        """Values at `times`, held before the first and after the last point."""
+        if isinstance(values, float):
+            return np.full(times.shape, values)
+        reached = np.searchsorted(self.times, times, side=arguments.side_of_jump(side))
+        i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
+        span = self.times[j] - self.times[i]
+        part = np.divide(times - self.times[i], span, out=np.zeros(times.shape), where=span > 0)
+        # Counted from the nearer point, so that either point's value comes out exactly.
+        first_half = part < 0.5
+        nearer, offset = np.where(first_half, i, j), np.where(first_half, part, part - 1)
+        return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
+
+    def _started(self, times: Floats, side: str) -> Bools:
+        return np.asarray(np.searchsorted(self.times, times, side=arguments.side_of_jump(side)) > 0)
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        names = [field.name for field in fields(self)]
+        return all(np.array_equal(getattr(self, n), getattr(other, n)) for n in names)
+
+    def __hash__(self) -> int:
+        return hash((type(self).__name__, self.times.size, float(self.times[-1])))

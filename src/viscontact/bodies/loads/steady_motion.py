@@ -1,0 +1,64 @@
+"""Steady motion: constant speeds along an axis, under a constant load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.loads.history import LoadHistory, LoadPoint
+from viscontact.units.formatting import format_quantity
+
+
+@dataclass(frozen=True)
+class SteadyMotion:
+    """Speeds [m/s] of a body towards + along an axis; `rolling` as of `Travel`."""
+
+    speeds: tuple[float, ...]
+    along: str
+    rolling: bool | None
+
+    def __post_init__(self) -> None:
+        twice = [speed for speed in self.speeds if self.speeds.count(speed) > 1]
+        if twice:
+            raise ValueError(
+                f"speed: each speed is needed once, got {format_quantity(twice[0], 'm/s')} twice"
+            )
+
+
+def checked_speeds(name: str, given: Any) -> Floats:
+    """Return distinct positive speeds, from one or a list of them [m/s]."""
+    try:
+        speeds = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be numbers in m/s, got {given!r}") from None
+    if speeds.ndim != 1 or not speeds.size or not (np.isfinite(speeds) & (speeds > 0)).all():
+        raise ValueError(f"{name} must be positive and finite [m/s], got {given!r}")
+    if len(np.unique(speeds)) < len(speeds):
+        raise ValueError(f"{name}: each speed is needed once, got {given!r}")
+    return speeds
+
+
+def constant_load(load: LoadHistory) -> LoadPoint:
+    """Return the positive load of a history that is constant from time 0; else ValueError."""
+    held = load.at(0.0)
+    later = [
+        load.at(float(time), side=side)
+        for time in load.kinks
+        for side in ("left", "right")
+        if time > 0 or side == "right"  # before time 0 there is no load
+    ]
+    changes = load.control == "mixed" or np.isfinite(load.longest_step)
+    if changes or any(point != held for point in later):
+        raise ValueError(
+            "load: a steady motion has a constant load, and this one changes in time; use a step "
+            "of force or approach"
+        )
+    if held.force is not None and held.force <= 0:
+        raise ValueError(
+            "load: the force must be positive in steady motion, got "
+            f"{format_quantity(held.force, 'N')}"
+        )
+    return held

@@ -1,0 +1,103 @@
+"""Height maps from files of profilers and microscopes, read by SurfaceTopography."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from viscontact.bodies.surfaces.surface import Surface
+from viscontact.bodies.surfaces.units import Spacing, Units
+from viscontact.units.parsing import parse_unit
+
+
+def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
+    """Read a map, or a line scan, in a format that SurfaceTopography knows."""
+    try:
+        # Imported here: it takes two seconds, and few files need it.
+        from SurfaceTopography import open_topography
+        from SurfaceTopography.Exceptions import CannotDetectFileFormat, UnknownFileFormat
+    except ImportError as error:
+        raise ValueError(
+            f"{path.name}: reading {path.suffix or 'such'} files needs SurfaceTopography; type: "
+            "pip install 'viscontact[surfaces]' (NPY, NPZ and CSV are read without it)"
+        ) from error
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about details of the formats
+            with open_topography(str(path)) as file:
+                found = _channel(path.name, file, channel)
+                scale, spacing = _lengths(found, units)
+                # SurfaceTopography needs a size; the caller's spacing replaces it below.
+                sizes = {} if found.physical_sizes else {"physical_sizes": found.nb_grid_pts}
+                topography = file.topography(channel_index=found.index, **sizes)
+                heights: Any = topography.heights()
+    except (MemoryError, _RefusedError):
+        raise
+    except (CannotDetectFileFormat, UnknownFileFormat) as error:
+        raise ValueError(
+            f"{path.name}: cannot be read as a surface: its content is in no format that is known, "
+            "or broken"
+        ) from error
+    except Exception as error:  # 42 formats: a broken file may raise anything
+        why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
+        raise ValueError(f"{path.name}: cannot be read as a surface: {why}") from error
+    return _surface(path.name, topography, heights, scale, spacing)
+
+
+class _RefusedError(ValueError):
+    """Refusal that concerns the arguments, not the file."""
+
+
+def _channel(name: str, file: Any, channel: str | None) -> Any:
+    if channel is None:
+        return file.default_channel
+    found = [each for each in file.channels if each.name == channel]
+    if not found:
+        names = ", ".join(repr(each.name) for each in file.channels)
+        raise _RefusedError(f"channel: {name} has no channel {channel!r}; there are {names}")
+    return found[0]
+
+
+def _lengths(found: Any, units: Units) -> tuple[float, Spacing | None]:
+    """Scale of the heights in metres, and the spacing [m] where the file does not state it."""
+    try:
+        _require_heights(found, units.name)
+        if found.unit is None:  # then sizes in the file have no unit either
+            return units.height_scale, units.steps
+        units.require_none("height_unit")
+        scale = parse_unit(str(found.unit), "length")
+        if found.physical_sizes is None:
+            return scale, units.steps
+        units.require_none("spacing")
+    except ValueError as error:
+        raise _RefusedError(str(error)) from error
+    return scale, None
+
+
+def _require_heights(found: Any, name: str) -> None:
+    if isinstance(found.unit, tuple):
+        raise ValueError(
+            f"channel: {found.name!r} of {name} holds no heights, but values in "
+            f"{found.unit[1] or 'no unit'}; choose another"
+        )
+    if found.is_uniform is False:
+        raise ValueError(
+            f"{name}: its points are unevenly spaced; bring them to an even mesh first"
+        )
+
+
+def _surface(
+    name: str, topography: Any, heights: Any, scale: float, spacing: Spacing | None
+) -> Surface:
+    values = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan) * scale
+    values[np.isinf(values)] = np.nan
+    if values.ndim == 1:
+        values = values[:, np.newaxis]
+    if spacing is None:
+        sizes = zip(topography.physical_sizes, topography.nb_grid_pts, strict=True)
+        along = [float(size) * scale / n for size, n in sizes]
+        spacing = along[0], along[-1]
+    return Surface(values, spacing, name=name, periodic=bool(topography.is_periodic))

@@ -1,0 +1,140 @@
+"""Figures of a run, of several runs, of a sweep, and of a creep law.
+
+Every figure takes a result, as ``simulate`` or ``open_results`` returned it, and gives a
+`matplotlib.figure.Figure`; `FIGURES` and `COMPARISONS` list them by the names of the command
+line. Nothing here uses or changes matplotlib's global state.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+try:
+    from matplotlib.figure import Figure
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "figures need matplotlib, which is not installed; type: pip install 'viscontact[plot]'",
+        name="matplotlib",
+    ) from error
+
+from viscontact.drawing.figures import TABLE, names_of
+from viscontact.drawing.matplotlib.animations.animation import Animation, animation
+from viscontact.drawing.matplotlib.animations.saving import ANIMATION_SUFFIXES, save_animation
+from viscontact.drawing.matplotlib.geometry.indenter_drawing import draw_indenter
+from viscontact.drawing.matplotlib.geometry.indenter_figure import indenter
+from viscontact.drawing.matplotlib.geometry.load_drawing import draw_load
+from viscontact.drawing.matplotlib.geometry.power_spectrum import draw_power_spectrum
+from viscontact.drawing.matplotlib.histories.contact_area import contact_area
+from viscontact.drawing.matplotlib.histories.exact import exact
+from viscontact.drawing.matplotlib.histories.history import compare_histories, history
+from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresis, hysteresis
+from viscontact.drawing.matplotlib.histories.margins import margin_history
+from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
+from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
+from viscontact.drawing.matplotlib.materials.creep import compare_creep, creep, creep_curve
+from viscontact.drawing.matplotlib.materials.fitted import fitted_indentation, fitted_series
+from viscontact.drawing.matplotlib.materials.fitted_records import fitted_records
+from viscontact.drawing.matplotlib.materials.master_curve import master_curve
+from viscontact.drawing.matplotlib.materials.material_curves import material_curves
+from viscontact.drawing.matplotlib.motion.friction import friction
+from viscontact.drawing.matplotlib.motion.motion_profile import motion_profile
+from viscontact.drawing.matplotlib.pressure.contact_outline import (
+    compare_contact_outlines,
+    contact_outline,
+)
+from viscontact.drawing.matplotlib.pressure.contact_spots import contact_spots
+from viscontact.drawing.matplotlib.pressure.deformed_surface import deformed_surface
+from viscontact.drawing.matplotlib.pressure.line_load import compare_line_loads, line_load
+from viscontact.drawing.matplotlib.pressure.pressure_map import compare_pressure_maps, pressure_map
+from viscontact.drawing.matplotlib.pressure.pressure_profile import (
+    compare_pressure_profiles,
+    pressure_profile,
+)
+from viscontact.drawing.matplotlib.pressure.pressure_radial import pressure_radial
+from viscontact.drawing.matplotlib.pressure.pressure_surface import (
+    compare_pressure_surfaces,
+    pressure_surface,
+)
+from viscontact.drawing.matplotlib.pressure.stress_section import stress_section
+from viscontact.drawing.matplotlib.result_plots import ResultPlots, add_methods
+from viscontact.drawing.matplotlib.sweeps.profiles import profiles
+from viscontact.drawing.matplotlib.sweeps.response import response
+from viscontact.drawing.matplotlib.sweeps.scatter_bands import scatter_bands
+from viscontact.drawing.matplotlib.sweeps.tornado import tornado
+from viscontact.drawing.matplotlib.sweeps.trade_off import trade_off
+from viscontact.drawing.matplotlib.sweeps.trials import trials
+
+__all__ = [
+    "ANIMATION_SUFFIXES",
+    "COMPARISONS",
+    "FIGURES",
+    "FIGURE_SUFFIXES",
+    "STEADY_FIGURES",
+    "Animation",
+    "ResultPlots",
+    "animation",
+    "compare_contact_outlines",
+    "compare_creep",
+    "compare_histories",
+    "compare_hysteresis",
+    "compare_line_loads",
+    "compare_pressure_maps",
+    "compare_pressure_profiles",
+    "compare_pressure_surfaces",
+    "compare_von_mises",
+    "contact_area",
+    "contact_outline",
+    "contact_spots",
+    "creep",
+    "creep_curve",
+    "deformed_surface",
+    "draw_indenter",
+    "draw_load",
+    "draw_power_spectrum",
+    "exact",
+    "fitted_indentation",
+    "fitted_records",
+    "fitted_series",
+    "friction",
+    "history",
+    "hysteresis",
+    "indenter",
+    "line_load",
+    "margin_history",
+    "master_curve",
+    "material_curves",
+    "motion_profile",
+    "pressure_map",
+    "pressure_profile",
+    "pressure_radial",
+    "pressure_surface",
+    "profiles",
+    "require_suffix",
+    "response",
+    "save_animation",
+    "save_figure",
+    "scatter_bands",
+    "stress_section",
+    "tornado",
+    "trade_off",
+    "trials",
+    "von_mises_history",
+]
+
+_DRAWN: dict[str, Callable[..., Any]] = {each.name: globals()[each.drawn_by] for each in TABLE}
+
+FIGURES: dict[str, Callable[..., Figure]] = {
+    name: _DRAWN[name] for name in names_of("time", "both")
+}
+"""Figures of one run by name: ``FIGURES[name](results, times=None)``."""
+
+STEADY_FIGURES: dict[str, Callable[..., Figure]] = {
+    name: _DRAWN[name] for name in names_of("speed")
+}
+"""Figures of a steady motion by name: ``STEADY_FIGURES[name](results)``."""
+
+COMPARISONS: dict[str, Callable[..., Figure]] = {
+    each.name: globals()[each.compare] for each in TABLE if each.compare
+}
+"""Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
+
+add_methods(TABLE, globals())

@@ -1,0 +1,151 @@
+"""Exact history of the recorded case of a result, for a sphere on a half-space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.indenters import Indenter, Sphere
+from viscontact.bodies.laws import Elastic
+from viscontact.bodies.loads import ApproachHistory, ForceHistory
+from viscontact.drawing.content.exact_sphere import exact_sphere, sphere_radius
+from viscontact.reference import (
+    AxisymmetricContact,
+    LeeRadokContact,
+    SphereProfile,
+    clustered_times,
+    press_axisymmetric,
+)
+from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_object
+
+# Steps of the reference between corners of the load, and points of its pressure.
+_STEPS, _PLACES = 60, 48
+
+
+@dataclass(frozen=True, eq=False)
+class ExactHistory:
+    """Exact histories at a run's times: lengths [m], force [N], pressure [Pa]."""
+
+    solution: str
+    contact_radius: Floats
+    approach: Floats
+    force: Floats
+    peak_pressure: Floats
+
+
+def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
+    """Hertz's, Lee and Radok's or Ting's solution of the case of a result.
+
+    Lee and Radok's for a step or a ramp that is held; for other piecewise linear loads Ting's
+    equations as solved by `viscontact.reference`, for an elastic half-space Hertz's solution.
+    """
+    indenter, load = (recorded_object(results, part, figure) for part in ("indenter", "load"))
+    radius = sphere_radius(indenter)
+    _require_known(results, indenter, radius, load, figure)
+    compliance, is_elastic = _compliance(results, figure)
+    instants = np.asarray(results["time"].values, dtype=np.float64)
+    growing = exact_sphere(results, figure)
+    if growing is not None and not is_elastic:
+        return _of_growing(growing, instants)
+    try:
+        marched = _pressed(float(radius or 0.0), load, compliance, instants)
+    except ValueError as error:
+        raise ValueError(f"{figure}: {error}") from error
+    return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
+
+
+def exact_label(results: xr.Dataset, solution: str, figure: str) -> str:
+    """Legend of an exact solution, which replaces a sphere by its paraboloid."""
+    sphere = isinstance(recorded_object(results, "indenter", figure), Sphere)
+    return f"{'paraboloid' if sphere else 'exact'} ({solution})"
+
+
+def _require_known(
+    results: xr.Dataset, indenter: Indenter, radius: float | None, load: Any, figure: str
+) -> None:
+    kind = type(indenter).__name__
+    if radius is None:
+        raise ValueError(
+            f"{figure}: needs a sphere or a round paraboloid, for which there is an exact "
+            f"solution, got a {kind}; draw history instead"
+        )
+    if is_layered(results) or is_layered(results, "indenter_material"):
+        raise ValueError(f"{figure}: needs a half-space, not layers; draw history instead")
+    if any(recorded_grid(results).periodic):
+        raise ValueError(f"{figure}: needs a half-space without period; draw history instead")
+    if not isinstance(load, ForceHistory | ApproachHistory):
+        raise ValueError(
+            f"{figure}: needs a load of straight pieces, such as a step, a ramp or a triangle, "
+            f"got a {type(load).__name__}; draw history instead"
+        )
+    tail = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+    off = [name for name in tail if np.any(getattr(load, name, None) or 0.0)]
+    if off:
+        raise ValueError(
+            f"{figure}: needs a load on the axis, got {off[0].replace('_', ' ')}; draw history "
+            "instead"
+        )
+
+
+def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
+    """Contact compliance of both bodies, and True if both are elastic."""
+    bodies = [recorded_object(results, part, figure) for part in ("material", "indenter_material")]
+    there = [body for body in bodies if body is not None]
+    compliance = there[0].contact_compliance()
+    for other in there[1:]:
+        compliance = compliance + other.contact_compliance()
+    return compliance, all(isinstance(body.law, Elastic) for body in there)
+
+
+def _pressed(radius: float, load: Any, compliance: Any, instants: Floats) -> AxisymmetricContact:
+    """Reference solution under the load, with its own steps between those of the run."""
+    corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
+    corners = corners[corners <= instants[-1]]
+    placed = clustered_times(corners, _STEPS) if corners.size > 1 else corners
+    times = np.unique(np.concatenate([placed, instants]))
+    # A jump has two values, but for the one at the beginning, before which there is no contact.
+    jumps = load.jumps[(load.jumps > 0) & (load.jumps <= instants[-1])]
+    before = np.concatenate([times, jumps])
+    level = np.concatenate([load.level_at(times), load.level_at(jumps, side="left")])
+    order = np.lexsort((np.arange(before.size) < times.size, before))
+    driven, profile = level[order], SphereProfile(radius)
+    if isinstance(load, ApproachHistory):
+        return press_axisymmetric(
+            profile, before[order], approach=driven, creep_compliance=compliance
+        )
+    return press_axisymmetric(profile, before[order], force=driven, creep_compliance=compliance)
+
+
+def _of_growing(contact: LeeRadokContact, instants: Floats) -> ExactHistory:
+    radius = np.asarray(contact.contact_radius(instants))
+    places = radius[:, None] * _places()
+    pressure = np.asarray(contact.pressure(places, instants[:, None]))
+    return ExactHistory(
+        "Lee–Radok",
+        radius,
+        np.asarray(contact.approach(instants)),
+        np.asarray(contact.force(instants)),
+        pressure.max(axis=1),
+    )
+
+
+def _of_marched(contact: AxisymmetricContact, instants: Floats, solution: str) -> ExactHistory:
+    last = np.searchsorted(contact.times, instants, side="right") - 1
+    radius = contact.contact_radius[last]
+    peaks = [
+        float(np.max(contact.pressure(a * _places(), float(t)))) if a > 0 else 0.0
+        for a, t in zip(radius, instants, strict=True)
+    ]
+    return ExactHistory(
+        solution, radius, contact.approach[last], contact.force[last], np.array(peaks)
+    )
+
+
+def _places() -> Floats:
+    # Denser towards the rim, where the pressure of a fluid is largest.
+    places: Floats = np.sin(np.linspace(0.0, np.pi / 2, _PLACES, endpoint=False))
+    return places

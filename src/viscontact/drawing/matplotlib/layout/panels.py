@@ -1,0 +1,141 @@
+"""Panels of curves in Matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.error_band import Band, draw_band
+from viscontact.drawing.matplotlib.layout.log_time import label_log_time, set_log_time
+from viscontact.drawing.matplotlib.layout.page import NARROW
+
+#: Dashes and markers of a curve by its look.
+_LOOKS: Mapping[str, dict[str, Any]] = {
+    "line": {},
+    "dashed": {"linestyle": "--", "linewidth": 1.0},
+    "dotted": {"linestyle": ":", "linewidth": 1.0},
+    "joined": {"marker": "o", "markersize": 3.5},
+    "points": {"marker": "o", "markersize": 3.5, "linestyle": "none"},
+    "hollow": {"marker": "o", "markersize": 3.2, "linestyle": "none", "markerfacecolor": "none"},
+}
+_MARKS = {"line": "-", "dashed": "--", "dotted": ":"}
+
+
+def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
+    """Figure of a width [inch] with equal panels over a common axis."""
+    columns = 1 if width <= NARROW else 2 if count in (2, 4) else 3
+    rows = -(-count // columns)
+    height = {1: 1.5, 2: 2.3, 3: 2.0}[columns] * rows + 0.2
+    figure = style.new_figure(width, height)
+    panels = list(figure.subplots(rows, columns, sharex=True, squeeze=False).flat)
+    for unused in panels[count:]:
+        unused.remove()
+    # Only the lowest panel of each column has an axis label, or all of them where columns differ,
+    # for even spacing of the rows.
+    first = max(count - columns, 0) if count % columns == 0 else 0
+    for axes in panels[first:count]:
+        axes.tick_params(labelbottom=True)
+    return figure, panels[:count]
+
+
+def draw_panel(axes: Axes, panel: Panel) -> list[Band]:
+    """Draw a panel, and return the error bands of its curves."""
+    style.dress(axes)
+    for curve in panel.curves:
+        axes.plot(
+            panel.x.unit(curve.x),
+            panel.y.unit(curve.y),
+            label=curve.name,
+            **style.look_of(curve.ink) | _LOOKS[curve.look],
+        )
+    bands = [band for curve in panel.curves for band in _errors(axes, panel, curve)]
+    for shaded in panel.bands:
+        look = {"color": style.look_of(shaded.ink)["color"], "alpha": 0.25, "linewidth": 0.0}
+        edges = panel.y.unit(shaded.low), panel.y.unit(shaded.high)
+        axes.fill_between(panel.x.unit(shaded.x), *edges, label=shaded.name, **look)
+    for mark in panel.marks:
+        _draw_mark(axes, panel, mark)
+    axes.set_ylabel(panel.y.label)
+    if panel.y.limits is not None:
+        axes.set_ylim(*panel.y.unit(panel.y.limits))
+    if panel.y.scale == "log":
+        axes.set_yscale("log")
+    else:
+        axes.ticklabel_format(axis="y", useOffset=False)
+    scale_along(axes, panel.x)
+    if panel.in_place:
+        _say_not_drawn(axes, panel.in_place)
+    if panel.title:
+        style.add_heading(axes, panel.title)
+    if panel.note:
+        style.add_heading(axes, panel.note, aside=True)
+    return bands
+
+
+def scale_along(axes: Axes, axis: Axis) -> None:
+    """Scale and label the horizontal axis of a panel."""
+    label = axis.label
+    if axis.limits is not None:
+        start, end = axis.unit(axis.limits).tolist()
+        if axis.scale == "time":
+            set_log_time(axes, float(axis.unit(axis.first)), end)
+        if end > start:
+            axes.set_xlim(start, end)
+        if axis.scale == "time":
+            label = label_log_time(axes, axis.unit, float(axis.unit(axis.first)), end)
+    if axis.scale == "log":
+        axes.set_xscale("log")
+    if axes.xaxis.get_tick_params()["labelbottom"]:
+        axes.set_xlabel(label)
+
+
+def _errors(axes: Axes, panel: Panel, curve: Curve) -> list[Band]:
+    """Error bars at points, and bands of each branch of a line in turn."""
+    x, y, colour = panel.x.unit(curve.x), panel.y.unit(curve.y), style.look_of(curve.ink)["color"]
+    errors = [(curve.error, panel.y, False), (curve.error_x, panel.x, True)]
+    bands = []
+    for error, axis, sideways in errors:
+        if error is None:
+            continue
+        if curve.look not in ("line", "dashed", "dotted"):
+            bars = np.where(np.isfinite(error), axis.unit(error), 0.0)
+            how: dict[str, Any] = {"xerr" if sideways else "yerr": bars}
+            axes.errorbar(x, y, fmt="none", ecolor=colour, elinewidth=0.8, **how)
+            continue
+        for part in _branches(y if sideways else x):
+            half = axis.unit(error[part])
+            bands.append(draw_band(axes, x[part], y[part], half, colour, sideways=sideways))
+    return [band for band in bands if band is not None]
+
+
+def _branches(along: Floats) -> list[Any]:
+    """Indices of the parts of a curve between its turns; each begins at the end of the last."""
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(along)))) + 1
+    return [
+        np.append(part, part[-1] + 1)[: along.size - int(part[0])]
+        for part in np.split(np.arange(along.size), turns)
+    ]
+
+
+def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
+    look: dict[str, Any] = {
+        **{"color": style.FAINT, "linestyle": _MARKS[mark.look], "linewidth": style.THIN_LINE}
+    }
+    if mark.axis == "x":
+        axes.axvline(float(panel.x.unit(mark.place)), **look)
+    else:
+        axes.axhline(float(panel.y.unit(mark.place)), **look)
+
+
+def _say_not_drawn(axes: Axes, text: str) -> None:
+    look: dict[str, Any] = {"fontsize": style.TICK_SIZE, "color": style.FAINT}
+    text = text.replace(": ", ":\n")
+    axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes, **look)
+    axes.set_yticks([])

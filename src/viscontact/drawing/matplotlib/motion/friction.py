@@ -1,0 +1,63 @@
+"""Friction coefficient of a body in steady motion, over its speed."""
+
+from __future__ import annotations
+
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from viscontact.drawing.content.friction import friction_panel, has_friction
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.page import Width, page_width
+from viscontact.drawing.matplotlib.layout.panels import draw_panel
+
+
+def friction(
+    results: xr.Dataset, *, axes: Axes | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the friction coefficient over the speed, with the limits of slow and fast motion.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        From `viscontact.steady`.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw in; by default a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A point with its error bar for each speed, on logarithmic axes. The limit of slow motion is
+        drawn for bodies that are round along the motion, on a solid; that of fast motion for round
+        paraboloids and spheres; both for a law that is a series under a rigid or elastic body.
+
+    Raises
+    ------
+    ValueError
+        If the result is not one of steady motion, or the friction is not positive.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.5)
+    >>> ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    >>> ds = vc.steady(ball, rubber, load, [0.01, 0.1, 1.0], errors=False, fields="none")
+    >>> axes = friction(ds).axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel(), len(axes.lines)
+    ('Speed [m/s]', 'Friction coefficient', 3)
+    """
+    if "speed" not in results.dims:
+        raise ValueError("friction: the figure needs a result of steady motion, from steady()")
+    if not has_friction(results):
+        raise ValueError("friction: no friction coefficient is positive, as on an elastic body")
+    if axes is None:
+        wide = page_width(width, style.ONE_COLUMN)
+        axes = style.new_figure(wide, 0.7 * wide).subplots()
+    draw_panel(axes, friction_panel(results.sortby("speed")))
+    axes.tick_params(which="both", labelsize=style.TICK_SIZE, colors=style.INK)
+    handles, labels = axes.get_legend_handles_labels()
+    if len(handles) > 1:
+        style.add_legend(axes, handles, labels, loc="best")
+    return style.figure_of(axes)

@@ -1,0 +1,242 @@
+"""Iso-contours of pressure over the contact (the paper's Figs. 8, 11 and 14)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal, get_args
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.drawing.content.compared_runs import Runs
+from viscontact.drawing.content.map import Map, Maps, maps_at
+from viscontact.drawing.content.rim import beyond_period
+from viscontact.drawing.content.scale import AREAS, CELLS, Scale
+from viscontact.drawing.content.squared_pressure import squared_pressure
+from viscontact.drawing.content.window import Window
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.contour_labels import label_contours
+from viscontact.drawing.matplotlib.layout.map_axes import mark_body, rim_path, show_window
+from viscontact.drawing.matplotlib.layout.page import Width, page_width
+from viscontact.results.snapshots import Snapshot
+from viscontact.units.formatting import format_compact
+
+_NAME = "pressure-map"
+#: Appearance of the pressure: labelled iso-contours, or a colour for each cell.
+MapStyle = Literal["contours", "colours"]
+#: Height over width from which on maps are beside each other.
+_HIGH = 1.6
+#: Percentiles of pressure over the contact between which contours have room for labels.
+_LABELLED = (20.0, 97.0)
+#: Number of colours of cells.
+_COLOURS = 256
+
+
+def pressure_map(
+    results: Runs,
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    style: MapStyle | None = None,
+) -> Figure:
+    """Draw the pressure, one panel per instant, with the outline of the contact.
+
+    Parameters
+    ----------
+    results : xarray.Dataset, or mapping of str to xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored; several by
+        the names to print.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default four, from the
+        first in contact to the last; of several results the last of each.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+    style : {"contours", "colours"}, optional
+        Labelled iso-contours, or the mean pressure of each cell in colours up to the largest. By
+        default colours for a contact of more than a dozen spots, contours otherwise.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes and pressure levels. A long narrow contact is drawn with its
+        width stretched by the factor printed in the first panel. A note there
+        states where the peak pressure depends on the mesh. A cross is the axis of a moving body, an
+        arrow the direction of its motion.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, the bodies do not touch at these instants, or there is no result.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> panel, scale = pressure_map(ds).axes
+    >>> panel.get_xlabel(), scale.get_ylabel()
+    ('x [µm]', 'Pressure [kPa]')
+    """
+    if style not in (None, *get_args(MapStyle)):
+        raise ValueError(f"{_NAME}: style must be 'contours' or 'colours', got {style!r}")
+    maps = maps_at(results, times, _NAME, count=4)
+    return _draw(maps, width, in_colours=maps.many_spots if style is None else style == "colours")
+
+
+def compare_pressure_maps(
+    runs: Mapping[str, xr.Dataset],
+    *,
+    times: ArrayLike | None = None,
+    width: Width | None = None,
+    style: MapStyle | None = None,
+) -> Figure:
+    """Draw the pressure maps of several runs in one figure: `pressure_map` of a mapping."""
+    return pressure_map(runs, times=times, width=width, style=style)
+
+
+def _draw(maps: Maps, width: Width | None, *, in_colours: bool) -> Figure:
+    figure, panels = _panels(maps, width)
+    scale = maps.scale()
+    draw = _draw_cells if in_colours else draw_contours
+    lines = [
+        draw(axes, each, maps.window, scale) for axes, each in zip(panels, maps.maps, strict=True)
+    ]
+    for axes, each in zip(panels, maps.maps, strict=True):
+        style.add_heading(axes, each.heading)
+        mark_body(axes, each.body, maps.window)
+    style.add_heading(panels[0], maps.note, aside=True)
+    colours = _cell_colours(scale) if in_colours else _level_colours(scale)
+    extend = "max" if scale.is_open and not in_colours else "neither"
+    bar = figure.colorbar(colours, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
+    style.dress_colour_bar(bar, scale.label)
+    figure.draw_without_rendering()  # The layout gives the room for texts.
+    style.arrange_headings(figure)
+    figure.draw_without_rendering()
+    for axes, each, contours in zip(panels, maps.maps, lines, strict=True):
+        if contours is not None:
+            _label_contours(axes, contours, each.snapshot, maps.window, scale)
+    return figure
+
+
+def _draw_cells(axes: Axes, shown: Map, window: Window, scale: Scale) -> None:
+    """Draw each cell in the colour of its pressure, and those beyond the border of a period."""
+    wide, colours = beyond_period(shown.snapshot), _cell_colours(scale).cmap
+    axes.pcolormesh(
+        window.unit(wide.x),
+        window.unit(wide.y),
+        np.ma.masked_equal(scale.unit(wide.pressure.T), 0.0),
+        cmap=colours,
+        norm=Normalize(*scale.unit(scale.limits)),
+        shading="nearest",
+        rasterized=True,
+    )
+
+
+def _panels(maps: Maps, wanted: Width | None) -> tuple[Figure, list[Axes]]:
+    count, shape = len(maps.maps), maps.window.height_to_width
+    long = shape < 0.6
+    # Two rows of high maps would not fit on a page.
+    columns = 1 if long else min(count, 4 if shape > _HIGH else 2)
+    rows = -(-count // columns)
+    width = page_width(wanted, style.TWO_COLUMNS if columns >= 2 or long else style.ONE_COLUMN)
+    height = rows * ((width - 1.3) / columns * shape + 0.22) + 0.45
+    figure = style.new_figure(width, height, fixed_aspect=True)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    panels = list(grid.flat)
+    for unused in panels[count:]:
+        unused.remove()
+    for axes in panels[:count]:
+        style.dress(axes)
+        show_window(axes, maps.window)
+    x, y = maps.axes()
+    for axes in grid[:, 0]:
+        axes.set_ylabel(y.label)
+    for axes in grid[-1, :]:
+        axes.set_xlabel(x.label)
+    return figure, panels[:count]
+
+
+def draw_contours(axes: Axes, shown: Map, window: Window, scale: Scale) -> QuadContourSet | None:
+    """Draw contours and the outline; return the lines, None without contact."""
+    if not shown.snapshot.touching:
+        return None
+    outline = rim_path(window.unit(curve) for curve in shown.outline)
+    # Contours are drawn between the centres of cells, so half a cell short of the last ones.
+    wide = beyond_period(shown.snapshot).with_border(1)
+    x, y = window.unit(wide.x), window.unit(wide.y)
+    colours = _level_colours(scale)
+    heights = _heights(scale)
+    values = wide.pressure if scale.diverges else squared_pressure(wide)
+    norm = BoundaryNorm(heights, colours.cmap.N)
+    fill = axes.contourf(
+        x, y, values.T, levels=heights, cmap=colours.cmap, norm=norm, extend="both"
+    )
+    lines = axes.contour(
+        x, y, values.T, levels=heights[1:-1], colors=style.INK, linewidths=0.5, linestyles="solid"
+    )
+    for contours in (fill, lines):
+        contours.set_clip_path(outline, axes.transData)
+    axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=style.INK, linewidth=1.1))
+    return lines
+
+
+def _heights(scale: Scale) -> Floats:
+    """Levels of what is contoured: the square of a pressure without tension.
+
+    Its contours are the same lines, and smooth up to the rim.
+    """
+    return scale.levels if scale.diverges else scale.levels**2
+
+
+def _label_contours(
+    axes: Axes, lines: QuadContourSet, snapshot: Snapshot, window: Window, scale: Scale
+) -> None:
+    """Label the contours where there is room."""
+    pressed = snapshot.pressure[snapshot.in_contact]
+    lowest, highest = np.percentile(pressed, _LABELLED)
+    texts = {
+        height: format_compact(float(scale.unit(level)))
+        for height, level in zip(_heights(scale)[1:-1], scale.levels[1:-1], strict=True)
+        if lowest < level < highest
+    }
+
+    def fits(corners: Floats) -> bool:
+        return bool(np.all(_touched(snapshot, corners * window.unit.factor)))
+
+    label_contours(axes, lines, texts, fits)
+
+
+def _touched(snapshot: Snapshot, points: Floats) -> Bools:
+    """Mask of points, shape (n, 2) [m], whose cells are in contact."""
+    first = np.array([snapshot.x[0], snapshot.y[0]])
+    i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T
+    i, j = np.clip(i, 0, snapshot.x.size - 1), np.clip(j, 0, snapshot.y.size - 1)
+    return np.asarray(snapshot.in_contact[i, j])
+
+
+def fill_colour_bar(axes: Axes, scale: Scale) -> None:
+    """Draw a colour bar for the levels of a scale in separate axes."""
+    extend = "max" if scale.is_open else "neither"
+    bar = style.figure_of(axes).colorbar(_level_colours(scale), cax=axes, extend=extend)
+    style.dress_colour_bar(bar, scale.label)
+
+
+def _level_colours(scale: Scale) -> ScalarMappable:
+    """Colours of the areas between levels."""
+    colours = ListedColormap(scale.colours(len(scale.levels) - 1, *AREAS))
+    return ScalarMappable(BoundaryNorm(scale.unit(scale.levels), colours.N), colours)
+
+
+def _cell_colours(scale: Scale) -> ScalarMappable:
+    """Colours of cells."""
+    colours = ListedColormap(scale.colours(_COLOURS, *CELLS))
+    return ScalarMappable(Normalize(*scale.unit(scale.limits)), colours)

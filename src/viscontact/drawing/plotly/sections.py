@@ -1,0 +1,125 @@
+"""Sections through the pressure and the line load, with a frame for each instant."""
+
+from __future__ import annotations
+
+import plotly.graph_objects as go
+import xarray as xr
+
+from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.drawing.content.map import Maps
+from viscontact.drawing.content.section import Along, Lines, line_load, section
+from viscontact.drawing.plotly.parts import Part, drawn, numbers
+from viscontact.results.shown_scalars import is_long
+from viscontact.results.snapshots import labels_of
+from viscontact.units.formatting import ReadableUnit
+
+
+def sections(
+    ds: xr.Dataset, maps: Maps, look: Look = LIGHT, reference: Maps | None = None
+) -> list[go.Figure]:
+    """Draw the sections along x and y and, of a long contact, the line load; see `draw_section`."""
+    figures = [draw_section(maps, "x", look, reference), draw_section(maps, "y", look, reference)]
+    return [*figures, draw_line_load(maps, look, reference)] if is_long(ds) else figures
+
+
+def draw_section(
+    maps: Maps, along: Along, look: Look = LIGHT, reference: Maps | None = None
+) -> go.Figure:
+    """Draw the pressure along x or y at every instant, with a frame that emphasises each.
+
+    Parameters
+    ----------
+    maps : Maps
+        Maps of a result.
+    along : {"x", "y"}
+        Direction of the section; it runs through the resultant.
+    look : Look, optional
+        Colours and units.
+    reference : Maps, optional
+        Maps of another result, whose section at the nearest instant is dashed.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure
+        Frames are named as those of `pressure_map`. A moving contact has marks at its leading
+        (full) and trailing (hollow) edge.
+    """
+    lines, unit = section(maps, along), maps.axes(look.unit)[0].unit
+    titles = [f"Along {along}, {lines.place(unit, at)}" for at in lines.crossings]
+    others = None if reference is None else section(reference, along)
+    return _curves(maps, look, lines, titles, reference, others)
+
+
+def draw_line_load(maps: Maps, look: Look = LIGHT, reference: Maps | None = None) -> go.Figure:
+    """Draw the line load along x at every instant, with a frame that emphasises each."""
+    titles = ["Line load along x: the pressure integrated over y"] * len(maps.maps)
+    others = None if reference is None else line_load(reference)
+    return _curves(maps, look, line_load(maps), titles, reference, others)
+
+
+def _curves(
+    maps: Maps,
+    look: Look,
+    lines: Lines,
+    titles: list[str],
+    reference: Maps | None,
+    others: Lines | None,
+) -> go.Figure:
+    """Draw a curve for each instant: all of them thin, and in each frame one of them bold."""
+    within = maps.inside["xy".index(lines.along)]
+    length, quantity = maps.axes(look.unit)[0].unit, lines.axis(look.unit)
+    position, unit = length(lines.positions[within]), quantity.unit
+    hover = f"{lines.along} %{{x:.4g}} {length.symbol}: %{{y:.4g}} {unit.symbol}"
+    thin = [
+        {
+            **{"x": numbers(position), "y": numbers(unit(values[within])), "mode": "lines"},
+            **{"name": label, "opacity": 0.55, "line": {"color": colour, "width": 1}},
+            "hovertemplate": hover,
+        }
+        for values, label, colour in zip(
+            lines.values, labels_of(maps.snapshots), look.instants(len(maps.maps)), strict=True
+        )
+    ]
+    styles: list[Part] = []
+    if others is not None:
+        dashed = {"color": look.warm, "width": 2, "dash": "dash"}
+        styles.append({"name": "reference", "line": dashed})
+    styles.append({"x": numbers(position), "line": {"color": look.blue, "width": 2.6}})
+    styles = [{"mode": "lines", "hovertemplate": hover} | style for style in styles]
+    if any(lines.edges):
+        styles.append(_edge_style(look, lines.along, length))
+    frames: list[Part] = []
+    for index, each in enumerate(maps.snapshots):
+        parts: list[Part] = []
+        if reference is not None and others is not None:
+            values = others.values[reference.nearest(each.time)]
+            parts.append({"x": numbers(length(others.positions)), "y": numbers(unit(values))})
+        parts.append({"y": thin[index]["y"], "name": thin[index]["name"]})
+        if len(styles) > len(parts):
+            parts.append({"x": length(lines.edges[index] or []).tolist()})
+        traces = list(range(len(thin), len(thin) + len(parts)))
+        layout = {"meta": {"name": lines.name, "title": titles[index]}}
+        frames.append({"name": str(index), "traces": traces, "data": parts, "layout": layout})
+    start = frames[maps.start]
+    return drawn(
+        [*thin, *(style | part for style, part in zip(styles, start["data"], strict=True))],
+        look,
+        **start["layout"],
+        frames=frames,
+        xaxis={"title": {"text": length.label(lines.along)}, "range": position[[0, -1]].tolist()},
+        yaxis={"title": {"text": quantity.label}, "rangemode": "tozero"},
+    )
+
+
+def _edge_style(look: Look, along: str, length: ReadableUnit) -> Part:
+    """Leading (full) and trailing (hollow) edge of a moving contact."""
+    colours = [look.blue, look.card]
+    marker = {"size": 8, "color": colours, "line": {"color": look.blue, "width": 1.6}}
+    return {
+        "y": [0.0, 0.0],
+        "mode": "markers",
+        "cliponaxis": False,
+        "text": ["leading edge", "trailing edge"],
+        "marker": marker,
+        "hovertemplate": f"%{{text}}: {along} %{{x:.4g}} {length.symbol}<extra></extra>",
+    }

@@ -1,0 +1,111 @@
+"""Overview of a measured surface: heights as a small map, a section, and its roughness."""
+
+from __future__ import annotations
+
+import math
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats, Integers
+from viscontact.bodies.surfaces import Surface
+from viscontact.drawing.content.look import BLUE
+from viscontact.drawing.svg.overview import Overview
+from viscontact.drawing.svg.svg_axes import linear
+from viscontact.drawing.svg.svg_panel import Cells, Mark, map_panel, panel
+from viscontact.results.formatting import format_percent
+from viscontact.units.formatting import format_number, format_quantity
+
+#: Most areas of one tone along an axis.
+_MOST = 40
+#: From low to high; unknown heights stay empty.
+_TONES = (0.12, 0.3, 0.5, 0.7, 0.95)
+#: Number of points of a section.
+_POINTS = 240
+
+
+def surface_overview(surface: Surface) -> Overview:
+    """Make the overview of a measured surface.
+
+    Examples
+    --------
+    >>> print(surface_overview(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
+    Surface: mine.npz
+      points          2 × 2
+      size            20 µm × 20 µm
+      spacing         10 µm × 10 µm
+      Sa              500 nm
+      Sq, rms height  707.1 nm
+      height range    2 µm
+      rms slope       0.1732
+      skewness        0
+      Sdr             1.5 %
+    """
+    rows = [
+        ("points", " × ".join(map(str, surface.shape))),
+        ("size", " × ".join(format_quantity(extent, "m") for extent in surface.size)),
+        ("spacing", " × ".join(format_quantity(step, "m") for step in surface.spacing)),
+        ("Sa", format_quantity(surface.mean_deviation, "m")),
+        ("Sq, rms height", format_quantity(surface.rms_height, "m")),
+        ("height range", format_quantity(surface.height_range, "m")),
+        ("rms slope", format_number(surface.rms_slope)),
+        ("skewness", format_number(surface.skewness, 2)),
+    ]
+    if not math.isnan(surface.developed_ratio):
+        rows.append(("Sdr", format_percent(surface.developed_ratio)))
+    if surface.periodic:
+        rows.append(("periodic", "yes"))
+    if surface.missing_share > 0:
+        rows.append(("not measured", f"{format_percent(surface.missing_share)} of the points"))
+    return Overview(f"Surface: {surface.name}", rows, [_map(surface), *_section(surface)])
+
+
+def _map(surface: Surface) -> Element:
+    """Heights in tones, from low to high."""
+    counts = [min(points, _MOST) for points in surface.shape]
+    tones = _tones(_means(surface.heights, counts))
+    limits = [
+        (float(at[0]) - step / 2, float(at[-1]) + step / 2)
+        for at, step in zip((surface.x, surface.y), surface.spacing, strict=True)
+    ]
+    x, y = (
+        low + (np.arange(count) + 0.5) * (high - low) / count
+        for (low, high), count in zip(limits, counts, strict=True)
+    )
+    colours = [f"{BLUE}{round(255 * opacity):02x}" for opacity in _TONES]
+    cells = Cells(x, y, tones, colours)
+    return map_panel("heights", (limits[0], limits[1]), cells, aside="blue: high")
+
+
+def _means(heights: Floats, counts: list[int]) -> Floats:
+    """Means of the known heights over a number of parts along x and y; NaN where unknown."""
+    known = np.isfinite(heights)
+    sums, numbers = np.where(known, heights, 0.0), known.astype(np.float64)
+    for axis, count in enumerate(counts):
+        begins = np.arange(count) * heights.shape[axis] // count
+        sums = np.add.reduceat(sums, begins, axis=axis)
+        numbers = np.add.reduceat(numbers, begins, axis=axis)
+    means = np.divide(sums, numbers, out=np.full(sums.shape, np.nan), where=numbers > 0)
+    return np.asarray(means, dtype=np.float64)
+
+
+def _tones(means: Floats) -> Integers:
+    """Tone of each part, by quantiles of the known heights; -1 where the height is unknown."""
+    known = means[np.isfinite(means)]
+    limits = np.quantile(known, np.linspace(0, 1, len(_TONES) + 1)[1:-1])
+    return np.where(np.isfinite(means), np.searchsorted(limits, means), -1)
+
+
+def _section(surface: Surface) -> list[Element]:
+    """Heights along x through the highest point, from the lowest of the section on."""
+    highest = int(np.nanargmax(surface.heights))
+    line = surface.heights[:, highest % surface.shape[1]]
+    known = np.isfinite(line)
+    if np.count_nonzero(known) < 2 or not np.ptp(line[known]) > 0:
+        return []
+    every = math.ceil(line.size / _POINTS)
+    low, span = float(line[known].min()), float(np.ptp(line[known]))
+    x = linear("x", "m", float(surface.x[0]), float(surface.x[-1]))
+    y = linear("height", "m", -0.06 * span, 1.1 * span, 3)
+    mark = Mark(surface.x[::every], line[::every] - low)
+    return [panel("along x", x, y, [mark], aside="through the highest")]

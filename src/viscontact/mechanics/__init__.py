@@ -1,0 +1,1 @@
+"""Mechanics of contact: half-spaces and layers, memory, the problem and its solver."""

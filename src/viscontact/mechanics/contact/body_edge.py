@@ -1,0 +1,77 @@
+"""Outline of a body between the cell centres of a grid, and cells near it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Indenter
+
+#: Cells from the end of a body in which a pressure peak is not resolved: pressure rises towards a
+#: sharp end, and falls to zero before a logarithmic one.
+END_DEPTH = 2
+
+#: Halvings of a cell, enough to locate the outline to rounding.
+BISECTIONS = 45
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Distances from inner cell centres to the indenter's outline, in cells, or NaN."""
+
+    along_x: Floats  # shape (nx - 1, ny)
+    along_y: Floats  # shape (nx, ny - 1)
+
+
+def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
+    """Find by bisection where an indenter's gap becomes +inf between cell centres."""
+    x, y = grid.x[:, None], grid.y[None, :]
+    inside = np.isfinite(indenter.gap(x, y))
+    x, y = np.broadcast_arrays(x, y)
+    return Outline(
+        _outline_crossings(indenter, inside, x, y),
+        _outline_crossings(indenter, inside.T, x.T, y.T).T,
+    )
+
+
+def end_cells(open_gap: Floats, depth: int) -> Bools:
+    """Cells of a body within `depth` cells of its end along x, and along y, shape (2, nx, ny)."""
+    outside = np.isinf(open_gap)
+    near = np.zeros((2, *outside.shape), dtype=bool)
+    for axis in (0, 1):
+        beyond, close = np.moveaxis(outside, axis, 0), np.moveaxis(near[axis], axis, 0)
+        for steps in range(1, depth + 1):
+            close[steps:] |= beyond[:-steps]
+            close[:-steps] |= beyond[steps:]
+    return near & ~outside
+
+
+def _outline_crossings(
+    indenter: Indenter,
+    inside: Bools,
+    x: Floats,
+    y: Floats,
+) -> Floats:
+    """Crossings along the first axis, in cells from the centre inside the body."""
+    shape = inside.shape[0] - 1, inside.shape[1]
+    i, j = np.nonzero(inside[:-1] != inside[1:])
+    if not len(i):
+        return np.broadcast_to(np.nan, shape)
+    crossings = np.full(shape, np.nan)
+    # From the centre inside the body towards the one outside.
+    inner, outer = np.where(inside[i, j], i, i + 1), np.where(inside[i, j], i + 1, i)
+    low, high = np.zeros(len(i)), np.ones(len(i))
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        is_inside = np.isfinite(
+            indenter.gap(
+                x[inner, j] + middle * (x[outer, j] - x[inner, j]),
+                y[inner, j] + middle * (y[outer, j] - y[inner, j]),
+            )
+        )
+        low, high = np.where(is_inside, middle, low), np.where(is_inside, high, middle)
+    crossings[i, j] = (low + high) / 2
+    return crossings

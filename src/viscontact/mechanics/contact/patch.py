@@ -1,0 +1,93 @@
+"""Patch of a contact domain: a rectangular block of cells with the operators of the search."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viscontact.backend.arrays import Field, Singles
+from viscontact.mechanics.contact.response_parts import Operator
+from viscontact.mechanics.contact.rigid_balance import RigidPlane
+from viscontact.mechanics.halfspace.preconditioner import Preconditioner
+
+
+class PatchOperators:
+    """Operators of the search on a block of cells, made when they are first used."""
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        convolution: Callable[[], Operator],
+        preconditioner: Callable[[], Preconditioner],
+    ) -> None:
+        self._shape = shape
+        self._convolution, self._preconditioner = convolution, preconditioner
+        self._near: dict[tuple[int, int], np.float32] = {}
+
+    @cached_property
+    def convolution(self) -> Operator:
+        """Pressure to unit displacement, in single precision."""
+        return self._convolution()
+
+    @cached_property
+    def preconditioner(self) -> Preconditioner:
+        """Approximate inverse of the convolution."""
+        return self._preconditioner()
+
+    def near_stiffness(self, spare: Singles) -> dict[tuple[int, int], np.float32]:
+        """Stiffness between a cell and those around it, by their offsets [1/m]; uses a field up."""
+        if not self._near:
+            rows, columns = (count // 2 for count in self._shape)
+            spare[...] = 0.0
+            spare[rows, columns] = 1.0
+            found = self.preconditioner.stiffness_of(spare, into=spare)
+            around = ((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1))
+            self._near = {
+                (down, right): np.float32(found[rows + down, columns + right])
+                for down, right in around
+                if 0 <= rows + down < self._shape[0] and 0 <= columns + right < self._shape[1]
+            }
+        return self._near
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """Rectangular block of cells with its operators."""
+
+    rows: slice  # position in the fields of the domain
+    columns: slice
+    cell_area: float  # [m²]
+    arm: float  # longer edge, which scales moments to forces [m]
+    operators: PatchOperators
+    plane: RigidPlane  # rigid motions over the patch
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of rows and columns."""
+        return self.rows.stop - self.rows.start, self.columns.stop - self.columns.start
+
+    @property
+    def convolution(self) -> Operator:
+        """Pressure to unit displacement, in single precision."""
+        return self.operators.convolution
+
+    @property
+    def preconditioner(self) -> Preconditioner:
+        """Approximate inverse of the convolution."""
+        return self.operators.preconditioner
+
+    def cut(self, field: Field) -> Field:
+        """The patch's part of a field."""
+        return field[self.rows, self.columns]
+
+    def holds(self, rows: slice, columns: slice) -> bool:
+        """True if a block of cells lies within the patch."""
+        return _within(rows, self.rows) and _within(columns, self.columns)
+
+
+def _within(inner: slice, outer: slice) -> bool:
+    """True if a slice lies within another."""
+    return bool(outer.start <= inner.start and inner.stop <= outer.stop)

@@ -1,0 +1,259 @@
+"""Rim of a contact, located between cell centres.
+
+An area by counting cells is a jagged function of time. Just outside a smooth rim the gap opens as
+distance^(3/2), whatever the law and whether the contact grows or shrinks; on cells it opens in a
+way that `straight_edge` computes. The first open cells of a grid line locate the rim. Polygons
+through these crossings enclose the contact. Where the body ends in that cell, the rim is its
+outline.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.body_edge import Outline
+from viscontact.mechanics.contact.rim_crossings import MARGIN, locate_rim, places
+
+#: Area between a curved rim and the chords through its crossings, in cells per quarter turn. A
+#: chord of a row is dy/cos φ long, with the direction φ of its normal, where the rim crosses rows
+#: rather than columns; chords of length c lose c²/12 dφ, in a whole turn 8 dx dy/12.
+SEGMENTS = 1 / 6
+
+#: Error of crossings by the gap around few cells, as a part of these segments over the mean chord
+#: in cells, and the least part that is left of them: balls and spots of rough surfaces.
+SEGMENT_LOSS, LEAST_SEGMENTS = 2.1, 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Rim:
+    """Cells in contact, and crossings of the rim with the lines between cell centres."""
+
+    # The fields cover a block around the contact. Along a periodic axis it may cross the border;
+    # where the contact does so all around, the block ends with the row that it begins with.
+
+    grid: Grid
+    contact: Bools  # cells under pressure in the block
+    #: Distance from the inner centre, in cells, as in `Outline`; negative where that centre lies
+    #: just outside, and of any size on a chord that crosses the line outside the cells.
+    along_x: Floats
+    along_y: Floats
+    rows: Integers  # position of the block in the grid
+    columns: Integers
+    segment: float  # area between rim and chords per quarter turn [cells]
+
+    @property
+    def area(self) -> float:
+        """Area enclosed by the polygons through the crossings [m²]."""
+        return self.grid.cell_area * _enclosed_squares(self)
+
+    @cached_property
+    def length(self) -> float:
+        """Extent of the contact along x, at most a period where that is finite [m]."""
+        if len(self.rows) > self.grid.shape[0]:
+            return self.grid.size[0]
+        cells = _extent(self._touched[0], self.contact, self.along_x)
+        return min(cells * self.grid.cell_size[0], self.grid.size[0])
+
+    @cached_property
+    def width(self) -> float:
+        """Extent of the contact along y, at most a period where that is finite [m]."""
+        if len(self.columns) > self.grid.shape[1]:
+            return self.grid.size[1]
+        cells = _extent(self._touched[1], self.contact.T, self.along_y.T)
+        return min(cells * self.grid.cell_size[1], self.grid.size[1])
+
+    @property
+    def breadth(self) -> float:
+        """Shorter extent; one through a whole period does not count if there is another [m]."""
+        extents = (self.length, self.width)
+        ended = [own for own, whole in zip(extents, self.grid.size, strict=True) if own < whole]
+        return min(ended or extents)
+
+    @cached_property
+    def _touched(self) -> tuple[Integers, Integers]:
+        """Rows and columns of the block that have contact."""
+        rows, columns = (np.flatnonzero(self.contact.any(axis=axis)) for axis in (1, 0))
+        return rows, columns
+
+    @property
+    def cells_across(self) -> int:
+        """Rows or columns of cells that have contact, the fewer of the two."""
+        # An axis along which the contact continues through the whole period does not count; without
+        # any other, it is the number of cells of the grid.
+        lines, counts = (self.rows, self.columns), self.grid.shape
+        touched = [len(each) for each in self._touched]
+        ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
+        return min(touched[k] for k in ends) if ends else max(counts)
+
+    def cut(self, field: Numbers) -> Numbers:
+        """The block's part of a field on the grid."""
+        if any(self.grid.periodic):
+            return field[np.ix_(self.rows, self.columns)]
+        both = (self.rows, self.columns)
+        rows, columns = (slice(int(lines[0]), int(lines[-1]) + 1) for lines in both)
+        return field[rows, columns]
+
+
+def mean_chords(contact: Bools, *, periodic: Sequence[bool] = (False, False)) -> Floats:
+    """Mean numbers of consecutive cells in contact along x and y, also across a period's border."""
+    begun = []
+    for lines, repeats in zip((contact, contact.T), periodic, strict=True):
+        first = lines[0] > lines[-1] if repeats else lines[0]
+        begun.append(np.count_nonzero(first) + np.count_nonzero(lines[1:] > lines[:-1]))
+    return np.asarray(np.count_nonzero(contact) / np.maximum(begun, 1))
+
+
+def trace_rim(
+    grid: Grid,
+    contact: Bools,
+    gap: Floats,
+    outline: Outline | None = None,
+) -> Rim:
+    """Locate the rim of a contact between cell centres; the area is of second order.
+
+    The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the
+    middle. The square root of the pressure inside a smooth rim belongs to an opening of
+    distance^(3/2) outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep
+    law.
+    """
+    if any(grid.periodic):
+        return _trace_around(grid, contact, gap, outline)
+    rows, columns = _block(contact, axis=0), _block(contact, axis=1)
+    contact, gap = contact[rows, columns], gap[rows, columns]
+    ends = None
+    if outline is not None:
+        end_x = outline.along_x[rows, columns][: len(contact) - 1]
+        ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
+    along_x, along_y = locate_rim(grid, contact, gap, ends)
+    first, second = np.arange(grid.shape[0])[rows], np.arange(grid.shape[1])[columns]
+    return Rim(grid, contact, along_x, along_y, first, second, _mean_segment(contact, gap))
+
+
+def _block(contact: Bools, axis: int) -> slice:
+    """The contact's span along an axis, and the open cells on both sides."""
+    touched = np.flatnonzero(contact.any(axis=1 - axis))
+    if len(touched) == 0:
+        return slice(0, 2)
+    return slice(max(int(touched[0]) - MARGIN, 0), int(touched[-1]) + 1 + MARGIN)
+
+
+def _trace_around(grid: Grid, contact: Bools, gap: Floats, outline: Outline | None) -> Rim:
+    """Trace the rim of a contact that continues across the border of its period."""
+    segment = _mean_segment(contact, gap, periodic=grid.periodic)
+    (rows, wide_rows, inner_rows), (columns, wide_columns, inner_columns) = (
+        _lines_around(contact, axis, repeats=grid.periodic[axis]) for axis in (0, 1)
+    )
+    wide = np.ix_(wide_rows, wide_columns)
+    contact, gap = contact[wide], gap[wide]
+    ends = None
+    if outline is not None:
+        # A body that reaches the border ends there, in the middle between two centres.
+        end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
+        end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
+        ends = end_x, end_y
+    inner = inner_rows, inner_columns
+    along_x, along_y = locate_rim(grid, contact, gap, ends)
+    return Rim(grid, contact[inner], along_x[inner], along_y[inner], rows, columns, segment)
+
+
+def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers, Integers, slice]:
+    """Lines of the block, more of a period from which its rim is extrapolated, and its place."""
+    if not repeats:
+        lines = np.arange(contact.shape[axis])[_block(contact, axis)]
+        return lines, lines, slice(None)
+    lines = _turn(contact, axis)
+    return lines, _beyond(lines, contact.shape[axis]), slice(MARGIN, -MARGIN)
+
+
+def _turn(contact: Bools, axis: int) -> Integers:
+    """Lines of a contact, and an open one on both sides unless it fills the period."""
+    touched = np.flatnonzero(contact.any(axis=1 - axis))
+    count = contact.shape[axis]
+    if len(touched) == 0:
+        return np.zeros(2, dtype=np.intp) if count == 1 else np.arange(2)
+    if len(touched) == count:
+        return np.append(np.arange(count), 0)
+    # The contact begins behind the widest opening.
+    begins = np.diff(touched, prepend=touched[-1] - count).argmax()
+    extent = (int(touched[begins - 1]) - int(touched[begins])) % count
+    return np.asarray((np.arange(-1, extent + 2) + touched[begins]) % count)
+
+
+def _beyond(lines: Integers, count: int) -> Integers:
+    """Given lines, and more before and behind them."""
+    return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
+
+
+def _mean_segment(
+    contact: Bools,
+    gap: Floats,
+    *,
+    periodic: Sequence[bool] = (False, False),
+) -> float:
+    """Area between the rim and its chords per quarter turn, less the error of the crossings."""
+    along_x, along_y = mean_chords(contact, periodic=periodic).tolist()
+    if not along_x:
+        return SEGMENTS
+    by_gap, beyond = 1.0, np.isinf(gap)
+    if beyond.any():
+        # Crossings at the body's outline have no such error.
+        lines = (contact, beyond), (contact.T, beyond.T)
+        pairs = [pair for c, b in lines for pair in ((c[1:], b[:-1]), (c[:-1], b[1:]))]
+        at_end = sum(np.count_nonzero(inner & outer) for inner, outer in pairs)
+        all_ends = 2 * np.count_nonzero(contact) * (1 / along_x + 1 / along_y)
+        by_gap = max(1 - at_end / all_ends, 0.0)
+    loss = SEGMENT_LOSS / max(math.sqrt(along_x * along_y), 1.0)
+    return SEGMENTS * (1 - by_gap * min(loss, 1 - LEAST_SEGMENTS))
+
+
+def _enclosed_squares(rim: Rim) -> float:
+    """Squares between four neighbouring centres, each counted by its enclosed part."""
+    inside = rim.contact
+    pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
+    count = pairs[:, 1:] + pairs[:, :-1]
+    i, j = places((count & 3) != 0)  # neither none nor all four
+    along_x, along_y = rim.along_x, rim.along_y
+    edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
+    edges[np.isnan(edges)] = 0.0  # no crossing
+    u, v = edges[0] + edges[1], edges[2] + edges[3]
+    # One corner inside: a triangle. Two neighbours: a trapezium between the crossings of the two
+    # edges that leave their side. Three: the square without a triangle. Signed areas where a
+    # crossing lies beyond the square: their sum is that of the polygons.
+    corners = count[i, j]
+    triangle, rest = u * v / 2 + rim.segment, 1 - (1 - u) * (1 - v) / 2 - rim.segment
+    enclosed = np.choose(corners - 1, [triangle, (u + v) / 2, rest])
+    # Opposite corners inside: two separate triangles.
+    first = inside[i, j]
+    apart = np.flatnonzero((corners == 2) & (first == inside[i + 1, j + 1]))
+    if apart.size:
+        left, right, lower, upper = edges[:, apart]
+        ends = np.where(first[apart], left * lower + right * upper, left * upper + right * lower)
+        enclosed[apart] = ends / 2 + 2 * rim.segment
+    return float(np.count_nonzero(count == 4) + enclosed.sum())
+
+
+def _extent(touched: Integers, contact: Bools, crossings: Floats) -> float:
+    """Extent along the first axis, in cells: the farthest crossings both ways of touched rows."""
+    if not touched.size:
+        return 0.0
+    # A crossing lies between half a cell inside and one outside of its inner centre: two rows
+    # contain the extreme ones. A chord may cross its line elsewhere.
+    (from_first, first), (from_last, last) = (
+        (max(int(row) - 1, 0), min(int(row) + 1, len(crossings))) for row in touched[[0, -1]]
+    )
+    near, far = (
+        np.where(np.abs(each) <= 1, each, np.nan)
+        for each in (crossings[from_first:first], crossings[from_last:last])
+    )
+    starts = np.arange(from_first, first)[:, None] + 1 - near
+    ends = np.arange(from_last, last)[:, None] + far
+    upper, lower = contact[from_last:last], contact[from_first + 1 : first + 1]
+    end = np.fmax.reduce(ends[upper], initial=0.0)
+    return float(end - np.fmin.reduce(starts[lower], initial=len(contact) - 1.0))

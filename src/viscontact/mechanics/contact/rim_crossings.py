@@ -1,0 +1,157 @@
+"""Crossings of the rim with the lines between cell centres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.straight_edge import edge_law
+
+#: Open cells beside the contact from which its rim is extrapolated.
+MARGIN = 3
+
+#: Lines of cells around a block, outside the body: two cells are read beyond an open one.
+PADDING = 2
+
+#: Least descent of a chord from line to line, in cells.
+LEAST_DESCENT = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class _Intervals:
+    """Intervals between neighbouring centres in which contact changes, along x, then along y."""
+
+    count_along_x: int
+    start: Integers  # cell before the interval
+    inner: Integers  # cell in contact
+    outwards: Integers  # step to the open cell
+    across: Integers  # step to the next line
+
+    @property
+    def outer(self) -> Integers:
+        """Open cells."""
+        return self.inner + self.outwards
+
+    def some(self, chosen: Integers) -> _Intervals:
+        """Some of the intervals, in their order."""
+        each = (cells[chosen] for cells in (self.start, self.inner, self.outwards, self.across))
+        return _Intervals(int(np.searchsorted(chosen, self.count_along_x)), *each)
+
+
+def locate_rim(
+    grid: Grid, contact: Bools, gap: Floats, ends: tuple[Floats, Floats] | None
+) -> tuple[Floats, Floats]:
+    """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
+    intervals = _changes(contact)
+    touches, gaps = _padded(contact, outside=False), _padded(gap, outside=np.inf)
+    located, slope = _by_gaps(grid, intervals, touches.ravel(), gaps.ravel())
+    at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
+    if ends is not None and at_end.size:
+        located[at_end] = _body_ends(ends, intervals.some(at_end), gaps.shape[1])
+    fields = np.full((2, gaps.size), np.nan)
+    # A line that the rim crosses at a small angle does not locate it well.
+    oblique = np.abs(slope) > 1
+    _put(fields, intervals, np.where(oblique, np.nan, located))
+    chosen = np.flatnonzero(oblique)
+    if chosen.size:
+        lines = intervals.some(chosen)
+        chords = _by_chords(fields, lines, touches.ravel(), slope[chosen] > 0)
+        _put(fields, lines, np.where(np.isnan(chords), located[chosen], chords))
+    inside = slice(PADDING, -PADDING)
+    along_x, along_y = fields.reshape(2, *gaps.shape)[:, inside, inside]
+    return along_x[:-1], along_y[:, :-1]
+
+
+def places(where: Bools) -> tuple[Integers, Integers]:
+    """Rows and columns of the true entries; `np.nonzero` takes eight times as long."""
+    return np.divmod(np.flatnonzero(where), where.shape[1])
+
+
+def _padded(field: Numbers, outside: float) -> Numbers:
+    """Field of a block with a value around it; `np.pad` takes several times as long."""
+    padded = np.full([count + 2 * PADDING for count in field.shape], outside, field.dtype)
+    padded[PADDING:-PADDING, PADDING:-PADDING] = field
+    return padded
+
+
+def _put(fields: Floats, intervals: _Intervals, values: Floats) -> None:
+    """Write values of intervals to the fields along x and along y."""
+    split = intervals.count_along_x
+    fields[0, intervals.start[:split]] = values[:split]
+    fields[1, intervals.start[split:]] = values[split:]
+
+
+def _changes(contact: Bools) -> _Intervals:
+    """Intervals in which contact changes."""
+    rows, columns = zip(
+        places(contact[1:] != contact[:-1]), places(contact[:, 1:] != contact[:, :-1]), strict=True
+    )
+    row, column = np.concatenate(rows), np.concatenate(columns)
+    count_along_x, width = len(rows[0]), contact.shape[1] + 2 * PADDING
+    start = (row + PADDING) * width + (column + PADDING)
+    step = np.ones(len(start), np.intp)
+    step[:count_along_x] = width
+    begins_inside = contact[row, column]
+    inner = start + np.where(begins_inside, 0, step)
+    outwards = np.where(begins_inside, step, -step)
+    return _Intervals(count_along_x, start, inner, outwards, width + 1 - step)
+
+
+def _by_gaps(
+    grid: Grid, intervals: _Intervals, contact: Bools, gap: Floats
+) -> tuple[Floats, Floats]:
+    """Distances from the inner centres by the gaps further out, and slopes of the rim."""
+    # The middle, if the second gap is not wider (a groove of one cell, the body's end).
+    outer, outwards = intervals.outer, intervals.outwards
+    second = outer + outwards
+    near, far, farther = np.maximum(gap[outer], 0.0), gap[second], gap[second + outwards]
+    known = np.isfinite(far) & (far > near) & ~contact[second]
+    near, far = np.where(known, near, 0.0), np.where(known, far, 1.0)
+    # Unknown where the body or the grid ends; less than the second in a groove of two cells.
+    farther = np.where(np.isfinite(farther), farther, np.nan)
+    # gap^(2/3) on the lines beside, where neither body nor block ends there.
+    behind, before = gap[second + intervals.across], gap[second - intervals.across]
+    both = known & np.isfinite(behind) & np.isfinite(before)
+    gaps = np.array([np.where(both, behind, 0.0), np.where(both, before, 0.0), far, near])
+    # Of ratios, so that no unit of length changes the rounding.
+    behind, before, rise, base = np.cbrt(np.square(gaps / far))
+    slope = (behind - before) / (2 * (rise - base))
+    # Ratios that differ by rounding share a law.
+    dx, dy = grid.cell_size
+    laws = [edge_law(round(ratio, 6), periodic=all(grid.periodic)) for ratio in (dy / dx, dx / dy)]
+    split = intervals.count_along_x
+    offset = np.concatenate([laws[0].offset(slope[:split]), laws[1].offset(slope[split:])])
+    distance = laws[0].distance(near, far, farther) - offset
+    return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope
+
+
+def _body_ends(ends: tuple[Floats, Floats], intervals: _Intervals, width: int) -> Floats:
+    """Distances to the body's outline, the middle where it is not known."""
+    row, column = (each - PADDING for each in np.divmod(intervals.start, width))
+    split = intervals.count_along_x
+    along_x, along_y = ends
+    found = np.concatenate(
+        [along_x[row[:split], column[:split]], along_y[row[split:], column[split:]]]
+    )
+    return np.where(np.isnan(found), 0.5, found)
+
+
+def _by_chords(fields: Floats, intervals: _Intervals, contact: Bools, opens: Bools) -> Floats:
+    """Distances of chords between the nearest crossings along the other axis, NaN without both."""
+    # The gap increases towards the next line where it `opens`, else towards the line before.
+    across, inner, outer = intervals.across, intervals.inner, intervals.outer
+    up = np.where(opens, across, -across)
+    crossed = contact[inner - up] & contact[outer - up] & ~contact[inner + up]
+    crossed &= ~contact[outer + up]
+    # From the line of centres up to the chord at the inner cell, down to it at the outer one.
+    split = intervals.count_along_x
+    height, depth = (
+        np.concatenate([fields[1, cell[:split]], fields[0, cell[split:]]])
+        for cell in (np.where(opens, inner, inner - across), np.where(opens, outer - across, outer))
+    )
+    descent = height + 1 - depth
+    descent = np.where(np.abs(descent) < LEAST_DESCENT, LEAST_DESCENT, descent)
+    return np.where(crossed, height / descent, np.nan)

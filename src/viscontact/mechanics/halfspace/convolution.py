@@ -1,0 +1,222 @@
+"""Discrete convolution of pressure and influence coefficients by zero-padded transforms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from copy import copy
+from functools import partial
+from typing import Self, TypeAlias
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.team import Team, Workspace, blocks_of, order_of
+from viscontact.backend.transforms import (
+    Field,
+    Transforms,
+    as_reals,
+    fastest_transforms,
+    fill_of_order,
+    restore_of_order,
+    transforms_by,
+)
+from viscontact.mechanics.halfspace.kernel_spectrum import kernel_spectrum, padded_length
+
+#: Work on a block of lines, in a workspace of its own.
+_Work: TypeAlias = Callable[[slice, Numbers], None]
+
+
+class Convolution:
+    """Surface displacement of a half-space under cell pressures, by the DC-FFT algorithm.
+
+    Zero padding makes the circular convolution linear: the result is the direct sum over all pairs
+    of cells, to rounding (S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101); along a `periodic` axis it
+    is circular. Along a `mirrored` axis, of an even number of cells, only those with positive
+    coordinates are kept, and a half-sample even sequence convolved with an even kernel is its
+    DCT-II times the kernel's transform (S. A. Martucci, IEEE Trans. Signal Process. 42 (1994)
+    1038). `coefficients` [m] are those of the whole block, from `influence_table` or
+    `periodic_layered_table`, even along both axes but for a `signed` one, with the 2 n - 1 offsets
+    of `moving_influence_table`. Lines are padded, transformed and multiplied in blocks that stay in
+    the cache; threads do not change a bit.
+    """
+
+    def __init__(  # noqa: PLR0913
+        self,
+        coefficients: Floats,
+        *,
+        mirrored: tuple[bool, bool] = (False, False),
+        periodic: tuple[bool, bool] = (False, False),
+        single: bool = False,
+        signed: int | None = None,
+        transforms: Transforms | None = None,
+        team: Team | None = None,
+        workspace: Workspace | None = None,
+    ) -> None:
+        transforms = transforms or transforms_by(fastest_transforms())
+        counts = [
+            (entries + 1) // 2 if axis == signed else entries
+            for axis, entries in enumerate(coefficients.shape)
+        ]
+        self.shape = _halved(counts, mirrored)
+        self._lengths = [
+            padded_length(cells, unpadded=mirrored[axis], exact=periodic[axis])
+            for axis, cells in enumerate(counts)
+        ]
+        # A real Fourier transform comes first, and keeps half of its spectrum; then a complex one.
+        self._first = first = 0 if mirrored == (False, True) else 1
+        self._second = second = 1 - first
+        self._even, self._signed = mirrored, signed
+        self._number = np.dtype(np.float32 if single else np.float64)
+        complex_number = np.result_type(self._number, np.complex64)
+        symbol = kernel_spectrum(coefficients, self._lengths, mirrored, first, transforms, signed)
+        self._symbol = symbol.astype(self._number if signed is None else complex_number)
+        kind = self._number if mirrored[first] else complex_number
+        waves = symbol.shape[first]
+        self._lines = blocks_of(self.shape[second], self._lengths[first] * self._number.itemsize)
+        self._waves = blocks_of(waves, self._lengths[second] * kind.itemsize)
+        #: Padded lines for each thread, along the first and along the second axis.
+        self._padded = [
+            (
+                np.zeros(_put(first, self._lengths[first], self._lines[0].stop), self._number),
+                np.zeros(_put(second, self._lengths[second], self._waves[0].stop), kind),
+            )
+            for _ in range(transforms.threads)
+        ]
+        is_one_block = len(self._lines) == len(self._waves) == 1
+        # Threads share the blocks out, or else the lines of the only one.
+        self._transforms = transforms if is_one_block else transforms_by(transforms.name)
+        self._team = team or Team(transforms.threads)
+        self._workspace = workspace
+        #: Shape and kind of the spectrum along the first axis of cells with data.
+        self._half = _put(first, waves, self.shape[second]), np.dtype(kind)
+
+    def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
+        """Weighted sum of operators on the same block, in the precision of this one."""
+        total = copy(self)
+        pairs = zip(weights, parts, strict=True)
+        symbol = np.asarray(sum(weight * part._symbol for weight, part in pairs))
+        total._symbol = symbol.astype(self._symbol.dtype)
+        return total
+
+    def apply(self, pressure: Field, into: Field | None = None) -> Field:
+        """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
+        result = np.empty(self.shape) if into is None else into
+        # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
+        # 3. undo the scaling.
+        parts = [_cut(pressure, self._second, lines) for lines in self._lines]
+        size = order_of(parts, self._number, self._team)
+        half = self._half_spectrum()
+        self._each(self._lines, 0, partial(self._forth, pressure, size, half))
+        self._each(self._waves, 1, partial(self._multiply, half))
+        self._each(self._lines, 0, partial(self._back, result, size, half))
+        return result
+
+    def _half_spectrum(self) -> Numbers:
+        """Array for the spectrum along the first axis; in the padded lines if they hold it."""
+        if len(self._waves) == 1:
+            return _cut(self._padded[0][1], self._second, slice(self.shape[self._second]))
+        return self._workspace.array(*self._half) if self._workspace else np.empty(*self._half)
+
+    def _each(self, blocks: Sequence[slice], axis: int, work: _Work) -> None:
+        """Work on all blocks; with several threads, each takes every so many of them."""
+        threads = min(len(blocks), len(self._padded))
+        if threads == 1:
+            for block in blocks:
+                work(block, self._padded[0][axis])
+            return
+
+        def share(thread: int) -> None:
+            for block in blocks[thread::threads]:
+                work(block, self._padded[thread][axis])
+
+        self._team.each(share, range(threads))
+
+    def _forth(
+        self,
+        pressure: Field,
+        size: float,
+        half: Numbers,
+        lines: slice,
+        padded: Numbers,
+    ) -> None:
+        """Transform lines of the pressure along the first axis."""
+        first, second, transforms = self._first, self._second, self._transforms
+        padded = _cut(padded, second, slice(lines.stop - lines.start))
+        cells = self.shape[first]
+        fill_of_order(size, _cut(padded, first, slice(cells)), _cut(pressure, second, lines))
+        _cut(padded, first, slice(cells, None))[...] = 0
+        spectrum = _cut(half, second, lines)
+        if self._even[first]:
+            spectrum[...] = transforms.cosine_forward(padded, first)
+        else:
+            transforms.real_forward(padded, spectrum, first)
+
+    def _multiply(self, half: Numbers, waves: slice, padded: Numbers) -> None:
+        """Transform waves along the second axis, multiply them by the symbol, transform back."""
+        first, second, transforms = self._first, self._second, self._transforms
+        spectrum = _cut(half, first, waves)
+        padded = _cut(padded, first, slice(waves.stop - waves.start))
+        data = _cut(padded, second, slice(self.shape[second]))
+        apart = len(self._waves) > 1
+        if apart:
+            data[...] = spectrum
+        _cut(padded, second, slice(self.shape[second], None))[...] = 0
+        padded = self._along_second(transforms.cosine_forward, transforms.complex_forward, padded)
+        symbol = _cut(self._symbol, first, waves)
+        known = symbol.shape[second]
+        lower = _cut(padded, second, slice(known))
+        lower *= symbol
+        if known < self._lengths[second]:  # the symbol is even: the rest is its mirror image
+            upper = _cut(padded, second, slice(known, None))
+            upper *= _cut(symbol, second, slice(self._lengths[second] - known, 0, -1))
+        padded = self._along_second(transforms.cosine_inverse, transforms.complex_inverse, padded)
+        found = _cut(padded, second, slice(self.shape[second]))
+        if apart or not np.may_share_memory(found, spectrum):
+            spectrum[...] = found
+
+    def _back(
+        self,
+        result: Field,
+        size: float,
+        half: Numbers,
+        lines: slice,
+        padded: Numbers,
+    ) -> None:
+        """Transform lines back along the first axis, into the result."""
+        first, second, transforms = self._first, self._second, self._transforms
+        spectrum = _cut(half, second, lines)
+        if self._even[first]:
+            moved = transforms.cosine_inverse(spectrum, first)
+        else:
+            padded = _cut(padded, second, slice(lines.stop - lines.start))
+            moved = transforms.real_inverse(spectrum, padded, first)
+        moved = _cut(moved, first, slice(self.shape[first]))
+        restore_of_order(size, moved, _cut(result, second, lines))
+
+    def _along_second(
+        self,
+        cosine: Callable[[Numbers, int], Numbers],
+        fourier: Callable[[Numbers, int], Numbers],
+        spectrum: Numbers,
+    ) -> Numbers:
+        """Transform in place along the second axis; cosines act on real and imaginary parts."""
+        if not self._even[self._second]:
+            return fourier(spectrum, self._second)
+        if self._even[self._first]:
+            return cosine(spectrum, self._second)
+        return cosine(as_reals(spectrum), self._second).view(spectrum.dtype)[..., 0]
+
+
+def _halved(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
+    nx, ny = (cells // (1 + even) for cells, even in zip(shape, mirrored, strict=True))
+    return nx, ny
+
+
+def _put(axis: int, along: int, across: int) -> tuple[int, int]:
+    """Shape of a number of lines along an axis, by their length and number."""
+    return (along, across) if axis == 0 else (across, along)
+
+
+def _cut(field: Numbers, axis: int, part: slice) -> Numbers:
+    """Part of a field along an axis, in the same memory."""
+    return field[part] if axis == 0 else field[:, part]

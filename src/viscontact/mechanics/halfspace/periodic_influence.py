@@ -1,0 +1,91 @@
+"""Influence coefficients of a rectangle that repeats along one axis.
+
+A cell is loaded together with its periodic images along x, at distances of m periods l. Those of
+|m| <= M are summed by Love's coefficients, and the others, of which 1/r is smooth, by the
+Euler-Maclaurin formula from the middle between two images:
+
+    Σ_{m > M} f(m) = ∫_{M+1/2}^∞ f dm + f'/24 - 7 f'''/5760 + 31 f⁽⁵⁾/967680 - ...,
+
+with f = 1/r and the derivatives at m = M + 1/2. The integral diverges as the logarithm of its upper
+limit, by the same amount at all places: there is no displacement at rest to count from. Without
+that constant the sum decays as -(2/l) ln(|y|/d) far from the line of images, and d is the distance
+at which displacement counts as zero.
+
+References
+----------
+K. L. Johnson, Contact Mechanics, Cambridge (1985), section 2.3: the datum of a half-plane.
+M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), eqs. 23.1.30 and 25.4.2.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import scipy  # its special functions are imported at their first use
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.halfspace.influence import influence_coefficient
+
+#: Gauss's rule over an edge of a cell, on [-1, 1], for what is smooth over it.
+GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
+
+#: Images on either side that are summed one by one: at least these, and up to this many lengths of
+#: a cell across.
+IMAGES = 6
+
+#: Factors of the first, third, ... derivative in the Euler-Maclaurin formula from the middle.
+MIDDLE_FACTORS = ((1, 1 / 24), (3, -7 / 5760), (5, 31 / 967680), (7, -127 / 154828800))
+
+
+def periodic_influence_coefficient(
+    x: Floats,
+    y: Floats,
+    cell_size: tuple[float, float],
+    period: float,
+    datum: float,
+) -> Floats:
+    """Influence coefficients [m] of a cell with its images along x at offsets x, y [m].
+
+    `x` is at most half a period. Displacement is zero at the distance `datum` [m] of a line load.
+    """
+    images = max(IMAGES, math.ceil(IMAGES * cell_size[1] / period))
+    table = _far_images(x, y, cell_size, period, images, datum)
+    for image in range(-images, images + 1):
+        table += influence_coefficient(x + image * period, y, cell_size)
+    return table
+
+
+def _far_images(
+    x: Floats,
+    y: Floats,
+    cell_size: tuple[float, float],
+    period: float,
+    images: int,
+    datum: float,
+) -> Floats:
+    """Mean over the cell of the sums beyond the images on both sides, times its area over π."""
+    dx, dy = cell_size
+    total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
+    begin = (images + 0.5) * period
+    for node_x, weight_x in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
+        for node_y, weight_y in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
+            east, north = x - node_x * dx / 2, y - node_y * dy / 2
+            for along in (begin + east, begin - east):
+                total += weight_x * weight_y / 4 * _tail(along, north, period, datum)
+    return np.asarray(total * dx * dy / np.pi)
+
+
+def _tail(along: Floats, across: Floats, period: float, datum: float) -> Floats:
+    """Sum of 1/r from half a period after a place on, less its logarithm's upper limit [1/m]."""
+    r = np.hypot(along, across)
+    found = -np.log((along + r) / datum) / period
+    for order, factor in MIDDLE_FACTORS:
+        # d^n/dx^n (1/r) = (-1)^n n! P_n(x/r) / r^(n+1)
+        derivative = (
+            -math.factorial(order)
+            * scipy.special.eval_legendre(order, along / r)
+            / r ** (order + 1)
+        )
+        found += factor * period**order * derivative
+    return np.asarray(found)

@@ -1,0 +1,270 @@
+"""Contact problem: bodies, load, and requirements on the solution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.grid import AutomaticGrid, Grid
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.laws import Law
+from viscontact.bodies.loads import LoadHistory, LoadPoint
+from viscontact.bodies.loads.largest_load import largest_load
+from viscontact.bodies.loads.mixed import as_history
+from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.materials.compliance import ContactCompliance
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
+from viscontact.bodies.surfaces import Surface as MeasuredSurface
+from viscontact.bodies.surfaces import indenter_of
+from viscontact.bodies.surfaces.topographies import is_topography
+from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
+from viscontact.mechanics.problem.series_body import span_of
+from viscontact.mechanics.problem.surface import Surface, follows_span, surface_of
+from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
+from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, Step, plan_steps
+from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.mechanics.time_integration.run_times import run_instants
+from viscontact.units.numbers import as_real
+
+#: Range of tolerances [-]: smaller ones are below rounding, larger ones give no solution.
+FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
+
+#: Relative errors of the scalars in tolerances of the solver, which bounds the gap.
+SOLVER_ERROR_FACTOR = 3.0
+
+
+#: Edge of the cell of an automatic grid that is not chosen yet [m].
+UNKNOWN_CELL = 1e100
+
+
+def _hint(name: str, given: object) -> str:
+    """Hint for an argument of a wrong type; empty without one."""
+    if isinstance(given, Law):
+        return "; write vc.Material(law, poisson_ratio=...)"
+    if name.endswith("material") and isinstance(given, str):
+        return "; write vc.shipped_material(name) for a material of the library"
+    if name == "load" and as_real(given) is not None:
+        return "; write vc.step(force) for a constant force"
+    return ""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Contact problem in the terms of the user; derived quantities are computed once.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        Shape of the pressed body; a measured `Surface`, or a map of SurfaceTopography, becomes a
+        `HeightMap`, as it is.
+    material : Material or Layered
+        Material of the half-space, or a body of layers.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time; a `LoadProgram` becomes a
+        `MixedHistory` that awaits its events.
+    grid : Grid, AutomaticGrid or None
+        Cells that carry the pressure, or requirements on a grid that the run chooses.
+    times : array_like, AdaptiveTimes or None
+        Times of the states [s], or requirements on steps that the run chooses.
+    indenter_material : Material, Layered or None
+        Material of the pressed body; None for a rigid one.
+    tolerance : float
+        Relative error of gap and balances at every step [-].
+    kept : KeptFields
+        Times whose fields are kept [s].
+    step_ratio : float
+        Longest step between given times, relative to the longest one that the load allows [-].
+    motion : Motion
+        Motion of the body over the surface.
+    """
+
+    indenter: Indenter
+    material: Material | Layered
+    load: LoadHistory
+    grid: Grid | AutomaticGrid | None = None
+    times: ArrayLike | AdaptiveTimes | CellTimes | None = None
+    indenter_material: Material | Layered | None = None
+    tolerance: float = 1e-6
+    kept: KeptFields = ALL_FIELDS
+    step_ratio: float = 1.0
+    motion: Motion = STANDING
+
+    def __post_init__(self) -> None:
+        if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
+            object.__setattr__(self, "indenter", indenter_of(self.indenter))
+        object.__setattr__(self, "load", as_history(self.load))
+        for name, kinds, optional in (
+            ("indenter", (Indenter,), False),
+            ("material", (Material, Layered), False),
+            ("load", (LoadHistory,), False),
+            ("grid", (Grid, AutomaticGrid), True),
+            ("indenter_material", (Material, Layered), True),
+            ("motion", (Motion,), False),
+        ):
+            value = getattr(self, name)
+            if not (isinstance(value, kinds) or (optional and value is None)):
+                named = " or ".join(kind.__name__ for kind in kinds)
+                raise ValueError(
+                    f"{name} must be of kind {named}, got {value!r}{_hint(name, value)}"
+                )
+        number = as_real(self.tolerance)
+        if number is None or not FINEST_TOLERANCE <= number <= COARSEST_TOLERANCE:
+            raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {self.tolerance!r}")
+        object.__setattr__(self, "tolerance", number)
+
+    @property
+    def solver_error(self) -> float:
+        """Bound of the relative errors of scalars caused by the tolerance of the solver [-]."""
+        return SOLVER_ERROR_FACTOR * self.tolerance
+
+    @property
+    def bodies(self) -> tuple[Material | Layered, ...]:
+        """The bodies that deform."""
+        both = (self.material, self.indenter_material)
+        return tuple(body for body in both if body is not None)
+
+    @property
+    def materials(self) -> tuple[Material, ...]:
+        """Materials of all bodies and of their layers."""
+        each = ((body,) if isinstance(body, Material) else body.materials for body in self.bodies)
+        return tuple(chain.from_iterable(each))
+
+    @cached_property
+    def surface(self) -> Surface:
+        """Creep functions and frequency responses of both bodies together."""
+        has_times = self.times is not None or self._steps_over_cells
+        if not (has_times and any(map(follows_span, self.bodies))):
+            return surface_of(self.bodies)
+        first, *others = (material.contact_compliance() for material in self.materials)
+        return surface_of(self.bodies, span_of(self._instants(sum(others, start=first))))
+
+    @property
+    def compliance(self) -> ContactCompliance:
+        """J(t) of both bodies together [1/Pa]; of layers that of short waves."""
+        return self.surface.compliance
+
+    def has_datum(self, grid: Grid) -> bool:
+        """True if the approach has a datum on a grid: not of a line contact on a half-space."""
+        return grid.has_datum or self.surface.is_supported
+
+    @property
+    def automatic_grid(self) -> AutomaticGrid | None:
+        """Requirements on the grid; None for a grid that was given."""
+        if isinstance(self.grid, Grid):
+            return None
+        return self.grid or AutomaticGrid()
+
+    @property
+    def adaptive(self) -> AdaptiveTimes | None:
+        """Requirements on steps that the run chooses; None for given times."""
+        return self.times if isinstance(self.times, AdaptiveTimes) else None
+
+    @cached_property
+    def history(self) -> LoadHistory:
+        """The load, of a moving body with the kinks and cycles of its path."""
+        return self.motion.history_under(self.load)
+
+    @cached_property
+    def instants(self) -> Floats:
+        """Times of the states [s]; of adaptive steps the prescribed ones, the end last."""
+        return self._instants(self.surface.creep)
+
+    def _instants(self, creep: ContactCompliance) -> Floats:
+        """Times of the states, which may depend on the creep of all bodies [s]."""
+        if isinstance(self.times, CellTimes) or self._steps_over_cells:
+            if isinstance(self.grid, Grid):
+                return self.times_at_cells(self.grid.cell_size)
+            # Until the cells are known, those of one that is longer than any path.
+            return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
+        return run_instants(self.times, self.kept.places, self.load, creep)
+
+    def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
+        """Times of a moving contact at which the body has passed whole cells [s]."""
+        end = self.times.end if isinstance(self.times, CellTimes) else None
+        return moving_times(self.motion, self.load, cell_size, end, self.kept.places)
+
+    @property
+    def awaits_cells(self) -> bool:
+        """True if its times follow from cells that are not chosen yet."""
+        return self._steps_over_cells and not isinstance(self.grid, Grid)
+
+    @property
+    def _steps_over_cells(self) -> bool:
+        """True if the body passes a cell, or several, in each step."""
+        return isinstance(self.times, CellTimes) or (self.times is None and not self.motion.stands)
+
+    @property
+    def end(self) -> float:
+        """Last time of the run [s]."""
+        return float(self.instants[-1])
+
+    @cached_property
+    def largest_load(self) -> tuple[float, LoadPoint]:
+        """Time of the largest load of the run [s], and its point."""
+        return largest_load(self.load, self.end)
+
+    @cached_property
+    def planned_steps(self) -> tuple[Step, ...]:
+        """Steps through the given times; not for adaptive steps."""
+        return plan_steps(self.instants, self.history, self.step_ratio)
+
+    @property
+    def step_count(self) -> float:
+        """Number of steps, estimated for adaptive ones."""
+        if self.adaptive is None:
+            return float(len(self.planned_steps))
+        return estimated_steps(self.adaptive, self.history, self.surface.creep)
+
+    def steps(self, cell_size: tuple[float, float]) -> FixedSteps | AdaptiveSteps:
+        """Return the sequence of steps from the start, on cells of a size (dx, dy) [m]."""
+        if self.adaptive is None:
+            return FixedSteps(self.planned_steps)
+        creep, marks = self.surface.creep, self.motion.times_at_cells(cell_size)
+        return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks)
+
+    @property
+    def measured_until(self) -> float:
+        """Last time of the data of the laws [s]; inf for formulas."""
+        return min(material.known_until for material in self.materials)
+
+    @property
+    def measured_from(self) -> float:
+        """First time of the data of the laws [s]; 0 for formulas."""
+        return max(material.known_from for material in self.materials)
+
+    @property
+    def ends_first(self) -> str:
+        """Material whose data end first, in words."""
+        return self._owner(lambda each: each.known_until == self.measured_until)
+
+    @property
+    def begins_last(self) -> str:
+        """Material whose data begin last, in words."""
+        return self._owner(lambda each: each.known_from == self.measured_from)
+
+    def _owner(self, is_it: Callable[[Material], bool]) -> str:
+        """Name of a material by its body, where both deform."""
+        if len(self.bodies) == 1:
+            return "material"
+        indenter = self.bodies[1]
+        own = (indenter,) if isinstance(indenter, Material) else indenter.materials
+        return "indenter material" if any(map(is_it, own)) else "half-space material"
+
+    @property
+    def thinnest_layer(self) -> float:
+        """Thickness of the thinnest layer of a body [m]; inf without layers."""
+        layered = [body for body in self.bodies if isinstance(body, Layered)]
+        return min((each.thickness for body in layered for each in body.layers), default=np.inf)
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the thinnest body that is a half-space [m]; inf where none is given."""
+        return min(material.thickness or np.inf for material in self.materials)

@@ -1,0 +1,264 @@
+"""Surface of the bodies in contact: creep functions and the frequency responses that they multiply.
+
+Under a wave of pressure of wave number q the surfaces of both bodies are displaced together by
+
+    u(q, t) = Σ (2/q) L_m(q) ∫ J_m(t - t') dp(q, t').
+
+A half-space is one such term, with L = 1. So is a body of layers whose materials creep alike at
+constant Poisson's ratios (by Lee's correspondence principle: L depends on the ratios of the moduli
+only), such as a single layer on a rigid base. Other layers take a few terms (`separation`). Terms
+of proportional creep functions are added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viscontact.bodies.materials.compliance import (
+    ContactCompliance,
+    LawCompliance,
+    SeriesCompliance,
+)
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
+from viscontact.mechanics.halfspace.surface_response import (
+    HALF_SPACE,
+    SummedResponse,
+    SurfaceResponse,
+)
+from viscontact.mechanics.problem.separation import separate, stack_of
+from viscontact.mechanics.problem.series_body import ANY_TIMES, Span, is_series
+
+#: Relative difference of two creep functions that count as proportional.
+PROPORTIONAL = 1e-12
+
+#: Time at which a creep function without an end is taken as late [s].
+LATE = 1e9
+
+#: Part of the largest growth of a creep function from which on a term counts as creeping most.
+NEARLY_MOST = 0.5
+
+#: Rounding of the response to short waves of a term that they do not see [-].
+ROUNDING = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceTerm:
+    """A creep function J(t) [1/Pa] times a frequency response L(q) [-]."""
+
+    compliance: ContactCompliance
+    response: SurfaceResponse
+
+    @property
+    def is_local(self) -> bool:
+        """True if short waves see the term, beyond rounding."""
+        return abs(self.response.short_waves) > ROUNDING
+
+    @property
+    def short_wave_compliance(self) -> ContactCompliance:
+        """J(t) of short waves [1/Pa]."""
+        return self.compliance.scaled(self.response.short_waves)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Terms of the surfaces of both bodies together.
+
+    Attributes
+    ----------
+    terms : tuple of SurfaceTerm
+        The first is one that short waves see.
+    splitting_error : float
+        Bound of the relative error of their sum [-]; 0 if exact.
+    """
+
+    terms: tuple[SurfaceTerm, ...]
+    splitting_error: float = 0.0
+
+    @cached_property
+    def compliance(self) -> ContactCompliance:
+        """J(t) of short waves, which do not feel the layers [1/Pa]."""
+        local = [term.short_wave_compliance for term in self.terms if term.is_local]
+        return sum(local[1:], start=local[0])
+
+    @cached_property
+    def creep(self) -> ContactCompliance:
+        """Sum of the creep functions of all terms, for times and rates of creep [1/Pa]."""
+        functions = [term.compliance for term in self.terms]
+        return sum(functions[1:], start=functions[0])
+
+    @cached_property
+    def most_creeping(self) -> int:
+        """Index of the term that creeps most over its instant compliance, the first of several."""
+        growth = [_growth(term.compliance) for term in self.terms]
+        return next(k for k, own in enumerate(growth) if own >= NEARLY_MOST * max(growth))
+
+    @property
+    def is_supported(self) -> bool:
+        """True on a rigid base, which a mean pressure does not displace without limit."""
+        return all(np.isfinite(term.response.mean_displacement) for term in self.terms)
+
+    def response_at(self, time: float) -> SurfaceResponse:
+        """Response of the elastic body that the surface is at a time after a jump [s]."""
+        if len(self.terms) == 1:
+            return self.terms[0].response
+        creep = [_creep_until(term.compliance, time) for term in self.terms]
+        parts = tuple(term.response for term in self.terms)
+        local = sum(j * part.short_waves for j, part in zip(creep, parts, strict=True))
+        return SummedResponse(parts, tuple(j / local for j in creep))
+
+
+def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> Surface:
+    """Terms of the bodies that deform; `span` is that of the times of interest [s].
+
+    Examples
+    --------
+    >>> from viscontact.bodies.laws import Elastic, Zener
+    >>> from viscontact.bodies.materials.layers import Layer
+    >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
+    >>> len(surface_of([rubber, steel]).terms)
+    1
+    >>> layer = Layered([Layer(1e-3, rubber)], base="rigid")
+    >>> len(surface_of([layer]).terms), len(surface_of([layer, steel]).terms)
+    (1, 2)
+    """
+    terms: list[SurfaceTerm] = []
+    for body in bodies:
+        for new in terms_of(body, span):
+            terms = _with_term(terms, new)
+    layered = [body for body in bodies if isinstance(body, Layered)]
+    separated = [separate(body, span) for body in layered if as_elastic(body) is None]
+    error = max((each.error for each in separated), default=0.0)
+    return Surface(tuple(terms), error)
+
+
+def _with_term(terms: list[SurfaceTerm], new: SurfaceTerm) -> list[SurfaceTerm]:
+    """Terms with another one, added to one of its response or of a proportional creep function."""
+    for index, known in enumerate(terms):
+        if known.response == new.response:
+            added = SurfaceTerm(known.compliance + new.compliance, known.response)
+            return [*terms[:index], added, *terms[index + 1 :]]
+        factor = proportion(new.compliance, known.compliance)
+        if factor is not None:
+            shares = 1 / (1 + factor), factor / (1 + factor)
+            both = SummedResponse((known.response, new.response), shares)
+            joined = SurfaceTerm(known.compliance + new.compliance, both)
+            return [*terms[:index], joined, *terms[index + 1 :]]
+    return [*terms, new]
+
+
+def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTerm]:
+    """Terms of one body; `span` is that of the times of interest [s].
+
+    >>> from viscontact.bodies.laws import Elastic
+    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
+    >>> [term.response is HALF_SPACE for term in terms_of(steel)]
+    [True]
+    """
+    if isinstance(body, Material):
+        return [SurfaceTerm(body.contact_compliance(), HALF_SPACE)]
+    creeps_alike = as_elastic(body)
+    if creeps_alike is not None:
+        return [SurfaceTerm(body.layers[0].material.contact_compliance(), creeps_alike)]
+    found = separate(body, span)
+    return [SurfaceTerm(*pair) for pair in zip(found.compliances, found.responses, strict=True)]
+
+
+def as_elastic(body: Layered) -> ElasticStack | None:
+    """Elastic stack of the ratios of the moduli, None if they or Poisson's ratios vary in time."""
+    top, *others = (contact_creep(material) for material in body.materials)
+    ratios = [1.0]
+    for other in others:
+        factor = None if top is None or other is None else proportion(other, top)
+        if factor is None:
+            return None
+        ratios.append(factor)
+    if top is None:
+        return None
+    constants = [
+        (1 / ratio * (1 - nu), nu)
+        for ratio, nu in zip(ratios, map(constant_poisson_ratio, body.materials), strict=True)
+        if nu is not None
+    ]
+    return stack_of(body, constants)
+
+
+def follows_span(body: Material | Layered) -> bool:
+    """True for layers whose terms depend on the times of interest, as a law is approximated.
+
+    >>> from viscontact.bodies.laws import Elastic, PowerLaw
+    >>> from viscontact.bodies.materials.layers import Layer
+    >>> rubber = Material(PowerLaw(1e-6, 0.3, 1.0), poisson_ratio=0.5)
+    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
+    >>> [follows_span(Layered([Layer(1e-3, rubber)], base)) for base in ("rigid", steel)]
+    [False, True]
+    """
+    if isinstance(body, Material) or as_elastic(body) is not None:
+        return False
+    return not all(is_series(material.law) for material in body.materials)
+
+
+def creeps(body: Material | Layered) -> bool:
+    """True for a body of which a part creeps or flows.
+
+    >>> from viscontact.bodies.laws import Maxwell
+    >>> creeps(Material(Maxwell(1e6, 1e6), poisson_ratio=0.5))
+    True
+    """
+    parts = (body,) if isinstance(body, Material) else body.materials
+    return not all(part.contact_compliance().is_elastic for part in parts)
+
+
+def contact_creep(material: Material) -> ContactCompliance | None:
+    """Contact compliance of a material whose Poisson's ratio is constant, else None."""
+    return None if constant_poisson_ratio(material) is None else material.contact_compliance()
+
+
+def constant_poisson_ratio(material: Material) -> float | None:
+    """Poisson's ratio; None if it varies in time."""
+    if material.poisson_ratio is not None:
+        return material.poisson_ratio
+    if not material.contact_compliance().is_elastic:
+        return None
+    assert material.bulk_modulus is not None  # exactly one is given
+    shear, bulk = 0.5 / float(material.law(0.0)), material.bulk_modulus
+    return (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+
+
+def _growth(compliance: ContactCompliance) -> float:
+    """Creep function after all creep, or a long time, over the instantaneous one [-]."""
+    if compliance.is_elastic:
+        return 1.0
+    late = min(compliance.settled_after, LATE)
+    return float(compliance(late)) / compliance.instant if compliance.instant > 0 else np.inf
+
+
+def _creep_until(compliance: ContactCompliance, time: float) -> float:
+    """J at a time, at the end of all creep if that is earlier [1/Pa]."""
+    settled = compliance.settled_after
+    return float(compliance(min(time, settled) if settled > 0 else 0.0))
+
+
+def proportion(one: ContactCompliance, other: ContactCompliance) -> float | None:
+    """Constant factor by which a creep function is larger than another, None if there is none.
+
+    >>> proportion(SeriesCompliance(3.0, [6.0], [1.0]), SeriesCompliance(1.0, [2.0], [1.0]))
+    3.0
+    """
+    if isinstance(one, LawCompliance) and isinstance(other, LawCompliance):
+        return one.factor / other.factor if one.law == other.law else None
+    if not (isinstance(one, SeriesCompliance) and isinstance(other, SeriesCompliance)):
+        return None
+    if one.times.size != other.times.size or (one.times != other.times).any():
+        return None
+    first, second = (
+        np.array([each.instant, each.fluidity, *each.amplitudes]) for each in (one, other)
+    )
+    factor = float(first.sum() / second.sum())
+    return factor if np.allclose(first, factor * second, rtol=PROPORTIONAL, atol=0.0) else None

@@ -1,0 +1,186 @@
+"""State of a contact at one instant: fields, resultants, rigid motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import Any, Literal
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.bodies.grid import Grid
+
+
+class Outcome(IntEnum):
+    """Outcome of the contact solver at an instant.
+
+    ``CONVERGED`` (0), ``NO_CONTACT`` (1) or ``NOT_CONVERGED`` (2): tolerance not reached.
+
+    Examples
+    --------
+    >>> Outcome(1).name
+    'NO_CONTACT'
+    """
+
+    CONVERGED = 0
+    NO_CONTACT = 1
+    NOT_CONVERGED = 2
+
+
+#: Fields of a state over the cells.
+FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
+
+
+@dataclass(frozen=True, eq=False)
+class ContactState:
+    """Fields, resultants and rigid motion at one instant; names as in the result's dataset.
+
+    Attributes
+    ----------
+    time : float
+        Instant; at a jump of the load, just after it [s].
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, positive in compression [Pa].
+    gap : ndarray, shape (nx, ny)
+        Gap, positive when open, +inf outside the indenter's outline [m].
+    displacement : ndarray, shape (nx, ny)
+        Surface displacement, positive into the half-space [m].
+    in_contact : ndarray of bool, shape (nx, ny)
+        True in cells where the bodies touch.
+    line_load : ndarray, shape (nx,)
+        Pressure integrated over y, along x [N/m].
+    grid : Grid
+        The cells of these fields. A run with an automatic grid may have enlarged it since the
+        previous state.
+    force : float
+        Integral of the pressure [N].
+    eccentricity_x, eccentricity_y : float
+        Position of that resultant [m]; NaN without contact, and along a periodic axis, which has
+        no centre.
+    approach : float
+        Rigid approach of the bodies, positive when they come closer; on a periodic grid relative
+        to the mean plane of the displaced surface, NaN on a grid periodic along one axis only [m].
+    tilt_x, tilt_y : float
+        Rigid slopes, positive when they press the +x or +y end deeper [rad].
+    contact_area : float
+        Area inside the rim, resolved below the cell size [m²].
+    contact_length, contact_width : float
+        Extents of the contact along x and y, along a periodic axis at most a period [m].
+    peak_pressure, mean_pressure : float
+        Largest cell pressure, and force over area [Pa].
+    peak_line_load : float
+        Largest mean of the line load over a twentieth of the contact's length along x [N/m]. At a
+        sharp end of the body the line load itself has no limit as cells become smaller.
+    work : float
+        Work of the load on the contact since the start [J]; exact for an elastic body, across
+        jumps and at the first instant, otherwise second-order accurate in the step. NaN where the
+        approach is.
+    loss_per_cycle : float
+        Work lost in the last complete cycle of the load; NaN before the first is complete [J].
+    time_error : float
+        Estimated error of the pressure caused by the time steps so far, relative to the largest
+        deflection [-].
+    iterations : int
+        Search directions of the contact solver.
+    residual : float
+        Largest gap under pressure or penetration elsewhere, over the largest displacement [-].
+    cells_across : int
+        Number of cells across the contact along its shorter direction.
+    outcome : Outcome
+        Outcome of the solver.
+    warnings : tuple of str
+        Accuracy warnings that occur first at this instant.
+    position_x, position_y : float or None
+        Position of the axis of a moving body [m]. These and the following are None if no motion
+        is prescribed.
+    resistance_x, resistance_y : float or None
+        Force of the half-space on the body against +x and +y: positive if it holds back a body
+        that moves towards + [N].
+    friction_coefficient : float or None
+        Resistance against the motion over force; NaN at rest and without contact [-].
+    motion_work : float or None
+        Work of the motion against the resistance since the start [J].
+    dissipation : float or None
+        Power lost in the dashpots of the laws' retardation series [W]; NaN where the history is
+        kept as a Boltzmann sum.
+    heat : float or None
+        Energy lost in them since the start [J].
+    speed : float or None
+        Speed of a body in steady motion [m/s]; None for a contact over time.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (6e-3, 6e-3))
+    >>> state = next(vc.march(vc.Paraboloid(0.01, 0.01), rubber, vc.step(1.0), grid, [0.0]))
+    >>> state.pressure.shape, state.outcome.name, round(state.force, 6)
+    ((24, 24), 'CONVERGED', 1.0)
+    """
+
+    time: float
+    pressure: Floats
+    gap: Floats
+    displacement: Floats
+    in_contact: Bools
+    line_load: Floats
+    grid: Grid
+    force: float
+    eccentricity_x: float
+    eccentricity_y: float
+    approach: float
+    tilt_x: float
+    tilt_y: float
+    contact_area: float
+    contact_length: float
+    contact_width: float
+    peak_pressure: float
+    mean_pressure: float
+    peak_line_load: float
+    work: float
+    loss_per_cycle: float
+    time_error: float
+    iterations: int
+    residual: float
+    cells_across: int
+    outcome: Outcome
+    warnings: tuple[str, ...] = ()
+    position_x: float | None = None
+    position_y: float | None = None
+    resistance_x: float | None = None
+    resistance_y: float | None = None
+    friction_coefficient: float | None = None
+    motion_work: float | None = None
+    dissipation: float | None = None
+    heat: float | None = None
+    speed: float | None = None
+
+    @property
+    def over(self) -> Literal["time", "speed"]:
+        """Quantity in which the states of a run differ: time, or speed in steady motion."""
+        return "time" if self.speed is None else "speed"
+
+    @property
+    def moving(self) -> bool:
+        """True if a motion is prescribed."""
+        return self.position_x is not None
+
+    def with_own_fields(self) -> ContactState:
+        """Return the same state, whose fields are no parts of larger arrays of the run.
+
+        To be kept: pressure and displacement of a state that a march has just yielded may lie
+        beside other fields, which it would keep as well.
+        """
+        own: dict[str, Any] = {}
+        for name in FIELD_NAMES:
+            field = getattr(self, name)
+            own[name] = field if field.base is None else field.copy()
+        return replace(self, **own)
+
+    def without_fields(self) -> ContactState:
+        """Return the same state with empty fields, to save memory in long runs."""
+        nothing: dict[str, Any] = {
+            name: np.empty((0, 0), getattr(self, name).dtype) for name in FIELD_NAMES
+        }
+        return replace(self, **nothing, line_load=np.empty(0))

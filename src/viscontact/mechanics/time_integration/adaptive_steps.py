@@ -1,0 +1,202 @@
+"""Adaptive time steps: short where the load moves, growing under creep.
+
+An elementary step size controller (Hairer, Norsett & Wanner, Solving Ordinary Differential
+Equations I, section II.4): the next duration is the last one times SAFETY_FACTOR (allowed
+error/error)^(1/ERROR_ORDER), with the factor kept between MIN_FACTOR and MAX_FACTOR. A step with
+too large an error is repeated with a shorter duration. Kinks and jumps of the load, and requested
+times, end a step; the first one after a kink has a duration of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+
+import numpy as np
+import scipy
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.compliance import ContactCompliance
+from viscontact.mechanics.time_integration.fixed_steps import Step, snap_to_kink
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.mechanics.time_integration.step_error import ISOLATED_STEP_SHARE
+
+#: Part of the tolerance that one step may add, as the errors of steps accumulate.
+STEP_TOLERANCE_SHARE = 0.2
+
+#: Safety factor of the controller, and power of the duration that a step's error falls with.
+SAFETY_FACTOR, ERROR_ORDER = 0.7, 3.0
+
+#: Smallest and largest factor from one duration to the next.
+MIN_FACTOR, MAX_FACTOR = 0.2, 2.0
+
+#: Shortest step, as a part of the run.
+MIN_STEP_FRACTION = 1e-12
+
+#: Longest first step after a kink, as a part of the interval to the next kink.
+FIRST_STEP_FRACTION = 0.02
+
+#: Steps from one kink of the load to the next at a tolerance of 1e-3, and for an elastic body;
+#: measured on spheres, within a factor of two.
+STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
+
+
+def estimated_steps(
+    request: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance
+) -> float:
+    """Estimated number of adaptive steps, within a factor of two if J(0) > 0."""
+    stretches = float((load.kinks < request.end).sum())
+    creeps = compliance(request.end) > compliance.instant
+    # The error of a step falls with its cube, that of the run with its square.
+    finer = (1e-3 / request.tolerance) ** (1 / 3)
+    each = (
+        max(ELASTIC_STEPS_PER_INTERVAL, STEPS_PER_INTERVAL * finer)
+        if creeps
+        else ELASTIC_STEPS_PER_INTERVAL
+    )
+    return stretches * each + min(request.end, float(load.kinks[-1])) / load.longest_step
+
+
+class AdaptiveSteps:
+    """Controller that chooses each step by the error of the last one."""
+
+    # `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
+    # which longer steps end, increasing: those at which a moving body has passed whole cells [s].
+
+    def __init__(
+        self,
+        request: AdaptiveTimes,
+        stops: Floats,
+        load: LoadHistory,
+        compliance: ContactCompliance,
+        marks: Floats | None = None,
+    ) -> None:
+        self._marks = np.empty(0) if marks is None else marks
+        self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
+        self._load, self._compliance = load, compliance
+        self._touches = set(load.touches.tolist())
+        self._kinks = {*load.kinks.tolist(), *self._touches}
+        self._jumps = set(load.jumps.tolist())
+        requested = {snap_to_kink(stop, load.stops) for stop in [*stops.tolist(), request.end]}
+        inner = {stop for stop in load.stops.tolist() if stop < self._end}
+        self._stops = sorted((requested | inner) - {0.0})
+        self._end = max(self._stops)
+        self._time, self._duration = 0.0, 0.0
+        self._step: Step | None = Step(0.0, 0.0, 0.0, smooth=False)
+        self._growth = MAX_FACTOR
+
+    @property
+    def left(self) -> int:
+        """Estimated number of remaining steps, if they continue to grow as they did."""
+        way = self._end - self._time
+        if way <= 0:
+            return 0
+        if self._duration == 0:
+            return 100
+        growth = min(max(self._growth, 1.0), 1.3)
+        if growth < 1.01:
+            return math.ceil(way / self._duration)
+        return math.ceil(math.log1p((growth - 1) * way / self._duration) / math.log(growth))
+
+    def next_step(self) -> Step | None:
+        """Next step; None at the end."""
+        return self._step
+
+    def accept_step(self, error: float) -> bool:
+        """Accept the step if its relative error [-] is allowed, else choose a shorter one."""
+        step = self._step
+        assert step is not None  # there was one to be accepted
+        if step.is_jump:
+            self._advance(step)
+            return True
+        # Proposed factor of the duration (Hairer, Norsett & Wanner, section II.4), limited below.
+        factor = SAFETY_FACTOR * (self._allowed / max(error, 1e-30)) ** (1 / ERROR_ORDER)
+        # Error too large: repeat with a shorter duration.
+        if error > self._allowed and step.duration > MIN_STEP_FRACTION * self._end:
+            self._duration = step.duration * min(max(factor, MIN_FACTOR), 0.8)
+            self._step = self._next(step.smooth)
+            return False
+        self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if error > 0 else MAX_FACTOR
+        # A step that a stop cut short does not reduce the duration that it was cut from.
+        self._duration = min(self._duration, MAX_FACTOR * step.duration)
+        self._duration = max(self._duration, self._growth * step.duration)
+        self._advance(step)
+        return True
+
+    def restart_data(self) -> RestartData:
+        """Restart data of the controller."""
+        return {
+            "time": self._time,
+            "duration": self._duration,
+            "growth": self._growth,
+            "step": None if self._step is None else asdict(self._step),
+        }
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue from restart data of the same steps."""
+        self._time, self._duration, self._growth = (
+            restart_data[name] for name in ("time", "duration", "growth")
+        )
+        self._step = None if restart_data["step"] is None else Step(**restart_data["step"])
+
+    def _advance(self, step: Step) -> None:
+        """Move to the end of an accepted step, and choose the next one."""
+        self._time = step.time
+        if step.before_jump:
+            self._step = Step(step.time, 0.0, step.time, smooth=False)
+        elif self._time >= self._end:
+            self._step = None
+        else:
+            after_kink = self._time == 0 or self._time in self._kinks
+            if after_kink:
+                # After a kink that changes little the steps keep their duration.
+                starts = step.is_jump or self._time in self._touches
+                before = 0.0 if starts else step.duration
+                self._duration = max(self._first_duration(), before)
+            self._step = self._next(smooth=not after_kink)
+
+    def _next(self, smooth: bool) -> Step:
+        """Step of about the current duration, up to the next stop at most."""
+        stop = next(stop for stop in self._stops if stop > self._time)
+        way = stop - self._time
+        duration = self._duration
+        if self._time < self._load.curved_until:
+            duration = min(duration, self._load.longest_step)
+        # The last two steps before a stop are of equal length, so that none is very short.
+        parts = math.ceil(way / duration * (1 - 1e-9))
+        duration = way if parts <= 1 else way / 2 if parts == 2 else duration
+        time = stop if parts <= 1 else self._marked(self._time + duration)
+        duration = duration if parts <= 1 else time - self._time
+        jumps = parts <= 1 and stop in self._jumps
+        return Step(time, duration, None if jumps else time, smooth, before_jump=jumps)
+
+    def _marked(self, time: float) -> float:
+        """The last mark of a step up to a time, or the time without one [s]."""
+        before = int(np.searchsorted(self._marks, time * (1 + 1e-9))) - 1
+        mark = float(self._marks[before]) if before >= 0 else -math.inf
+        return mark if mark > self._time * (1 + 1e-9) else time
+
+    def _first_duration(self) -> float:
+        """Duration of a first step, over which the law creeps little [s]."""
+        way = next(stop for stop in (*sorted(self._kinks), self._end) if stop > self._time)
+        shortest = MIN_STEP_FRACTION * self._end
+        way = max(FIRST_STEP_FRACTION * (way - self._time), shortest)
+        instant = self._compliance.instant or self._compliance(way)
+        part = 0.5 * (12 * self._allowed) ** (1 / ERROR_ORDER)
+        if self._load.level_at(self._time) <= 0:
+            # A first touch, after which pressure and contact grow with roots of time.
+            part = min(part, self._allowed / ISOLATED_STEP_SHARE)
+        limit = part * instant + self._compliance.instant
+
+        def excess(log_time: float) -> float:
+            crept: float = self._compliance(math.exp(log_time)) - limit
+            return crept
+
+        if excess(math.log(way)) <= 0:
+            return float(way)
+        if excess(math.log(shortest)) >= 0:
+            return shortest
+        logarithms = math.log(shortest), math.log(way)
+        return math.exp(float(scipy.optimize.brentq(excess, *logarithms, rtol=1e-3)))

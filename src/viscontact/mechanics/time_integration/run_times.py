@@ -1,0 +1,70 @@
+"""Times of a run, requested or chosen from load and law."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.compliance import ContactCompliance
+from viscontact.mechanics.time_integration.default_times import default_times
+from viscontact.mechanics.time_integration.fixed_steps import snap_to_kink
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.units.formatting import format_quantity
+
+
+def run_instants(
+    times: ArrayLike | AdaptiveTimes | None,
+    kept: Sequence[float],
+    load: LoadHistory,
+    compliance: ContactCompliance,
+) -> Floats:
+    """Times of a run [s]; of adaptive steps those to be hit: 0, the end, and times of kept fields.
+
+    `times` are as in `march`, and `kept` the times of fields that are named one by one.
+
+    >>> from viscontact.bodies.materials.compliance import SeriesCompliance
+    >>> from viscontact.bodies.loads import step
+    >>> law = SeriesCompliance(1.0, [1.0], [2.0])
+    >>> run_instants(None, (), step(1.0), law)[[0, 1, -1]].round(3).tolist()
+    [0.0, 0.103, 10.0]
+    """
+    if times is None:
+        return default_times(load, compliance)
+    if not isinstance(times, AdaptiveTimes):
+        return _checked_times(times)
+    named = checked_instants("fields", kept)
+    stops = [0.0, times.end, *named[(named >= 0) & (named <= times.end)].tolist()]
+    # A time that differs from a kink of the load by rounding only is taken as the kink.
+    return np.array(sorted({snap_to_kink(stop, load.kinks) for stop in stops}))
+
+
+def checked_instants(name: str, given: object) -> Floats:
+    """An array of times, or a ValueError with the argument's name [s]."""
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of unequal length
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be instants in s, got {given!r}")
+    return array.astype(np.float64)
+
+
+def _checked_times(times: ArrayLike) -> Floats:
+    """Requested times, finite, not before 0 and strictly increasing [s]."""
+    instants = np.atleast_1d(checked_instants("times", times))
+    if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
+        raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
+    if instants[0] < 0:
+        raise ValueError(f"times must not be before 0, got {format_quantity(instants[0], 's', 6)}")
+    falling = np.flatnonzero(np.diff(instants) <= 0)
+    if falling.size:
+        before, after = instants[falling[0]], instants[falling[0] + 1]
+        raise ValueError(
+            f"times must be strictly increasing, got {format_quantity(before, 's', 6)}, then "
+            f"{format_quantity(after, 's', 6)}"
+        )
+    return instants

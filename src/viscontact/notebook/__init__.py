@@ -1,9 +1,0 @@
-"""Display of objects and results in notebooks and terminals: small drawings and tables.
-
-Objects call it by themselves (`viscontact.display`). Drawings are SVG written by hand, so that
-they need no plotting library, take the colours of the page around them, and stay small.
-"""
-
-from viscontact.notebook.display import display_html, display_text
-
-__all__ = ["display_html", "display_text"]

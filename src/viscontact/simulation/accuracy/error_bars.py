@@ -1,0 +1,260 @@
+"""Error bars of a run's scalars, estimated from coarser runs.
+
+On grids of cells h a scalar differs by c (h2^p - h1^p); each pair of grids gives c, and the largest
+one counts, since the rim's position between cells scatters and a single difference may be small by
+accident. The error of the time steps follows in the same way from a run with halved steps on one of
+the grids. The largest relative difference at an instant and the ones next to it counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.bodies.loads import MixedHistory
+from viscontact.results.variables import scalars_with_error
+from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
+from viscontact.simulation.accuracy.coarser_runs import (
+    creeps,
+    march_coarser_run,
+    plan_coarser_runs,
+)
+from viscontact.simulation.accuracy.error_models import (
+    COARSE_SPOT_CELLS,
+    ERROR_MODELS,
+    MOVING_MODELS,
+)
+from viscontact.simulation.accuracy.event_bars import event_errors, set_bars_at_events
+from viscontact.simulation.accuracy.least_bars import ContactKinds, least_bar, least_peak_bar
+from viscontact.simulation.accuracy.refinement_levels import (
+    RefinementLevels,
+    aligned,
+    between_known,
+    end_flags,
+    moving_maximum,
+    moving_minimum,
+    peak_drops,
+    rises_to_ends,
+    spots_across,
+)
+from viscontact.simulation.accuracy.singular_peaks import (
+    peak_bars,
+    singular_warnings,
+    unbounded_peak,
+)
+from viscontact.simulation.transient.setup import RunSetup
+
+#: Scalars whose errors a creeping body keeps after the contact has left the end.
+ERRORS_KEPT = (
+    *("force", "eccentricity_x", "eccentricity_y"),
+    *("approach", "tilt_x", "tilt_y", "work", "loss_per_cycle"),
+)
+
+#: Scalars that are exactly zero without contact.
+ZERO_WITHOUT_CONTACT = (
+    *("force", "contact_area", "contact_length", "contact_width"),
+    *("peak_pressure", "mean_pressure", "peak_line_load"),
+)
+
+#: The same of a moving contact, and those that are zero before the first contact.
+ZERO_WITHOUT_MOVING_CONTACT = ("resistance_x", "resistance_y")
+ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
+
+
+@dataclass(frozen=True, eq=False)
+class ErrorBars:
+    """Estimated errors of a run's scalars."""
+
+    #: Half widths of the bars by scalar, in its unit, over the run's times: inf where the scalar
+    #: has no limit, NaN where the error is unknown.
+    values: dict[str, Floats]
+    warnings: tuple[str, ...]  # warnings that follow from the coarser runs
+    #: Attributes of the result that they replace: the errors of the instants of events.
+    attributes: Mapping[str, str | list[float]] = field(default_factory=dict)
+
+
+def error_bars(
+    run: RunSetup,
+    history: History,
+    on_step: Callable[[], None] | None = None,
+    *,
+    issued: Sequence[str] = (),
+) -> ErrorBars:
+    """Estimate the errors of a finished run's scalars from coarser runs, which are marched.
+
+    95 of 100 true errors are smaller. `on_step` is called after each step of a coarser run; an
+    exception from it ends the estimate. `issued` are the warnings of the run so far.
+    """
+    results = [
+        result
+        for each in plan_coarser_runs(run, history)
+        if (result := march_coarser_run(each, on_step))
+    ]
+    return error_bars_from(run, history, results, issued=issued)
+
+
+def error_bars_from(
+    run: RunSetup,
+    history: History,
+    results: Iterable[CoarserResult],
+    *,
+    issued: Sequence[str] = (),
+) -> ErrorBars:
+    """Estimate errors from coarser runs that have been marched; NaN if there are none."""
+    found = list(results)
+    if not found:
+        return unknown_bars(history)
+    kinds = _contact_kinds(run, history, found)
+    values = {
+        name: _bar(run, name, RefinementLevels.of(name, history, found), kinds, history)
+        for name in ERROR_MODELS
+        if name in history
+    }
+    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(run, kinds, history))
+    values["mean_pressure"] = _mean_pressure_bar(history, values)
+    left_out = run.mesh is not None and "peak" in run.mesh.warnings
+    values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
+    # A sharp corner of the body has the same effect on the line load as its end.
+    sharp = replace(kinds, at_end=kinds.at_end | np.isinf(values["peak_pressure"]))
+    line_load = RefinementLevels.of("peak_line_load", history, found)
+    values["peak_line_load"] = _bar(run, "peak_line_load", line_load, sharp, history)
+    touching = _touching(history, found)
+    _bound_by_first_contact(values, history, touching)
+    apart = _certainly_separated(run, history, touching)
+    for name in ZERO_WITHOUT_CONTACT:
+        values[name][apart] = 0.0
+    if not run.problem.motion.stands:
+        before = apart & ~np.logical_or.accumulate(touching)
+        for names, where in (
+            (ZERO_WITHOUT_MOVING_CONTACT, apart),
+            (ZERO_BEFORE_CONTACT, before),
+        ):
+            for name in names:
+                values[name][where] = 0.0
+    warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
+    set_bars_at_events(values, run, history)
+    return ErrorBars(values, warnings, event_errors(run, found))
+
+
+def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]) -> ContactKinds:
+    """Kinds of contact over the run's times, by its coarser runs."""
+    times = history["time"]
+    at_end = moving_maximum(end_flags(times, results)) > 0
+    spots = spots_across(times, results)
+    of_spots = np.where(np.isnan(spots), moving_minimum(spots), spots) < COARSE_SPOT_CELLS
+    # A creeping body keeps the error of a contact that has reached the end.
+    creeping = creeps(run.problem.surface.creep, times)
+    ended = np.logical_or.accumulate(at_end) if creeping else at_end
+    singular = moving_maximum(unbounded_peak(history, results)) > 0
+    drops = moving_maximum(peak_drops(times, results))
+    rises = rises_to_ends(times, results)
+    divided = any(each.divides_steps for each in results)
+    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, divided)
+
+
+def unknown_bars(history: History) -> ErrorBars:
+    """Errors of the scalars of a history that are not known.
+
+    >>> unknown_bars({"time": np.zeros(2), "force": np.ones(2)}).values
+    {'force': array([nan, nan])}
+    """
+    names = [name for name in scalars_with_error() if name in history]
+    return ErrorBars({name: np.full(len(history["time"]), np.nan) for name in names}, ())
+
+
+def _bar(
+    run: RunSetup, name: str, levels: RefinementLevels, kinds: ContactKinds, history: History
+) -> Floats:
+    """Half width of the bars of one scalar over the run's times."""
+    own = np.abs(levels.values[0])
+    scale = moving_maximum(own)
+    model = ERROR_MODELS[name]
+    if not run.problem.motion.stands:
+        model = MOVING_MODELS.get(name, model)
+    by_cells = model.of(levels)
+    if model.at_end is not None:
+        ended = kinds.ended if name in ERRORS_KEPT else kinds.at_end
+        by_cells = np.where(ended, model.at_end.of(levels), by_cells)
+    if model.steep is not None:
+        by_cells = np.where(kinds.steep, model.steep.of(levels), by_cells)
+    if model.of_spots is not None:
+        by_cells = np.where(kinds.of_spots, model.of_spots.of(levels), by_cells)
+    # The relative error from the cells falls with their number in a growing contact; without
+    # contact, what a scalar keeps has the errors of the instants around.
+    cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
+    over = _over(by_cells, scale)
+    touching = history["contact_area"] > 0
+    relative = np.where(touching, _around(cells * over) / cells, _around(over))
+    by_steps = levels.by_steps
+    if not kinds.divided:
+        # What is prescribed does not differ between the grids.
+        differs = between_known(by_cells) > run.problem.solver_error * scale
+        estimated = model.of_time_error * moving_maximum(history["time_error"]) * own
+        by_steps = np.fmax(by_steps, np.where(differs, estimated, 0.0))
+    relative += np.nan_to_num(_over(by_steps, scale))
+    relative += run.problem.solver_error + max(plan.error for plan in run.plans)
+    relative += run.problem.surface.splitting_error
+    bar = (relative + run.problem.compliance.inversion_error) * scale
+    bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
+    return np.where(np.isnan(own), np.nan, bar)
+
+
+def _over(error: Floats, scale: Floats) -> Floats:
+    """Error over a scale; 0 where that is zero, NaN where the error is unknown."""
+    nothing = np.where(np.isnan(error), np.nan, 0.0)
+    return np.divide(error, scale, out=nothing, where=scale > 0)
+
+
+def _around(relative: Floats) -> Floats:
+    """Largest error at an instant, the ones next to it and those that coarser runs leave out."""
+    return moving_maximum(between_known(relative), 1)
+
+
+def _mean_pressure_bar(history: History, values: dict[str, Floats]) -> Floats:
+    """Bar of force over area from both; that of the peak without contact, or unknown."""
+    area = history["contact_area"]
+    least = area - values["contact_area"]
+    error = np.hypot(values["force"], values["contact_area"] * history["mean_pressure"])
+    bar = np.divide(error, least, out=np.full_like(area, np.nan), where=least > 0)
+    return np.where(area > 0, bar, values["peak_pressure"])
+
+
+def _touching(history: History, results: list[CoarserResult]) -> Bools:
+    """Times of contact in the run or in a coarser one."""
+    touching = np.asarray(history["peak_pressure"] > 0)
+    for result in results:
+        touching |= np.nan_to_num(aligned("peak_pressure", history["time"], result)) > 0
+    return touching
+
+
+def _before_first_cell(history: History, touching: Bools) -> Bools:
+    """Times after the first touch at which the contact is still smaller than a cell."""
+    return np.asarray(~np.logical_or.accumulate(touching) & (history["approach"] > 0))
+
+
+def _bound_by_first_contact(values: dict[str, Floats], history: History, touching: Bools) -> None:
+    """Where the contact is smaller than a cell, take the scalars of the first cells as errors."""
+    early = _before_first_cell(history, touching)
+    if not early.any() or not (history["peak_pressure"] > 0).any():
+        return
+    first = int((history["peak_pressure"] > 0).argmax())
+    for name in ZERO_WITHOUT_CONTACT:
+        values[name][early] = np.fmax(values[name][early], np.abs(history[name][first]))
+
+
+def _certainly_separated(run: RunSetup, history: History, touching: Bools) -> Bools:
+    """Times without contact in the run, and under a given approach without any next to them."""
+    apart = np.asarray(history["peak_pressure"] == 0)
+    load, times = run.problem.load, history["time"]
+    if load.control == "force":
+        return apart
+    near = moving_maximum(touching, 1) > 0
+    if isinstance(load, MixedHistory):
+        # Under no force, and where the end of contact is what ended a segment, there is none.
+        lost = [event.time for event in load.events if event.scalar == "contact"]
+        unloaded = [time for time in times.tolist() if load.at(time).force is not None]
+        near &= ~np.isin(times, [*lost, *unloaded])
+    return np.asarray(apart & ~near & ~_before_first_cell(history, touching))

@@ -1,0 +1,89 @@
+"""Error models of the scalars: order of convergence and safety factor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viscontact.backend.arrays import Floats
+from viscontact.simulation.accuracy.refinement_levels import RefinementLevels
+
+
+@dataclass(frozen=True)
+class ErrorModel:
+    """Conversion of differences between grids to errors."""
+
+    order: float  # power of the cell size with which the error falls [-]
+    #: Safety factor, calibrated on exact solutions (tests/verification/test_error_bars.py) so that
+    #: 95 of 100 errors are smaller [-].
+    factor: float
+    at_end: ErrorModel | None = None  # where contact reaches the body's end
+    of_spots: ErrorModel | None = None  # where contact consists of spots of few cells
+    steep: ErrorModel | None = None  # where pressure is largest near the rim, or at a tip
+    #: Part of the estimated time error of the pressure that counts where no third run has shown the
+    #: error of the time steps: of ten runs with a third one, nine had less, in peaks four fifths.
+    of_time_error: float = 0.0
+
+    def of(self, levels: RefinementLevels) -> Floats:
+        """Error from the cells."""
+        return self.factor * levels.by_cells(self.order)
+
+
+#: Approach, force, its offset and work, also where a contact reaches the end of a body: pressure is
+#: singular there, and the cells approximate the end by a staircase.
+_BULK = ErrorModel(2.0, 1.1, at_end=ErrorModel(0.7, 1.2))
+_FORCE = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 1.2), of_time_error=0.15)
+_OFFSET = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 0.8))
+_WORK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2), of_time_error=0.4)
+
+#: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
+#: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
+COARSE_SPOT_CELLS = 8.0
+_AREA = ErrorModel(2.0, 1.02, of_spots=ErrorModel(1.0, 1.5), steep=ErrorModel(1.0, 0.5))
+_PEAK = ErrorModel(
+    *(2.0, 1.5),
+    at_end=ErrorModel(1.0, 1.5),
+    of_spots=ErrorModel(2.0, 4.0),
+    of_time_error=1.0,
+)
+
+#: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
+#: rollers, and rollers and punches with sharp ends, 15 to 80 cells long.
+_LINE_LOAD = ErrorModel(
+    *(2.0, 2.0),
+    at_end=ErrorModel(0.7, 1.1),
+    of_spots=ErrorModel(2.0, 4.0),
+    of_time_error=0.5,
+)
+
+_EXTENT = ErrorModel(2.0, 1.0, steep=ErrorModel(1.0, 0.6))
+
+#: Scalars of a moving contact: of first order in steps longer than the retardation times, of
+#: second order else. Calibrated on starts, reciprocations and steps of parts of cells.
+_RESISTANCE, _LOSS = ErrorModel(1.5, 1.0), ErrorModel(1.5, 1.5)
+
+#: Error models of the scalars; the mean pressure follows from force and area. Pressure is smooth
+#: except at the rim, which lies between cells.
+ERROR_MODELS = {
+    "force": _FORCE,
+    "eccentricity_x": _OFFSET,
+    "eccentricity_y": _OFFSET,
+    "approach": _BULK,
+    "tilt_x": _BULK,
+    "tilt_y": _BULK,
+    "contact_area": _AREA,
+    "contact_length": _EXTENT,
+    "contact_width": _EXTENT,
+    "peak_pressure": _PEAK,
+    "peak_line_load": _LINE_LOAD,
+    "work": _WORK,
+    "loss_per_cycle": _WORK,
+    "resistance_x": _RESISTANCE,
+    "resistance_y": _RESISTANCE,
+    "friction_coefficient": _RESISTANCE,
+    "motion_work": _LOSS,
+    "dissipation": _LOSS,
+    "heat": _LOSS,
+}
+
+#: Those that replace them for moving contacts: the loss of a cycle has the work of the motion.
+MOVING_MODELS = {"loss_per_cycle": _LOSS}

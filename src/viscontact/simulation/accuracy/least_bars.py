@@ -1,0 +1,241 @@
+"""Lower limits of error bars, where coarser runs may agree by chance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.simulation.accuracy.coarser_grids import straight_ends
+from viscontact.simulation.accuracy.coarser_results import History
+from viscontact.simulation.accuracy.moving_bars import RESISTANCES, entry_rise, least_resistance_bar
+from viscontact.simulation.accuracy.rim_cells import (
+    EXTENTS,
+    cells_across,
+    cells_along,
+    cells_over_thickness,
+    crest_cells,
+    fills_period,
+    half_breadth,
+    late_cells,
+    slenderness,
+    thin_rim_cells,
+    tip_curvature,
+)
+from viscontact.simulation.transient.setup import RunSetup
+
+#: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
+#: straight end; at a sharp one, towards which the contact widens without a limit; and where
+#: the contact may end in the last cells of the body.
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.028, 1.0, 1.5, 3.5, 1.5
+
+#: Cells across the contact at which the first of them is twice as large, as its rim is curved.
+FEW_CELLS = 9.0
+
+#: Least relative error of the area, times the square of the cells across; and times these cells
+#: where the pressure is largest near the rim.
+LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.35, 0.05
+
+#: Relative difference below which all grids agree on an extent: it is that of the body.
+AGREEMENT_TOLERANCE = 1e-6
+
+#: Error of the extents in cells, and relative error of the area times the cells along and across,
+#: where the tip of a slender contact is curved within a cell: they grow with L and L², where
+#: L = ln(1 + 2 cell/radius of the tip). Hertz's ellipses on cells as slender as they are too short
+#: by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
+TIP_CELLS, TIP_AREA = 0.1, 0.3
+
+#: Factor of the least error of a late rim for the area of a strip, whose rims lie alike among the
+#: cells all along, so
+#: that their errors do not cancel: with 1, bars of moving strips held 96 % of the errors.
+STRAIGHT_RIM = 1.5
+
+#: Least relative error of scalars, times the square of the cells across the contact: the approach
+#: of a ball is too small by 0.14 +- 0.04, at most by 0.23, with the place of the rim in its cells.
+LEAST_ERRORS = {
+    "approach": 0.25,
+    "force": 0.3,
+    "work": 0.15,
+    "heat": 0.15,
+    "loss_per_cycle": 0.25,
+}
+
+#: Growth of the first of these with the logarithm of a contact's length over its width: Hertz's
+#: ellipses err by 0.15 in the mean, at most by 0.8.
+LONG_CONTACT = 0.15
+
+#: Least relative error of these scalars where the contact reaches the curved end of a body, times
+#: the cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
+#: Straight ends lie alike within the cells of all grids, whose differences show the error.
+LEAST_END_ERROR = 0.4
+
+#: Least relative error of the tilt there: that of an eccentric round punch is up to 1.5.
+LEAST_END_TILT_ERROR = 1.0
+
+#: Least relative error of the area of a contact that ends with the body along one axis only, times
+#: the cells along the contact.
+LEAST_END_AREA_ERROR = 1.1
+
+#: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
+#: smooth peak drops by much less than the second number.
+LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
+
+#: Most by which a crest between cells, a parabola, is higher than the largest cell, in the drop
+#: from there to the cells next to it. Without a rim, nothing else may show on coarser grids.
+CREST_BETWEEN_CELLS = 1 / 8
+
+#: Growth of the least errors of scalars with the square of a cell's length over the thickness of a
+#: layer, where the pressure falls to the rim as on springs.
+THIN_GROWTH = 4.0
+
+#: Scalars that follow from the moments.
+MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+
+TINY = float(np.finfo(np.float64).tiny)
+
+
+@dataclass(frozen=True, eq=False)
+class ContactKinds:
+    """Kinds of contact over the times of a run."""
+
+    at_end: Bools
+    ended: Bools  # at the end, or has been there and keeps the error
+    of_spots: Bools  # consists of spots of few cells
+    singular: Bools  # the largest pressure has no limit
+    #: Pressure rises to both ends of the contact along x, y; shape (2, times).
+    rises: Bools
+    drops: Floats  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
+    divided: bool  # a third run has divided the steps that the others take as the run does
+
+    @property
+    def steep(self) -> Bools:
+        """Pressure is largest at a tip or near the rim, inside the body: it drops steeply there."""
+        return np.asarray((self.drops > SMOOTH_DROP) & ~self.at_end)
+
+
+def least_bar(
+    run: RunSetup, name: str, kinds: ContactKinds, history: History, by_cells: Floats
+) -> Floats | float:
+    """Lower limit of a scalar's bars over times, in its unit, by the differences of the grids."""
+    if name in EXTENTS:
+        axis = EXTENTS.index(name)
+        # An extent on which the grids agree at all times is that of the body.
+        agree = np.all(~(by_cells > AGREEMENT_TOLERANCE * history[name]))
+        if agree and np.isfinite(by_cells).any():
+            return _least_body_extent_bar(run, axis, kinds)
+        return _least_extent_bar(run, axis, kinds, history)
+    if name == "contact_area":
+        smooth = np.maximum(_least_rim_area(run, kinds, history), _late_area(run, history))
+        smooth = np.maximum(smooth, _thin_area(run, history))
+        return np.maximum(_least_end_area(run, kinds, history), smooth)
+    if name in MOMENTS:
+        smooth = _least_moment_bar(run, name, history)
+        return np.maximum(smooth, _least_end_tilt(run, name, kinds, history))
+    if name in RESISTANCES:
+        return least_resistance_bar(run, name, history)
+    if name in LEAST_ERRORS and name != run.problem.load.control:
+        return _least_bulk_bar(run, name, kinds, history)
+    return 0.0
+
+
+def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
+    """Lower limit of the bar of the peak pressure, from its drop to the cells next to it [Pa]."""
+    drops = kinds.drops
+    relative = LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP)
+    relative = np.fmax(relative, np.where(kinds.steep, entry_rise(run, history["time"]), 0.0))
+    has_no_rim = np.isinf(cells_across(run, history))
+    relative = np.fmax(relative, np.where(has_no_rim, CREST_BETWEEN_CELLS * drops, 0.0))
+    return np.asarray(relative * history["peak_pressure"])
+
+
+def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Floats:
+    """Parts of a cell [m]."""
+    length = run.grid.cell_size[axis]
+    few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
+    smooth = RIM_CELLS * few + TIP_CELLS * tip_curvature(run, history)[axis]
+    smooth = np.asarray(smooth + crest_cells(run, history, axis))
+    smooth = np.maximum(smooth, 2 * thin_rim_cells(run, axis))
+    smooth_or_late = np.maximum(smooth, 2 * late_cells(run, history))
+    parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
+    if min(straight_ends(run)) < np.inf:
+        parts = np.where(kinds.at_end, END_RIM_CELLS, parts)
+        parts = np.where(kinds.at_end & kinds.singular, SHARP_RIM_CELLS, parts)
+    return np.asarray(parts * length)
+
+
+def _thin_area(run: RunSetup, history: History) -> Floats:
+    """Least error of the area on thin layers [m²]."""
+    strips = fills_period(run, history)
+    rims = [
+        np.where(strips[1 - axis], 2.0, 4.0) * thin_rim_cells(run, axis) * ~strips[axis]
+        for axis in (0, 1)
+    ]
+    relative = np.max(rims, axis=0) / np.maximum(cells_across(run, history), 1.0)
+    return np.asarray(relative * history["contact_area"])
+
+
+def _late_area(run: RunSetup, history: History) -> Floats:
+    """Least error of the area of a shrinking contact [m²]."""
+    girth = np.pi * (cells_along(run, history) / 2 + half_breadth(run, history))
+    strips = fills_period(run, history)
+    for axis in (0, 1):  # a strip has two straight rims, however few cells they consist of
+        straight = 2.0 * STRAIGHT_RIM * run.grid.shape[axis]
+        girth = np.where(strips[axis] & ~strips[1 - axis], straight, girth)
+    return np.asarray(girth * late_cells(run, history) * run.grid.cell_area)
+
+
+def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Floats:
+    """Cells in which the contact may end before the body does [m]: pressure falls to its ends."""
+    uncertain = ~kinds.rises[axis] & (not run.grid.periodic[axis])
+    return np.asarray(np.where(uncertain, LAST_CELLS * run.grid.cell_size[axis], 0.0))
+
+
+def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
+    """Least error of the area where the rim is steep, or curved within long cells [m²]."""
+    across, along = np.maximum(cells_across(run, history), 1.0), cells_along(run, history)
+    smooth = LEAST_AREA_ERROR / across**2
+    steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
+    tip = TIP_AREA * tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
+    relative = np.maximum(smooth, np.maximum(steep, tip))
+    return np.asarray(relative * history["contact_area"])
+
+
+def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
+    """Cells at straight ends in which the contact becomes wider, or ends before the body [m²]."""
+    if min(straight_ends(run)) == np.inf:
+        return np.zeros(len(kinds.at_end))
+    uncertain = kinds.at_end & ~kinds.rises.all(axis=0)
+    relative = LEAST_END_AREA_ERROR / cells_along(run, history)
+    return np.asarray(np.where(uncertain, relative * history["contact_area"], 0.0))
+
+
+def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
+    """Effect of the solver's tolerance of the moments, force times extent, on a symmetric body."""
+    axis = "contact_length" if name.endswith("x") else "contact_width"
+    extent = np.nan_to_num(history[axis])
+    slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(extent, TINY)
+    lever = extent if name.startswith("eccentricity") else slope
+    return np.asarray(np.where(extent > 0, run.problem.solver_error * lever, 0.0))
+
+
+def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
+    """Usual error of a tilt on the cells along a contact that reaches a curved end."""
+    given = name.startswith("eccentricity") or getattr(run.problem.load, name) is not None
+    uncertain = kinds.ended & (min(straight_ends(run)) == np.inf) & (not given)
+    relative = LEAST_END_TILT_ERROR / np.fmax.accumulate(cells_along(run, history))
+    return np.asarray(np.where(uncertain, relative * np.abs(history[name]), 0.0))
+
+
+def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
+    """Usual errors on the cells across the contact, or along it where it reaches the end."""
+    across = cells_across(run, history)
+    least = LEAST_ERRORS[name] + (LONG_CONTACT * slenderness(history) if name == "approach" else 0)
+    # Cells along a line contact have no influence.
+    ratios = [cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
+    least = least * (1 + THIN_GROWTH * min(ratios, default=0.0) ** 2)
+    relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
+    longest = np.fmax.accumulate(cells_along(run, history))
+    curved = kinds.ended & (min(straight_ends(run)) == np.inf)
+    at_end = np.where(curved, LEAST_END_ERROR / longest, 0.0)
+    return np.asarray(np.maximum(relative, at_end) * np.abs(history[name]))

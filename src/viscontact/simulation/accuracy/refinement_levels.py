@@ -1,0 +1,175 @@
+"""Refinement levels: the scalars of a run and its coarser runs at the run's times."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats, Numbers
+from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
+
+#: Error over the difference from quarters of the steps: 16/15 at second order, 4/3 at first, more
+#: where a law creeps within the first quarter.
+DIVIDED_STEP_FACTOR = 1.3
+
+#: Part of an estimated time error of the pressure, above a large one, by which the scalars err at
+#: least: halved steps may change little where all of them are long. The estimate is usually several
+#: times too large. At instants that coarser runs leave out, such as the last one before the contact
+#: is lost, it counts in full.
+LARGE_TIME_ERROR, PART_OF_LARGE = 0.2, 0.3
+
+#: Scalars of a moving contact that keep an error once it is made.
+CUMULATIVE = ("work", "motion_work", "heat")
+
+
+@dataclass(frozen=True, eq=False)
+class RefinementLevels:
+    """One scalar on each grid at the run's times."""
+
+    spacings: tuple[float, ...]  # cell size of each grid, in cells of the run; the run's own first
+    values: Floats  # NaN where a grid has none; shape (grids, times)
+    by_steps: Floats  # estimated error of the time steps
+
+    @classmethod
+    def of(cls, name: str, history: History, results: list[CoarserResult]) -> RefinementLevels:
+        """Collect a scalar of a run and of its coarser runs."""
+        times, own = history["time"], history[name]
+        grids = [each for each in results if not each.divides_steps]
+        rows = np.stack([own, *(aligned(name, times, each) for each in grids)])
+        by_steps = np.zeros(len(times))
+        for divided in (each for each in results if each.divides_steps):
+            for grid, row in zip(grids, rows[1:], strict=True):
+                if grid.spacing == divided.spacing:
+                    by_steps = DIVIDED_STEP_FACTOR * np.abs(row - aligned(name, times, divided))
+        large = np.fmax(history["time_error"] - LARGE_TIME_ERROR, 0.0) * np.abs(own)
+        known = np.maximum(by_steps, PART_OF_LARGE * large)
+        if name in CUMULATIVE and "heat" in history:
+            known = np.where(np.isnan(known), between_known(known), known)
+        left_out = np.fmax(_interpolated(times, known), large)
+        by_steps = np.where(np.isnan(known), left_out, known)
+        return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
+
+    def by_cells(self, order: float) -> Floats:
+        """Error from the cells at an order of convergence: the largest over the pairs of grids."""
+        found = np.full(self.values.shape[1], np.nan)
+        for i, j in itertools.combinations(range(len(self.spacings)), 2):
+            apart = abs(self.spacings[j] ** order - self.spacings[i] ** order)
+            found = np.fmax(found, np.abs(self.values[j] - self.values[i]) / apart)
+        return found
+
+
+def end_flags(times: Floats, results: list[CoarserResult]) -> Floats:
+    """1 at times at which any coarser run has reached the end of the body, else 0."""
+    # Between two of its instants, a coarser run is there where it is at one of them.
+    flags = np.zeros(len(times))
+    for result in results:
+        theirs = result.scalars["time"]
+        own = np.full(len(times), np.nan)
+        own[np.isin(times, theirs)] = result.at_end[np.isin(theirs, times)]
+        flags = np.fmax(flags, between_known(own))
+    return flags
+
+
+def rises_to_ends(times: Floats, results: list[CoarserResult]) -> Bools:
+    """Times at which pressure rises to both ends of the contact; along x, y; shape (2, times)."""
+    found = np.full((2, len(times)), np.nan)
+    for result in results:
+        theirs = result.scalars["time"]
+        shared, known = np.isin(times, theirs), np.isin(theirs, times)
+        found[:, shared] = np.fmin(found[:, shared], result.rises_to_ends[known].T)
+    return np.array([moving_minimum(each) == 1 for each in found])
+
+
+def spots_across(times: Floats, results: list[CoarserResult]) -> Floats:
+    """Least number of cells across spots in the coarser runs; NaN without contact."""
+    spots = np.full(len(times), np.nan)
+    for result in results:
+        theirs = result.scalars["time"]
+        shared, known = np.isin(times, theirs), np.isin(theirs, times)
+        found = result.spots[known]
+        spots[shared] = np.fmin(spots[shared], np.where(found > 0, found, np.nan))
+    return spots
+
+
+def peak_drops(times: Floats, results: list[CoarserResult]) -> Floats:
+    """Largest relative drop beside the peak on the finest coarser grid; NaN where unknown."""
+    drops = np.full(len(times), np.nan)
+    grids = [each for each in results if not each.divides_steps]
+    if grids:
+        finest = min(grids, key=lambda each: each.spacing)
+        theirs = finest.scalars["time"]
+        drops[np.isin(times, theirs)] = finest.peak_drops[np.isin(theirs, times)]
+    return drops
+
+
+def aligned(name: str, times: Floats, result: CoarserResult) -> Floats:
+    """A coarser run's scalar at the run's times, NaN where it has none."""
+    theirs = result.scalars["time"]
+    if not theirs.size:
+        return np.full(len(times), np.nan)
+    places = np.minimum(np.searchsorted(theirs, times), len(theirs) - 1)
+    return np.where(theirs[places] == times, result.scalars[name][places], np.nan)
+
+
+def _interpolated(times: Floats, values: Floats) -> Floats:
+    """Values at all times from the known ones, linearly."""
+    known = ~np.isnan(values)
+    return np.interp(times, times[known], values[known]) if known.any() else values
+
+
+#: Times on both sides of the window.
+WINDOW_STEPS = 3
+
+
+def _windows(values: Numbers, reach: int) -> Floats:
+    """Values at the times around each, NaN beyond the ends."""
+    padded = np.full(len(values) + 2 * reach, np.nan)
+    padded[reach : len(values) + reach] = values
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
+
+
+def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
+    """Maximum over a window of `reach` times on both sides; NaN where all are NaN.
+
+    >>> moving_maximum(np.array([1.0, np.nan, 5.0, 2.0, 0.0]), reach=1)
+    array([1., 5., 5., 5., 2.])
+    """
+    return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
+
+
+def between_known(values: Floats) -> Floats:
+    """Larger one of the nearest known values on both sides; NaN where one of them is unknown.
+
+    >>> between_known(np.array([1.0, np.nan, 5.0, 2.0, np.nan]))
+    array([ 1.,  5.,  5.,  2., nan])
+    """
+    places = np.arange(len(values))
+    known = ~np.isnan(values)
+    before = np.maximum.accumulate(np.where(known, places, 0))
+    after = np.minimum.accumulate(np.where(known, places, len(values) - 1)[::-1])[::-1]
+    return np.maximum(values[before], values[after])
+
+
+def moving_minimum(values: Numbers) -> Floats:
+    """Minimum over a window of times; NaN where all are NaN.
+
+    >>> moving_minimum(np.array([1.0, np.nan, 5.0]))
+    array([1., 1., 1.])
+    """
+    return np.asarray(np.fmin.reduce(_windows(values, WINDOW_STEPS), axis=1))
+
+
+def moving_mean(values: Floats) -> Floats:
+    """Mean over a window of times without NaN; NaN where all are NaN.
+
+    >>> moving_mean(np.array([1.0, np.nan, 5.0]))
+    array([3., 3., 3.])
+    """
+    windows = _windows(values, WINDOW_STEPS)
+    known = np.isfinite(windows)
+    count = known.sum(axis=1)
+    return np.where(
+        count > 0, np.where(known, windows, 0.0).sum(axis=1) / np.maximum(count, 1), np.nan
+    )

@@ -1,0 +1,116 @@
+"""Warnings about the material of a run: range of the data, interconversion, passivity."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from viscontact.bodies.laws import Law, TabulatedCreep, TabulatedRelaxation
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.material import Material
+from viscontact.units.formatting import format_quantity
+
+#: Tolerated negative loss modulus of a table, as a part of the modulus; frequencies examined.
+NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
+
+#: Largest relative error of a creep compliance that is not reported.
+MAX_LAW_ERROR = 0.01
+
+#: Part of the largest load that may act for less time than the data cover.
+EARLY_LOAD_FRACTION = 0.25
+
+
+def data_warnings(time: float, measured_until: float, whose: str = "material") -> dict[str, str]:
+    """Warn of a run beyond the times at which a material was measured [s]."""
+    if time <= measured_until * (1 + 1e-9):
+        return {}
+    return {
+        "data": (
+            f"the run goes beyond {format_quantity(measured_until, 's')}, where the {whose}'s "
+            "data end; from there on its law is an extrapolation"
+        )
+    }
+
+
+def early_warnings(
+    measured_from: float,
+    load: LoadHistory,
+    time: float,
+    side: str = "right",
+    whose: str = "material",
+) -> dict[str, str]:
+    """Warn of a time so soon after the load that data from `measured_from` [s] miss the creep."""
+    if measured_from <= 0:
+        return {}
+    begin = time - measured_from * (1 - 1e-9)
+    before = float(load.level_at(begin)) if begin >= 0 else 0.0
+    came = abs(float(load.level_at(time, side=side)) - before)
+    if came <= EARLY_LOAD_FRACTION * load.largest_level:
+        return {}
+    return {
+        "early": (
+            f"at t = {format_quantity(time, 's')} {came / load.largest_level:.0%} of the load has "
+            f"come within less than {format_quantity(measured_from, 's')}, where the {whose}'s "
+            "data begin; before that its law is an extrapolation. Give the data an earlier row, or "
+            "load more slowly"
+        )
+    }
+
+
+def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
+    """Warn of a creep compliance that deviates from the law as given; relative errors [-]."""
+    warnings: dict[str, str] = {}
+    if memory_error > MAX_LAW_ERROR:
+        warnings["memory"] = (
+            f"the exponentials by which the past is remembered are off by up to "
+            f"{memory_error:.0%} of the law's creep compliance; take fewer steps or cells, so "
+            "that all steps are kept, or a law without scatter and sharp bends, such as a fit"
+        )
+    if inversion_error > MAX_LAW_ERROR:
+        warnings["conversion"] = (
+            f"the creep compliance converted from the law's modulus may be off by "
+            f"{inversion_error:.0%} (estimated); smooth the modulus or add rows, or give creep"
+        )
+    return warnings
+
+
+def origin_warnings(bodies: Sequence[Material]) -> dict[str, str]:
+    """Warn of laws that come with a warning, such as a fit that misses its data."""
+    said = dict.fromkeys(body.warning for body in bodies if body.warning)
+    return {"origin": "; ".join(said)} if said else {}
+
+
+def splitting_warnings(error: float) -> dict[str, str]:
+    """Warn of layers whose response is not well approximated by a sum of products; error [-]."""
+    if error <= MAX_LAW_ERROR:
+        return {}
+    return {
+        "splitting": (
+            f"the layers' creep under waves of pressure is approximated by a sum that is off by up "
+            f"to {error:.1%}; layers whose moduli differ more (a soft cover on a hard core) have a "
+            "smaller error"
+        )
+    }
+
+
+def passivity_warnings(law: Law, end: float) -> dict[str, str]:
+    """Warn of a measured law whose loss modulus is negative at some frequency."""
+    # A table of few steep rows can be such between its rows, although no material gains energy.
+    # Formulas are passive, so only tables are examined.
+    if not isinstance(law, TabulatedCreep | TabulatedRelaxation) or end <= 0:
+        return {}
+    rows = [time for time in law.times if 0 < time <= end]
+    # A bend at the first row affects frequencies above it, too.
+    frequencies = np.geomspace(1.0 / end, 10.0 / min([*rows, end / 10]), FREQUENCIES)
+    modulus = law.complex_modulus(frequencies)
+    part = modulus.imag / np.abs(modulus)
+    if part.min() > -NEGATIVE_LOSS:
+        return {}
+    return {
+        "passivity": (
+            f"at {frequencies[part.argmin()]:.3g} rad/s the measured table has a loss modulus of "
+            f"{part.min():.0%} of its modulus, and no material gains energy; add rows (ten a "
+            "decade, and one at 0 s), or fit a series to them"
+        )
+    }

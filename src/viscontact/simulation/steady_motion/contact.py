@@ -1,0 +1,140 @@
+"""Contact of a body at one speed on one grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.transforms import Transforms
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.mechanics.contact.moving_domain import MovingDomain
+from viscontact.mechanics.contact.problem import ContactProblem, Guess
+from viscontact.mechanics.contact.rigid_balance import Constraints
+from viscontact.mechanics.contact.steady_equilibrium import SteadySolution, solve_steady_contact
+from viscontact.simulation.steady_motion.moving_law import MovingLaws
+from viscontact.simulation.steady_motion.problem import SteadyProblem
+
+#: Cells along an axis that can be halved.
+FEWEST_TO_HALVE = 12
+
+#: Smallest displacement that errors are relative to, over a prescribed approach.
+LEAST_DISPLACEMENT = 1e-14
+
+
+@dataclass(frozen=True, eq=False)
+class Neighbour:
+    """Contact at a similar speed or on other cells, from which the guess of the next is taken."""
+
+    speed: float  # [m/s]
+    grid: Grid
+    pressure: Floats  # on the whole grid [Pa]
+    motion: Floats  # approach [m] and tilts [rad]
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyContact:
+    """Solution at one speed, and the operators that it belongs to."""
+
+    speed: float  # [m/s]
+    domain: MovingDomain
+    solution: SteadySolution
+
+    @property
+    def grid(self) -> Grid:
+        """The cells."""
+        return self.domain.grid
+
+    @property
+    def neighbour(self) -> Neighbour:
+        """What the guess of a similar contact needs."""
+        return Neighbour(self.speed, self.grid, self.pressure, self.solution.motion)
+
+    @property
+    def pressure(self) -> Floats:
+        """Pressure on the whole grid [Pa]."""
+        return self.domain.expand_by_symmetry(self.solution.found.pressure)
+
+    @property
+    def in_contact(self) -> Bools:
+        """Cells in contact on the whole grid."""
+        return self.domain.expand_by_symmetry(self.solution.in_contact)
+
+    @property
+    def gap(self) -> Floats:
+        """Gap on the whole grid [m]."""
+        return self.domain.expand_by_symmetry(self.solution.gap)
+
+    @property
+    def displacement(self) -> Floats:
+        """Displacement on the whole grid [m]."""
+        unit = self.domain.expand_by_symmetry(self.solution.found.unit_displacement)
+        return self.domain.compliance * unit
+
+
+@dataclass(frozen=True, eq=False)
+class SteadySolver:
+    """Solver of a problem on any grid and at any speed."""
+
+    problem: SteadyProblem
+    laws: MovingLaws
+    transforms: Transforms
+
+    def solve(
+        self, speed: float, grid: Grid, tolerance: float, near: Neighbour | None = None
+    ) -> SteadyContact:
+        """Solve at a speed [m/s], from a contact on other cells at a similar speed if given."""
+        open_gap = gap_on(self.problem, grid)
+        axis = self.problem.axis
+        load = self.problem.contact.load
+        even = mirrored_axes(grid, open_gap, (load.is_even(0), load.is_even(1)))[1 - axis]
+        extent = max(grid.size_about_origin)
+        domain = MovingDomain(
+            grid, self.laws.at(speed, extent), axis, mirrored=even, transforms=self.transforms
+        )
+        point = self.problem.point
+        posed = ContactProblem(
+            domain.reduce_by_symmetry(open_gap),
+            domain.compliance,
+            domain.reduced_constraints(Constraints.of(point)),
+            max(LEAST_DISPLACEMENT * abs(point.approach or 0.0), np.finfo(float).tiny),
+        )
+        guess = None if near is None else _guess(near, domain)
+        solution = solve_steady_contact(posed, domain, guess, tolerance=tolerance)
+        return SteadyContact(speed, domain, solution)
+
+    def coarser(self, speed: float, grid: Grid, tolerance: float) -> SteadyContact | None:
+        """Solve on half the cells along each axis; None where there are few. One is kept."""
+        if any(1 < cells < FEWEST_TO_HALVE for cells in grid.shape):
+            return None
+        nx, ny = (cells if cells == 1 else (cells + 1) // 2 for cells in grid.shape)
+        return self.solve(speed, replace(grid, shape=(nx, ny)), tolerance)
+
+
+def gap_on(problem: SteadyProblem, grid: Grid) -> Floats:
+    """Gap of the indenter on a grid [m]."""
+    return problem.contact.indenter.gap(grid.x[:, None], grid.y[None, :])
+
+
+def _guess(near: Neighbour, domain: MovingDomain) -> Guess | None:
+    """Pressure of a contact on the cells of a domain, by the nearest cell; None if there is none.
+
+    It is scaled to the same force, and balanced by the search.
+    """
+    old, new = near.grid, domain.grid
+    rows, columns = (
+        np.rint((to - start[0]) / (start[1] - start[0])).astype(int)
+        if len(start) > 1
+        else np.zeros(len(to), int)
+        for to, start in ((new.x, old.x), (new.y, old.y))
+    )
+    inside = np.logical_and.outer(
+        (rows >= 0) & (rows < old.shape[0]), (columns >= 0) & (columns < old.shape[1])
+    )
+    clipped = np.ix_(rows.clip(0, old.shape[0] - 1), columns.clip(0, old.shape[1] - 1))
+    pressure = domain.reduce_by_symmetry(np.where(inside, near.pressure[clipped], 0.0))
+    if not pressure.any():
+        return None
+    return Guess.of(pressure, pressure, near.motion)

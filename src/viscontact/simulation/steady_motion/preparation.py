@@ -1,0 +1,204 @@
+"""Preparation of steady contacts: law, and a grid for each speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.transforms import fastest_transforms, transforms_by
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.simulation.checks.periodicity import check_endless, check_period
+from viscontact.simulation.meshing.contact_place import locate_contact
+from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
+from viscontact.simulation.steady_motion.contact import SteadySolver, gap_on
+from viscontact.simulation.steady_motion.moving_law import MovingLaws, moving_laws
+from viscontact.simulation.steady_motion.problem import SteadyProblem
+from viscontact.simulation.steady_motion.region import (
+    SEARCH_CELLS,
+    Lattice,
+    Region,
+    common_grid,
+    find_region,
+    lattice_for,
+)
+from viscontact.units.formatting import format_quantity
+
+#: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
+ACROSS, LEAST_ACROSS = 6.0, 20.0
+
+#: Cells on the thickness of the thinnest layer, along the motion, and the most by which cells are
+#: made shorter for them.
+CELLS_OF_LAYER, MOST_REFINEMENT = 2.0, 2.0
+
+#: Part of these cells that may be lacking.
+LITTLE_LESS = 0.01
+
+#: Samples along each axis by which a body is found to be even.
+EVEN_SAMPLES = 48
+
+#: Cells of a given grid that its contact is assumed to have, for the shortest times of a law.
+CELLS_OF_GIVEN = 1000
+
+#: Rounds in which the compliance of a contact and the time in which it is passed are matched.
+ROUNDS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class SteadySetup:
+    """Checked and complete setup of a run over speed: its solver, and the grid of each speed."""
+
+    solver: SteadySolver
+    grids: tuple[Grid, ...]
+    threads: int
+    transforms: str  # library of the transforms
+    #: Convolutions of the search for regions, in those of the grids.
+    work: float = 0.0
+    #: Tolerance of a chosen grid, if its cells are too large for the requested one.
+    tolerance_reached: float | None = None
+
+    @property
+    def problem(self) -> SteadyProblem:
+        """The problem."""
+        return self.solver.problem
+
+    @property
+    def grid(self) -> Grid:
+        """Smallest grid that holds the grids of all speeds."""
+        return common_grid(self.grids)
+
+    def with_transforms(self, library: str) -> SteadySetup:
+        """Return the run with another library of transforms; ValueError if not installed."""
+        solver = replace(self.solver, transforms=transforms_by(library, self.threads))
+        return replace(self, solver=solver, transforms=library)
+
+
+def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
+    """Find the law and the grids of a problem; refuse a body that does not touch."""
+    library = fastest_transforms()
+    transforms = transforms_by(library, threads)
+    given, axis, contact = problem.contact.grid, problem.axis, problem.contact
+    check_endless(contact.indenter, given if isinstance(given, Grid) else None)
+    if isinstance(given, Grid):
+        supported = contact.surface.is_supported
+        open_gap = gap_on(problem, given)
+        check_period(contact.indenter, open_gap, given, contact.load, supported=supported)
+    _refuse_apart(problem)
+    if isinstance(given, Grid):
+        extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
+        laws = moving_laws(problem, extents)
+        _refuse_flow(laws, given)
+        _refuse_long_grid(laws, given, axis)
+        solver = SteadySolver(problem, laws, transforms)
+        return SteadySetup(solver, (given,) * len(problem.speeds), threads, library)
+    speeds = problem.speeds
+    fast, slow = (estimate_at(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
+    laws = moving_laws(problem, (fast.extents[axis], slow.extents[axis]))
+    solver = SteadySolver(problem, laws, transforms)
+    setup = SteadySetup(solver, (), threads, library)
+    return _on_chosen_grids(setup, fast)
+
+
+def _on_chosen_grids(setup: SteadySetup, estimate: ContactEstimate) -> SteadySetup:
+    """Setup on grids of one lattice; regions are found from the fastest speed, each by the last."""
+    problem, solver = setup.problem, setup.solver
+    request = problem.contact.automatic_grid
+    assert request is not None
+    centre, half = np.array(estimate.centre), np.array(estimate.extents) / 2
+    centred = _centred(problem, np.abs(centre) + half)
+    last = Region(centre - half, centre + half)
+    regions: dict[float, Region] = {}
+    searches: dict[float, float] = {}
+    for speed in sorted(problem.speeds.tolist(), reverse=True):
+        last, searches[speed] = find_region(solver, speed, last, centred=centred)
+        regions[speed] = last
+    across = max(ACROSS / request.tolerance**0.5, LEAST_ACROSS)
+    lattice = lattice_for(list(regions.values()), across)
+    lattice = _on_layers(lattice, problem.contact.thinnest_layer, problem.axis)
+    if request.largest_cell is not None:
+        lattice = Lattice(np.minimum(lattice.cell_size, request.largest_cell))
+    grids = [
+        lattice.grid_over(regions[speed], centred=centred) for speed in problem.speeds.tolist()
+    ]
+    work = sum(
+        searches[speed] * SEARCH_CELLS**2 / np.prod(grid.shape)
+        for speed, grid in zip(problem.speeds.tolist(), grids, strict=True)
+    )
+    reached = _cells_across(list(regions.values()), lattice)
+    coarse = (ACROSS / reached) ** 2 if reached < (1 - LITTLE_LESS) * across else None
+    return replace(setup, grids=tuple(grids), work=float(work), tolerance_reached=coarse)
+
+
+def _on_layers(lattice: Lattice, thickness: float, axis: int) -> Lattice:
+    """Lattice with shorter cells along the motion where they are long against a layer [m]."""
+    cell = lattice.cell_size[axis]
+    wanted = np.clip(thickness / CELLS_OF_LAYER, cell / MOST_REFINEMENT, cell)
+    return Lattice(np.where(np.arange(2) == axis, wanted, lattice.cell_size))
+
+
+def _cells_across(regions: list[Region], lattice: Lattice) -> float:
+    """Cells across the smallest contact, along the axis along which it has fewer."""
+    return min(float((region.extents / lattice.cell_size).min()) for region in regions)
+
+
+def estimate_at(problem: SteadyProblem, speed: float) -> ContactEstimate:
+    """Elastic contact with the compliance of the time in which half of it is passed."""
+    contact = problem.contact
+    time = 1.0
+    for _ in range(ROUNDS + 1):
+        compliance, response = float(contact.compliance(time)), contact.surface.response_at(time)
+        found = locate_contact(contact.indenter, compliance, problem.point, response=response)
+        time = found.extents[problem.axis] / (2 * speed)
+    return found
+
+
+def _centred(problem: SteadyProblem, reach: Floats) -> tuple[bool, bool]:
+    """True across the motion if body and load are even there: the grid is centred on its axis."""
+    across, load = 1 - problem.axis, problem.contact.load
+    around = Grid((EVEN_SAMPLES, EVEN_SAMPLES), (2 * float(reach[0]), 2 * float(reach[1])))
+    both = (load.is_even(0), load.is_even(1))
+    even = mirrored_axes(around, gap_on(problem, around), both)[across]
+    return across == 0 and even, across == 1 and even
+
+
+def _refuse_flow(laws: MovingLaws, grid: Grid) -> None:
+    """Refuse a fluid under a line contact, which drags ever more of it along (Stokes' paradox)."""
+    if laws.sinks and not grid.has_datum:
+        raise ValueError(
+            "material: the material flows, and on a grid that is periodic across the motion the "
+            "resistance of a fluid grows without limit with the distance travelled, so "
+            "that there is no steady state; use a solid, such as a Zener law, or a grid that is "
+            "not periodic"
+        )
+
+
+def _refuse_long_grid(laws: MovingLaws, grid: Grid, axis: int) -> None:
+    """Refuse a grid longer than half the circumference of a roller whose material returns."""
+    half, length = laws.shortest_period / 2, grid.size[axis]
+    if length - grid.cell_size[axis] >= half:
+        raise ValueError(
+            f"grid.size: the grid is {format_quantity(length, 'm', 3)} long along the motion, and "
+            "under a body that rolls it must be shorter than half its circumference, "
+            f"{format_quantity(half, 'm', 3)}: beyond it the surfaces have turned away from each "
+            "other"
+        )
+
+
+def _refuse_apart(problem: SteadyProblem) -> None:
+    """Refuse a prescribed approach at which the body does not touch the surface."""
+    point, given = problem.point, problem.contact.grid
+    if point.approach is None:
+        return
+    touches = point.approach > 0
+    if isinstance(given, Grid):
+        if point.tilt_x is None or point.tilt_y is None:
+            return  # found by solving
+        slopes = point.tilt_x * given.x[:, None] + point.tilt_y * given.y[None, :]
+        touches = bool((gap_on(problem, given) < point.approach + slopes).any())
+    if not touches:
+        raise ValueError(
+            f"load: at an approach of {format_quantity(point.approach, 'm')} the body does not "
+            "touch the surface, so there is no contact in steady motion; press it on"
+        )

@@ -1,0 +1,97 @@
+"""Problem of a contact in steady motion: bodies, load, speeds and direction, with their checks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadPoint
+from viscontact.bodies.loads.steady_motion import checked_speeds, constant_load
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.surface import creeps
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyProblem:
+    """Contact problem of a body in steady motion, checked.
+
+    `contact` has bodies, grid and tolerance; its load is the constant `point`. The body moves
+    towards + along `axis` (0: x, 1: y) at the `speeds` [m/s]. `rolling` tells whether material of
+    the body flows through the contact.
+    """
+
+    contact: Problem
+    point: LoadPoint
+    speeds: Floats
+    axis: int
+    rolling: bool | None
+
+    @property
+    def kept(self) -> Floats:
+        """Speeds whose fields are kept [m/s]."""
+        return self.contact.kept.among(self.speeds, "speed")
+
+    @property
+    def along(self) -> str:
+        """Name of the axis of the motion."""
+        return "xy"[self.axis]
+
+    @property
+    def tilts_freely(self) -> bool:
+        """True if the slope along the motion is free of moment."""
+        given = self.contact.grid
+        if isinstance(given, Grid) and given.periodic[self.axis]:
+            return False
+        return (self.point.tilt_x, self.point.tilt_y)[self.axis] is None
+
+
+def steady_problem(
+    contact: Problem,
+    speed: ArrayLike,
+    along: str,
+    rolling: bool | None,
+) -> SteadyProblem:
+    """Check a problem of steady motion and complete it."""
+    if along not in ("x", "y"):
+        raise ValueError(f"along must be 'x' or 'y', got {along!r}")
+    if rolling is not None and not isinstance(rolling, bool | np.bool_):
+        raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
+    axis = "xy".index(along)
+    speeds = checked_speeds("speed", speed)
+    periodic = contact.grid.periodic if isinstance(contact.grid, Grid) else (False, False)
+    if periodic[axis] and not periodic[1 - axis]:
+        raise ValueError(
+            f"grid.periodic: the body moves along {along}, and a grid that is periodic along it "
+            "only would hold other bodies ahead of it and behind it; use a grid that is periodic "
+            "across the motion, along both axes under a body that repeats, or not at all"
+        )
+    if periodic[axis] and rolling:
+        raise ValueError(
+            "rolling: a body on a grid that is periodic along its motion has no end, and cannot "
+            "roll; give rolling=False"
+        )
+    _check_bodies(contact, axis, rolling)
+    contact.kept.among(speeds, "speed")
+    return SteadyProblem(contact, constant_load(contact.load), speeds, axis, rolling)
+
+
+def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
+    """Refuse a viscoelastic indenter that is not known to roll or slide, or that cannot roll."""
+    mate = contact.indenter_material
+    if mate is None or not creeps(mate):
+        return
+    if rolling is None:
+        raise ValueError(
+            "rolling: the indenter's material is viscoelastic, so that rolling and sliding "
+            "differ; give rolling=True if it rolls (its material flows through the contact), "
+            "rolling=False if it slides"
+        )
+    if rolling and not contact.indenter.curvatures[axis] > 0:
+        raise ValueError(
+            f"rolling: the indenter has no radius of curvature along {'xy'[axis]}, so it cannot "
+            "roll; give rolling=False, or a round body"
+        )

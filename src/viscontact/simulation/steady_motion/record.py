@@ -1,0 +1,90 @@
+"""Record of a result over speed: the problem, states on a common grid, and error bars."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from viscontact import __version__
+from viscontact.backend.arrays import Field, Floats
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.state import ContactState
+from viscontact.results.descriptions import describe
+from viscontact.results.variables import FIELDS, scalars_with_error
+from viscontact.simulation.steady_motion.preparation import SteadySetup
+from viscontact.simulation.steady_motion.problem import SteadyProblem
+
+
+def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, Floats]:
+    """Error bars of each scalar over the speeds, in its unit."""
+    names = scalars_with_error(over="speed")
+    return {name: np.array([each[name] for each in bars]) for name in names}
+
+
+def on_grid(state: ContactState, grid: Grid) -> ContactState:
+    """A state on the grid of all speeds: beyond its own, gap and displacement are NaN."""
+    if state.grid == grid or not state.pressure.size:
+        return replace(state, grid=grid)
+    fields: dict[str, Any] = {
+        name: _embedded(getattr(state, name), state.grid, grid, variable.beyond)
+        for name, variable in FIELDS.items()
+    }
+    line_load = _embedded(state.line_load, state.grid, grid, 0.0)
+    return replace(state, grid=grid, line_load=line_load, **fields)
+
+
+def _embedded(field: Field, grid: Grid, wider: Grid, beyond: float) -> Field:
+    """A field on the grid of all speeds, with a value beyond its own."""
+    whole = np.full(wider.shape[: field.ndim], beyond, dtype=field.dtype)
+    first = [
+        round((own[0] - all_[0]) / cell)
+        for own, all_, cell in zip(
+            (grid.x, grid.y), (wider.x, wider.y), grid.cell_size, strict=True
+        )
+    ]
+    block = tuple(
+        slice(start, start + count) for start, count in zip(first, field.shape, strict=False)
+    )
+    whole[block] = field
+    return whole
+
+
+def steady_attributes(run: SteadySetup, grid: Grid) -> dict[str, Any]:
+    """Attributes that every result of a run carries, on a grid."""
+    problem = run.problem
+    return {
+        "Conventions": "CF-1.11",
+        "source": f"viscontact {__version__}",
+        "version": __version__,
+        "case": json.dumps(describe_steady_problem(problem, grid)),
+        "tolerance": problem.contact.tolerance,
+        "along": problem.along,
+        "transforms": run.transforms,
+        "memory_error": run.solver.laws.error,
+        "splitting_error": problem.contact.surface.splitting_error,
+        "inversion_error": problem.contact.compliance.inversion_error,
+    }
+
+
+def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[str, Any]:
+    """Describe a problem of steady motion, solved on a grid, as plain data."""
+    contact = problem.contact
+    return {
+        "indenter": describe(contact.indenter),
+        "material": describe(contact.material),
+        "indenter_material": describe(contact.indenter_material),
+        "load": describe(contact.load),
+        "motion": {
+            "kind": "steady",
+            "speed": describe(problem.speeds),
+            "along": problem.along,
+            "rolling": problem.rolling,
+        },
+        "grid": describe(grid),
+        "automatic": describe(contact.automatic_grid),
+        "tolerance": contact.tolerance,
+    }

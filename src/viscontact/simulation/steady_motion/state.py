@@ -1,0 +1,104 @@
+"""State of a contact in steady motion: resultants, rim, resistance."""
+
+from __future__ import annotations
+
+import math
+
+from viscontact.mechanics.contact.body_edge import trace_outline
+from viscontact.mechanics.contact.line_load import line_load, peak_line_load
+from viscontact.mechanics.contact.resistance import is_even, reaches_end, resistance_by_slope
+from viscontact.mechanics.contact.rim import Rim, mean_chords, trace_rim
+from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.simulation.steady_motion.contact import SteadyContact
+from viscontact.simulation.steady_motion.problem import SteadyProblem
+from viscontact.simulation.steady_motion.resistance import Resistance, resistance
+
+
+def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
+    """Rim of a contact between the cell centres."""
+    outline = trace_outline(problem.contact.indenter, contact.grid)
+    return trace_rim(contact.grid, contact.in_contact, contact.gap, outline)
+
+
+def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
+    """Resistance along the motion."""
+    axis, grid = problem.axis, contact.grid
+    chord = mean_chords(contact.in_contact, periodic=grid.periodic)[axis] * grid.cell_size[axis]
+    return resistance(
+        problem.contact.indenter,
+        contact.domain,
+        contact.solution.values[0],
+        _tilts(contact),
+        float(chord) / 2,
+    )
+
+
+def force_across(problem: SteadyProblem, contact: SteadyContact) -> float:
+    """Force across the motion [N]; NaN where the body ends there, unless the contact is even."""
+    across, indenter, grid = 1 - problem.axis, problem.contact.indenter, contact.grid
+    pressure = contact.pressure
+    if reaches_end(pressure, grid, indenter)[across] and not is_even(pressure)[across]:
+        return math.nan
+    return resistance_by_slope(pressure, grid, indenter, _tilts(contact))[across]
+
+
+def _tilts(contact: SteadyContact) -> tuple[float, float]:
+    tilt_x, tilt_y = contact.solution.motion[1:].tolist()
+    return tilt_x, tilt_y
+
+
+def _eccentricities(contact: SteadyContact, force: float) -> tuple[float, float]:
+    """Offsets of the force from the body's axis; NaN where the body repeats, without a centre."""
+    whole, grid = contact.pressure * contact.grid.cell_area, contact.grid
+    centre_x, centre_y = (math.nan if repeats else 1.0 for repeats in grid.periodic)
+    offset_x = centre_x * float(whole.sum(axis=1) @ grid.x) / force
+    return offset_x, centre_y * float(whole.sum(axis=0) @ grid.y) / force
+
+
+def state_of(
+    problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
+) -> ContactState:
+    """State of a contact; its time and what is cumulative are NaN.
+
+    Without a `datum` the approach is NaN.
+    """
+    grid, solution, axis = contact.grid, contact.solution, problem.axis
+    pressure, motion = contact.pressure, solution.motion
+    force, peak = float((pressure * grid.cell_area).sum()), float(pressure.max())
+    area, load = max(rim.area, force / peak), line_load(pressure, grid)
+    forces = [against.value, against.value]
+    forces[1 - axis] = force_across(problem, contact)
+    offset_x, offset_y = _eccentricities(contact, force)
+    return ContactState(
+        time=math.nan,
+        pressure=pressure,
+        gap=contact.gap,
+        displacement=contact.displacement,
+        in_contact=contact.in_contact,
+        line_load=load,
+        grid=grid,
+        force=force,
+        eccentricity_x=offset_x,
+        eccentricity_y=offset_y,
+        approach=float(motion[0]) if datum else math.nan,
+        tilt_x=float(motion[1]),
+        tilt_y=float(motion[2]),
+        contact_area=area,
+        contact_length=rim.length,
+        contact_width=rim.width,
+        peak_pressure=peak,
+        mean_pressure=force / area,
+        peak_line_load=peak_line_load(load, grid, rim.length),
+        work=math.nan,
+        loss_per_cycle=math.nan,
+        time_error=math.nan,
+        iterations=solution.iterations,
+        residual=solution.residual,
+        cells_across=rim.cells_across,
+        outcome=Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED,
+        resistance_x=forces[0],
+        resistance_y=forces[1],
+        friction_coefficient=forces[axis] / force,
+        dissipation=forces[axis] * contact.speed,
+        speed=contact.speed,
+    )

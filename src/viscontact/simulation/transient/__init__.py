@@ -1,0 +1,1 @@
+"""The simulation: checked set-up, time stepper, observer, grid enlargement."""

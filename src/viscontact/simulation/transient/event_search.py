@@ -1,0 +1,232 @@
+"""Events of a load program: the instants at which its conditions are met.
+
+A program is marched once on the cells and times of the run. A step in which a condition is crossed
+is solved again with other ends, until the condition is met at its end: a root of one number, found
+by Brent's method. So the event is as accurate as the solution at the end of a step, of second order
+in the steps. The history that results, of mixed control, is then run as any other load.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from copy import copy
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+import scipy
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import ConvergenceError
+from viscontact.bodies.loads import Condition, MixedHistory
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.problem.kept_fields import NO_FIELDS
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
+from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, Step
+from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.simulation.transient.march import domain_of, not_converged, refuse_rim
+from viscontact.simulation.transient.observer import Observer
+from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
+from viscontact.simulation.transient.stepper import Stepper, TrialStep
+
+#: Error of the instant of an event that its search leaves, as a part of the step.
+EVENT_TOLERANCE = 1e-9
+
+#: Distance from the root to the instant of the event, in tolerances of the search: there a lost
+#: contact is lost for certain.
+LOST_MARGIN = 3.0
+
+#: Requested error of steps by which the hereditary integral of the search is planned [-].
+PLANNED_ERROR = 1e-3
+
+#: Ends of the steps of a segment [s], from its number, its begin and its latest end.
+StepEnds = Callable[[int, float, float], Floats]
+
+
+@dataclass(frozen=True, eq=False)
+class _SolvedStep:
+    """A step that has been solved but not accepted, its state, and the observer after it."""
+
+    step: Step
+    trial: TrialStep
+    state: ContactState
+    observer: Observer
+
+
+class EventSearch:
+    """March over a load program, one segment after the other, up to the events that end them.
+
+    Attributes
+    ----------
+    states : list of ContactState
+        States at the ends of the steps, without fields.
+    reach : tuple of float
+        Largest distances of the contact from the middle of the grid along x and y so far [m].
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        course: ProgramCourse,
+        step_ends: StepEnds | None,
+        threads: int = 1,
+        *,
+        event_tolerance: float = EVENT_TOLERANCE,
+        on_state: Callable[[ContactState], None] | None = None,
+    ) -> None:
+        """Take the steps of a function, or without one as the problem's adaptive times ask.
+
+        `event_tolerance` is the error of the instants of events, as a part of the step; `on_state`
+        is called with the state at the end of each step, with its fields.
+        """
+        self._course, self._step_ends = course, step_ends
+        self._event_tolerance, self._on_state = event_tolerance, on_state
+        self._stops = problem.instants
+        self._tolerance = problem.adaptive.tolerance if problem.adaptive else PLANNED_ERROR
+        times = AdaptiveTimes(course.latest, self._tolerance)
+        planned = replace(problem, load=course.history(), times=times, kept=NO_FIELDS)
+        self._run: RunSetup = prepare_run(planned, threads)
+        self._domain: ContactDomain = domain_of(self._run)
+        self._stepper = Stepper(self._run, self._domain)
+        self._observer = Observer(self._run, warns=False)
+        self.states: list[ContactState] = []
+        self.reach = (0.0, 0.0)
+        self._accept(self._solved(Step(0.0, 0.0, 0.0, smooth=False)))
+
+    def carry_out(self) -> MixedHistory:
+        """March to the end of the program; EventError if a condition is never met."""
+        course = self._course
+        while not course.is_over:
+            course.refuse_pull()
+            first = len(self.states) - 1
+            met = self._march_segment()
+            if met is None and course.segment.until is not None:
+                raise EventError(never_happens(course, self.states[first:]))
+            course.finish(self._state, met)
+        return course.history()
+
+    def refuse_coarse_mesh(self) -> None:
+        """Raise DomainError if the largest contact had too few cells across, as a run does."""
+        self._observer.refuse_coarse_mesh()
+
+    def _march_segment(self) -> Condition | None:
+        """March up to the end of the segment that follows, or to the first condition met."""
+        history, begin, end = self._course.history(), self._course.begin, self._course.planned_end
+        self._stepper.continue_under(history)
+        steps = self._given(begin, end) if self._step_ends else self._adaptive(history, end)
+        while (step := steps.next_step()) is not None:
+            solved = self._solved(step)
+            if not steps.accept_step(solved.trial.error.relative):
+                continue
+            found = [
+                (self._located(condition, solved), condition)
+                for condition in self._course.conditions
+                if _crosses(condition, self._state, solved.state)
+            ]
+            if not found:
+                self._accept(solved)
+                continue
+            solved, met = min(found, key=lambda each: each[0].step.time)
+            if len(found) > 1:  # the history answers to the step that was solved last
+                solved = self._solved(solved.step)
+            self._accept(solved)
+            return met
+        return None
+
+    def _given(self, begin: float, end: float) -> FixedSteps:
+        """Steps through given instants within a segment, up to its end."""
+        assert self._step_ends is not None
+        wanted = self._step_ends(len(self._course.controls), begin, end)
+        margin = KINK_TOLERANCE * end
+        inside = wanted[(wanted > begin + margin) & (wanted < end - margin)]
+        ends = [begin, *inside.tolist(), end]
+        return FixedSteps(
+            tuple(
+                Step(after, after - before, after, smooth=before > begin)
+                for before, after in itertools.pairwise(ends)
+            )
+        )
+
+    def _adaptive(self, history: MixedHistory, end: float) -> AdaptiveSteps:
+        """Steps that their error determines, after the last one."""
+        request = AdaptiveTimes(end, self._tolerance)
+        stops = self._stops[self._stops < end]
+        steps = AdaptiveSteps(request, stops, history, self._run.problem.surface.creep)
+        last = self._last
+        begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}
+        steps.restore({**begun, "step": asdict(last)})
+        steps.accept_step(0.0)  # goes on behind it, with a first step as behind any kink
+        return steps
+
+    def _accept(self, solved: _SolvedStep) -> None:
+        self._stepper.accept(solved.step, solved.trial)
+        refuse_rim(self._run, solved.step, self._stepper.whole_solution(solved.trial))
+        self._last, self._state, self._observer = solved.step, solved.state, solved.observer
+        if self._on_state is not None:
+            self._on_state(solved.state)
+        self.states.append(solved.state.without_fields())
+        reach = _reach(self._run, solved.state)
+        self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
+
+    def _solved(self, step: Step) -> _SolvedStep:
+        trial = self._stepper.trial(step)
+        if trial.outcome is Outcome.NOT_CONVERGED:
+            raise ConvergenceError(not_converged(self._run, step, trial.solution))
+        solution = self._stepper.whole_solution(trial)
+        observer = copy(self._observer)  # it adds the work of each step that it sees
+        return _SolvedStep(step, trial, observer.evaluate(step, trial.point, solution), observer)
+
+    def _located(self, condition: Condition, crossed: _SolvedStep) -> _SolvedStep:
+        """Return the step up to the instant at which a condition is met."""
+        step = crossed.step
+        begin = step.time - step.duration
+
+        def excess(time: float) -> float:
+            if time == begin:
+                return _excess(condition, self._state)
+            if time == step.time:
+                return _excess(condition, crossed.state)
+            return _excess(condition, self._solved(_until(time)).state)
+
+        def _until(time: float) -> Step:
+            return Step(time, time - begin, time, step.smooth)
+
+        tolerance = self._event_tolerance * step.duration
+        met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))
+        # An event right at the begin would be a step of no length; a lost contact is past its root.
+        least = 2 * KINK_TOLERANCE * step.time
+        return self._solved(
+            _until(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
+        )
+
+
+def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:
+    """Largest distances of the contact from the middle of the grid along x and y [m]."""
+    touched = state.in_contact
+    places = ((run.grid.x, touched.any(axis=1)), (run.grid.y, touched.any(axis=0)))
+    x, y = (float(np.abs(each[where]).max(initial=0.0)) for each, where in places)
+    return x, y
+
+
+def _excess(condition: Condition, state: ContactState) -> float:
+    """How far a condition's scalar is above its value; of a lost contact the clearance, negative.
+
+    Force and clearance have different units; only the sign counts, and zero is between them.
+    """
+    if condition.scalar != "contact":
+        return float(getattr(state, condition.scalar)) - condition.value
+    if state.outcome is Outcome.NO_CONTACT:
+        return -max(float(state.gap.min()), 0.0) - math.ulp(0.0)  # below 0 by rounding
+    return state.force
+
+
+def _crosses(condition: Condition, before: ContactState, after: ContactState) -> bool:
+    """Test whether a condition is met within a step between two states, or at its end."""
+    first, last = _excess(condition, before), _excess(condition, after)
+    if condition.scalar == "contact":
+        return first > 0 >= last
+    return first != 0 and (last == 0 or (first > 0) != (last > 0))

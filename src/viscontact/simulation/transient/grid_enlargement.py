@@ -1,0 +1,123 @@
+"""Grid enlargement: the next larger grid of a contact that outgrows its own, and its fields."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.transforms import fast_length
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.rim_crossings import MARGIN
+from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
+from viscontact.simulation.meshing.contact_extent import MAX_CELLS
+from viscontact.simulation.transient.step_solution import StepSolution
+
+#: Growth of the grid along an axis where the contact reaches its rim [-].
+FACTOR = 1.5
+
+#: Cells that stay free around a contact whose grid may grow; its rim is traced in them.
+FREE = MARGIN
+
+
+def overrun(pressure: Floats, free: int = 1) -> tuple[bool, bool]:
+    """True for x and for y if pressure has reached the `free` outermost cells of a side.
+
+    Examples
+    --------
+    >>> overrun(np.eye(5)[:, 1:4])
+    (False, True)
+    """
+    both = (slice(0, free), slice(-free, None))
+    along = any(bool(pressure[ends, :].any()) for ends in both)
+    return along, any(bool(pressure[:, ends].any()) for ends in both)
+
+
+def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:
+    """Return a grid of the same cells, half as long again along x, along y, or both.
+
+    None where it would have more cells than an automatic grid may have.
+
+    Examples
+    --------
+    >>> next_grid(Grid((32, 16), (2.0, 1.0)), True, False).shape
+    (48, 16)
+    """
+    shape = (
+        _longer(grid.shape[0], grid.cell_size[0]) if along else grid.shape[0],
+        _longer(grid.shape[1], grid.cell_size[1]) if across else grid.shape[1],
+    )
+    return grid.widened(shape) if shape[0] * shape[1] <= MAX_CELLS else None
+
+
+def _longer(cells: int, size: float) -> int:
+    """A number of cells that suits the transforms and keeps the cell size to the bit."""
+    wanted = math.ceil(FACTOR * cells)
+    while True:
+        count = fast_length(wanted)
+        # Restarts and results then have the same cells, in however many enlargements.
+        if (count - cells) % 2 == 0 and size * count / count == size:
+            return count
+        wanted = count + 1
+
+
+@dataclass(frozen=True, eq=False)
+class GridEnlargement:
+    """Map of fields from a domain to the same one under a larger grid.
+
+    The history of the surface is pressures and the unit displacements that they cause. Beyond the
+    smaller grid the pressure was zero, and the unit displacement follows from it.
+
+    Examples
+    --------
+    >>> small = ContactDomain(Grid((4, 4), (1.0, 1.0)))
+    >>> large = ContactDomain(small.grid.widened((8, 8)))
+    >>> pressure = np.ones((4, 4))
+    >>> pair = np.stack([pressure, small.convolution.apply(pressure)])
+    >>> grown = GridEnlargement(small, large).pairs(pair)
+    >>> bool(np.allclose(grown[1, 2:6, 2:6], pair[1], rtol=1e-14))
+    True
+    """
+
+    small: ContactDomain
+    large: ContactDomain
+
+    def pressure(self, pressure: Floats) -> Floats:
+        """Embed a pressure of the computed cells in those of the larger grid."""
+        whole = self.small.expand_by_symmetry(pressure)
+        return self.large.reduce_by_symmetry(self.small.grid.embed(whole, self.large.grid))
+
+    def pairs(self, fields: Floats, response: SurfaceResponse | None = None) -> Floats:
+        """Map pressures and their unit displacements, shape (..., 2, nx, ny).
+
+        Under the surface of the larger domain, or a part of its response.
+        """
+        is_part = response is not None and response != self.large.response
+        grown = np.empty((*fields.shape[:-2], *self.large.shape))
+        for index in np.ndindex(fields.shape[:-3]):
+            pressure, unit_displacement = grown[index]
+            pressure[:] = self.pressure(fields[index][0])
+            if is_part and response is not None:
+                unit_displacement[:] = self.large.unit_displacement(pressure, response)
+            else:
+                self.large.convolution.apply(pressure, into=unit_displacement)
+        return grown
+
+    def solution(self, before: StepSolution) -> StepSolution:
+        """Map the solution of a step; its gap beyond the smaller grid is NaN."""
+        small, large = self.small, self.large
+        reference = self.pairs(before.reference)
+        # Of several terms, the displacement is known on the smaller grid only.
+        beyond = large.expand_by_symmetry(reference[1])
+        known = small.grid.embed(before.displacement, large.grid, beyond=np.nan)
+        return replace(
+            before,
+            pressure=small.grid.embed(before.pressure, large.grid),
+            gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
+            displacement=np.where(np.isnan(known), beyond, known),
+            in_contact=small.grid.embed(before.in_contact, large.grid, beyond=False),
+            reference=reference,
+        )

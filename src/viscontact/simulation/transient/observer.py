@@ -1,0 +1,272 @@
+"""From an equilibrium to a state: resultants, sub-cell rim, work, and warnings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools
+from viscontact.backend.errors import DomainError
+from viscontact.bodies.grid import MIN_CELLS_ACROSS
+from viscontact.bodies.loads.history import LoadPoint
+from viscontact.mechanics.contact.body_edge import trace_outline
+from viscontact.mechanics.contact.line_load import line_load, peak_line_load
+from viscontact.mechanics.contact.rim import Rim, trace_rim
+from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.checks.collector import WarningCollector
+from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
+from viscontact.simulation.checks.material import (
+    data_warnings,
+    early_warnings,
+)
+from viscontact.simulation.checks.mesh import cells_across_spots, mesh_warnings
+from viscontact.simulation.checks.singularities import strain_of
+from viscontact.simulation.checks.steps import unreported_peak_warnings
+from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+from viscontact.simulation.transient.load_cycles import LoadCycleWork
+from viscontact.simulation.transient.moving_contact import MovingContact, StandingContact
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.step_solution import StepSolution
+from viscontact.simulation.transient.warning_rules import (
+    geometry_of,
+    loading_warnings,
+    setup_warnings,
+)
+
+#: Growth of the largest pressure since the last check for corners that calls for another [-].
+PEAK_CHECK_RATIO = 1.1
+
+
+class Observer:
+    """Turns solutions into states; keeps what needs the steps before: work and warnings."""
+
+    def __init__(self, run: RunSetup, *, warns: bool = True) -> None:
+        self._warns = warns
+        self._set_geometry(run)
+        stands = run.problem.motion.stands
+        self._motion = StandingContact() if stands else MovingContact(run)
+        self._warnings = WarningCollector()
+        self._open = setup_warnings(run) if warns else {}
+        self._work = 0.0
+        self._before: StepSolution | None = None
+        self._point: LoadPoint | None = None
+        self._held = False  # the load of the last step
+        self._cycles = LoadCycleWork(run.problem.history.load_cycles)
+        self._largest_area, self._cells_at_largest = 0.0, 0
+        self._largest: Bools | None = None  # its spots are not counted yet
+        self._spots_at_largest = 0.0
+        self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
+        self._peak_checked = 0.0
+
+    def _set_geometry(self, run: RunSetup, time: float = 0.0) -> None:
+        self._run, self._position, indenter = run, run.position_at(time), run.indenter_at(time)
+        self._outline = trace_outline(indenter, run.grid)
+        self._geometry = geometry_of(run.problem, run.gap_at(time), run.grid, indenter=indenter)
+
+    def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
+        """Continue the same run on a larger grid."""
+        self._set_geometry(run)
+        self._motion.continue_on(run)
+        if self._before is not None:
+            self._before = enlargement.solution(self._before)
+
+    def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
+        """Return the state at the end of a step, still without warnings."""
+        if self._run.position_at(step.time) != self._position:
+            self._set_geometry(self._run, step.time)
+        # Cells in contact, and the rim within cells, from the gap beside them.
+        rim = trace_rim(self._run.grid, solution.in_contact, solution.gap, self._outline)
+        # Work since the step before, and the loss of a cycle that ends here.
+        has_datum = self._run.problem.has_datum(rim.grid)
+        self._work += self._work_of(point, solution) if has_datum else math.nan
+        moved: dict[str, Any] = self._motion.evaluate(step, solution)
+        # The surface takes up the work of the load and that of the motion.
+        self._work -= 0.0 if self._held else self._motion.added
+        self._cycles.record_work(step, self._work + self._motion.work)
+        if self._warns:
+            self._collect_warnings(step, solution, rim)
+        state = _state(
+            *(step, solution, rim, self._work, self._cycles.last_loss), has_datum=has_datum
+        )
+        state = replace(state, **moved)
+        # Kept for the end: the mesh is judged at the largest contact, and a peak between
+        # requested times is reported.
+        if state.contact_area > self._largest_area:
+            self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
+            self._largest = solution.in_contact
+        if state.peak_pressure > self._peak and step.time >= self._run.problem.instants[0]:
+            self._peak, self._peak_time = state.peak_pressure, step.time
+        self._before = solution
+        return state
+
+    def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
+        """Add the warnings since the last requested state, each kind once a run.
+
+        At the last state the mesh is judged by the largest contact of the run.
+        """
+        self._peak_reported = max(self._peak_reported, state.peak_pressure)
+        mesh, unreported, moving = {}, {}, {}
+        if last and self._largest_area:
+            mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
+            unreported = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
+        if last:
+            moving = self._motion.warnings()
+        found = self._warnings.new(self._open, mesh, unreported | moving)
+        return replace(state, warnings=found) if found else state
+
+    def refuse_coarse_mesh(self) -> None:
+        """Raise DomainError at the end if the largest contact had fewer than four cells across."""
+        if not self._largest_area or self._cells_at_largest >= MIN_CELLS_ACROSS:
+            return
+        nx, ny = self._run.grid.shape
+        raise DomainError(
+            f"grid: only {self._cells_at_largest} cells lie across the run's largest contact and "
+            f"{MIN_CELLS_ACROSS} are the least (20 or more recommended); use more cells than "
+            f"{nx} x {ny} or a smaller grid.size"
+        )
+
+    def restart_data(self) -> RestartData:
+        """Return the state after a step as plain data."""
+        before = self._before
+        return {
+            "issued": self._warnings.issued,
+            "open": self._open,
+            "work": self._work,
+            "before": before and vars(before) | {"outcome": int(before.outcome)},
+            "point": self._point and vars(self._point),
+            "cycles": self._cycles.restart_data(),
+            "largest_area": self._largest_area,
+            "cells_at_largest": self._cells_at_largest,
+            "spots_at_largest": self._cells_across_spots(),
+            "peak": [self._peak, self._peak_time, self._peak_reported],
+            "peak_checked": self._peak_checked,
+            "motion": self._motion.restart_data(),
+        }
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue the same run from restart data."""
+        self._warnings.issued = dict(restart_data["issued"])
+        self._open, self._work = dict(restart_data["open"]), restart_data["work"]
+        before, point = restart_data["before"], restart_data["point"]
+        self._before = (
+            None
+            if before is None
+            else StepSolution(**before | {"outcome": Outcome(before["outcome"])})
+        )
+        self._point = None if point is None else LoadPoint(**point)
+        self._cycles.restore(restart_data["cycles"])
+        self._largest_area = restart_data["largest_area"]
+        self._cells_at_largest = restart_data["cells_at_largest"]
+        self._spots_at_largest = restart_data["spots_at_largest"]
+        self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
+        self._peak_checked = restart_data["peak_checked"]
+        self._motion.restore(restart_data["motion"])
+
+    def _cells_across_spots(self) -> float:
+        """Cells across the spots of the largest contact, counted on demand."""
+        if self._largest is not None:
+            self._spots_at_largest = cells_across_spots(
+                self._largest, periodic=self._run.grid.periodic
+            )
+            self._largest = None
+        return self._spots_at_largest
+
+    def _collect_warnings(self, step: Step, solution: StepSolution, rim: Rim) -> None:
+        problem = self._run.problem
+        found = data_warnings(step.time, problem.measured_until, problem.ends_first)
+        if solution.outcome is not Outcome.NO_CONTACT:
+            motion, displacement = solution.motion, solution.displacement
+            found = self._corner_warnings(step.time, solution) | found
+            found = (
+                geometry_warnings(self._geometry, rim, motion, displacement, solution.pressure)
+                | found
+            )
+            early = early_warnings(
+                problem.measured_from, problem.load, step.time, step.side, problem.begins_last
+            )
+            found = early | found
+        found = loading_warnings(self._run, step, self._before, solution) | found
+        self._open = found | self._open
+
+    def _corner_warnings(self, time: float, solution: StepSolution) -> dict[str, str]:
+        """Warn of a largest pressure at a corner, searched again only after the peak has grown."""
+        peak = float(solution.pressure.max())
+        if peak <= PEAK_CHECK_RATIO * self._peak_checked:
+            return {}
+        self._peak_checked = peak
+        place = self._run.grid.largest_at(solution.pressure)
+        strain = strain_of(peak, float(self._run.problem.compliance(time)))
+        return corner_warnings(self._geometry, place, strain)
+
+    def _work_of(self, point: LoadPoint, solution: StepSolution) -> float:
+        """Work over a step: exact while the load is held, and for all that is elastic.
+
+        Under a held load the force is constant, or nothing travels: force times approach is exact.
+        Where the load moves it is not, as an elastic contact's force is no straight function of
+        its approach; a cycle in long steps would gain energy. Mean pressure times change of
+        displacement, which moves with the body wherever there is pressure, is exact there by
+        reciprocity, however far the step goes.
+        """
+        before, point_before = self._before, self._point
+        self._point, self._held = point, False
+        if before is None:  # every run starts with a jump
+            return self._run.problem.compliance.instant * solution.energy
+        if point == point_before:
+            self._held = True
+            travel = solution.motion - before.motion
+            return float((before.resultants + solution.resultants) @ travel / 2)
+        mean = (before.pressure + solution.pressure) / 2
+        moved = solution.displacement - before.displacement
+        return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
+
+
+def _state(
+    step: Step,
+    solution: StepSolution,
+    rim: Rim,
+    work: float,
+    loss: float,
+    *,
+    has_datum: bool,
+) -> ContactState:
+    force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
+    touching = force > 0
+    # Along its period a surface has no centre from which the force could be offset.
+    centred_x, centred_y = (touching and not repeats for repeats in rim.grid.periodic)
+    peak = float(solution.pressure.max())
+    # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
+    area = max(rim.area, force / peak) if touching else 0.0
+    load = line_load(solution.pressure, rim.grid)
+    return ContactState(
+        time=step.time if step.requested is None else step.requested,
+        pressure=solution.pressure,
+        gap=solution.gap,
+        displacement=solution.displacement,
+        in_contact=solution.in_contact,
+        line_load=load,
+        grid=rim.grid,
+        force=force,
+        eccentricity_x=moment_x / force if centred_x else math.nan,
+        eccentricity_y=moment_y / force if centred_y else math.nan,
+        approach=float(solution.motion[0]) if has_datum else math.nan,
+        tilt_x=float(solution.motion[1]),
+        tilt_y=float(solution.motion[2]),
+        contact_area=area,
+        contact_length=rim.length,
+        contact_width=rim.width,
+        peak_pressure=peak,
+        mean_pressure=min(force / area, peak) if touching else 0.0,  # rounded
+        peak_line_load=peak_line_load(load, rim.grid, rim.length),
+        work=work,
+        loss_per_cycle=loss,
+        time_error=solution.time_error,
+        iterations=solution.iterations,
+        residual=solution.residual,
+        cells_across=rim.cells_across,
+        outcome=solution.outcome,
+    )

@@ -1,0 +1,81 @@
+"""Provenance of a result: the problem, versions and methods as plain data."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from datetime import datetime, timedelta
+from typing import Any
+
+from viscontact import __version__
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import MixedHistory
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.descriptions import describe
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.units.formatting import format_quantity
+
+
+def date_and_time(ago: float = 0.0) -> str:
+    """Return date and local time some seconds ago, with the offset from UTC, as in ISO 8601.
+
+    >>> datetime.fromisoformat(date_and_time()).utcoffset() is not None
+    True
+    """
+    moment = datetime.now().astimezone() - timedelta(seconds=ago)
+    return moment.isoformat(timespec="seconds")
+
+
+def run_attributes(run: RunSetup) -> dict[str, Any]:
+    """Return the attributes that every result of a run carries."""
+    load = run.problem.load
+    events = event_attributes(load) if isinstance(load, MixedHistory) else {}
+    return {
+        "Conventions": "CF-1.11",
+        "source": f"viscontact {__version__}",
+        "version": __version__,
+        "case": json.dumps(describe_problem(run.problem, run.grid)),
+        "tolerance": run.problem.tolerance,
+        "transforms": run.transforms,
+        "memory": run.hereditary.method,
+        "memory_error": max(plan.error for plan in run.plans),
+        "splitting_error": run.problem.surface.splitting_error,
+        "inversion_error": run.problem.compliance.inversion_error,
+        **events,
+    }
+
+
+def event_attributes(
+    load: MixedHistory, errors: Sequence[float] | None = None
+) -> dict[str, str | list[float]]:
+    """Return what ended the segments of a load program, and when: text, instants, errors [s]."""
+    events = load.events
+    stated = [math.nan] * len(events) if errors is None else list(errors)
+    lines = [
+        f"{format_quantity(event.time, 's', 6)}: {event.condition}"
+        + (f" (± {format_quantity(error, 's', 2)})" if math.isfinite(error) else "")
+        for event, error in zip(events, stated, strict=True)
+    ]
+    return {
+        "events": "\n".join(lines),
+        "event_times": [event.time for event in events],
+        "event_time_errors": stated,
+    }
+
+
+def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
+    """Describe a contact problem, solved on a grid, as plain data."""
+    motion = {} if problem.motion.stands else {"motion": describe(problem.motion)}
+    return {
+        "indenter": describe(problem.indenter),
+        "material": describe(problem.material),
+        "indenter_material": describe(problem.indenter_material),
+        "load": describe(problem.load),
+        **motion,
+        "grid": describe(grid),
+        "automatic": describe(problem.automatic_grid),
+        "times": describe(problem.instants),
+        "adaptive": describe(problem.adaptive),
+        "tolerance": problem.tolerance,
+    }

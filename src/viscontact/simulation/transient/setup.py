@@ -1,0 +1,231 @@
+"""Run setup: a contact problem, checked and complete, before its first step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from numbers import Integral
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.transforms import fastest_transforms, transforms_by
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Indenter, PlacedIndenter
+from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.time_integration.fixed_steps import step_ends
+from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
+from viscontact.simulation.checks.arguments import (
+    check_balance,
+    check_creep,
+    check_jumps,
+    check_magnitudes,
+    check_mixed,
+    check_times,
+    check_touch,
+    points_under_load,
+)
+from viscontact.simulation.checks.motion import check_motion, check_path
+from viscontact.simulation.checks.periodicity import check_endless, check_period
+from viscontact.simulation.meshing.mesh_choice import Mesh, choose_mesh
+from viscontact.simulation.meshing.path_extent import grid_over_path
+from viscontact.simulation.transient.moving_body import PeriodicBody, cells_seen
+
+#: Adaptive steps that the hereditary integral is planned for: at least this many, and this many
+#: times the expected ones. More are possible.
+ADAPTIVE_STEPS, STEP_COUNT_SAFETY = 500, 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class RunSetup:
+    """Checked and complete setup of a run.
+
+    Attributes
+    ----------
+    problem : Problem
+        The contact problem.
+    grid : Grid
+        The cells.
+    open_gap : ndarray, shape (nx, ny)
+        The indenter's gap on the grid [m], +inf outside its outline; that at time 0 if it moves.
+    hereditary : HereditaryPlan
+        Method of the hereditary integral, of the first term of the surface.
+    mesh : Mesh or None
+        Chosen grid with its expected errors; None for a given grid.
+    threads : int
+        Threads of one Fourier transform.
+    transforms : str
+        Library of the transforms. Libraries differ in rounding, so a run keeps the one it began
+        with.
+    other_terms : tuple of HereditaryPlan
+        Methods of the hereditary integrals of further terms, of layers that creep differently.
+    """
+
+    problem: Problem
+    grid: Grid
+    open_gap: Floats
+    hereditary: HereditaryPlan
+    mesh: Mesh | None
+    threads: int
+    transforms: str
+    other_terms: tuple[HereditaryPlan, ...] = ()
+
+    @property
+    def plans(self) -> tuple[HereditaryPlan, ...]:
+        """Methods of the hereditary integrals of all terms of the surface."""
+        return (self.hereditary, *self.other_terms)
+
+    @property
+    def grows(self) -> bool:
+        """True if the grid is automatic, and may be enlarged when the contact outgrows it."""
+        return self.problem.automatic_grid is not None
+
+    @property
+    def mirrored(self) -> tuple[bool, bool]:
+        """True for x = 0 and for y = 0 if shape and load are even: one half is computed."""
+        return _mirrored(self.problem, self.open_gap, self.grid)
+
+    def on(self, grid: Grid) -> RunSetup:
+        """Return the same run on another grid."""
+        return replace(self, grid=grid, open_gap=_gap_on(self.problem, grid))
+
+    def with_transforms(self, library: str) -> RunSetup:
+        """Return the run with another library of transforms; ValueError if not installed."""
+        transforms_by(library)
+        return replace(self, transforms=library)
+
+    def position_at(self, time: float) -> tuple[float, float]:
+        """Position of the body's axis at a time [m]."""
+        return _position(self.problem, time)
+
+    def gap_at(self, time: float) -> Floats:
+        """The indenter's gap on the grid at a time [m]."""
+        if self.position_at(time) == self.position_at(0.0):
+            return self.open_gap
+        return _gap_on(self.problem, self.grid, time)
+
+    def indenter_at(self, time: float) -> Indenter:
+        """The indenter at its position at a time."""
+        return _indenter_at(self.problem, self.grid, time)
+
+
+def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
+    """Check a contact problem and complete it to a run.
+
+    Parameters
+    ----------
+    problem : Problem
+        The contact problem.
+    threads : int
+        Threads of one Fourier transform.
+
+    Returns
+    -------
+    RunSetup
+        Ready for its first step.
+
+    Raises
+    ------
+    ValueError
+        If any input is invalid; the message says what to change.
+    """
+    if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
+        raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
+    check_motion(problem)
+    # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
+    check_times(problem)
+    check_magnitudes(problem)
+    check_mixed(problem)
+    check_creep(problem)
+    check_jumps(problem)
+    given = problem.grid if isinstance(problem.grid, Grid) else None
+    check_endless(problem.indenter, given)
+    points = points_under_load(problem)
+    # 2. Take the given grid, or choose one by elastic trial contacts.
+    if given is not None:
+        mesh, grid = None, given
+    else:
+        mesh = _mesh_over_path(problem)
+        grid = mesh.grid
+        if problem.awaits_cells:
+            problem = replace(problem, times=problem.times_at_cells(grid.cell_size))
+    # 3. Refuse what the body on this grid cannot carry.
+    open_gap = _gap_on(problem, grid)
+    about_body = _about_body(problem, grid)
+    check_touch(problem, points[0][1], open_gap, about_body)
+    supported = problem.surface.is_supported
+    check_period(problem.indenter, open_gap, grid, problem.load, supported=supported)
+    check_balance(points[1:], open_gap, about_body)
+    check_path(problem, grid)
+    # 4. Plan the hereditary integral: internal variables, or the whole history.
+    plan, *others = plan_history(problem, open_gap, grid)
+    transforms = fastest_transforms()
+    return RunSetup(*(problem, grid, open_gap, plan, mesh, int(threads), transforms, tuple(others)))
+
+
+def _mesh_over_path(problem: Problem) -> Mesh:
+    """Automatic mesh, of a moving body over its whole path."""
+    mesh = choose_mesh(problem, problem.end)
+    return replace(mesh, grid=grid_over_path(mesh.grid, problem.motion))
+
+
+def _about_body(problem: Problem, grid: Grid) -> Grid:
+    """The grid in positions from the body's axis at time 0."""
+    x, y = (middle - at for middle, at in zip(grid.centre, _position(problem, 0.0), strict=True))
+    return replace(grid, centre=(x, y))
+
+
+def _position(problem: Problem, time: float) -> tuple[float, float]:
+    x, y = problem.motion.position_at(time).tolist()
+    return x, y
+
+
+def _indenter_at(problem: Problem, grid: Grid, time: float) -> Indenter:
+    x, y = _position(problem, time)
+    if x == y == 0:
+        return problem.indenter
+    body = PeriodicBody(problem.indenter, grid) if any(grid.periodic) else problem.indenter
+    return PlacedIndenter(body, x=x, y=y)
+
+
+def _gap_on(problem: Problem, grid: Grid, time: float = 0.0) -> Floats:
+    return _indenter_at(problem, grid, time).gap(grid.x[:, None], grid.y[None, :])
+
+
+def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
+    loads = (problem.load.is_even(0), problem.load.is_even(1))
+    if problem.motion.stands:
+        return mirrored_axes(grid, open_gap, loads)
+    # Across the motion only, on the axis, and with all of the body that the grid comes to see.
+    seen = cells_seen(grid, problem.motion)
+    even = mirrored_axes(
+        grid,
+        problem.indenter.gap(seen[0][:, None], seen[1]),
+        loads,
+    )
+    along_x, along_y = (
+        each and limits == (0.0, 0.0)
+        for each, limits in zip(even, problem.motion.reach, strict=True)
+    )
+    return along_x, along_y
+
+
+def plan_history(problem: Problem, open_gap: Floats, grid: Grid) -> list[HereditaryPlan]:
+    """Plan the hereditary integrals of a problem on a grid, whose open gap is given [m].
+
+    One for each term of the surface.
+    """
+    if problem.adaptive is None:
+        ends = step_ends(problem.planned_steps)
+    else:
+        # The steps are not known yet: many are assumed, over all decades that may count.
+        end = problem.adaptive.end
+        count = max(ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * problem.step_count))
+        ends = np.append(0.0, np.geomspace(1e-9 * end, end, count))
+    # Pressure and unit displacement are kept, of all cells that are computed.
+    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
+    terms = problem.surface.terms
+    plans = [plan_hereditary_integral(term.compliance, ends, numbers) for term in terms]
+    if problem.adaptive is None:
+        return plans
+    return [replace(plan, instants=np.zeros(0)) for plan in plans]

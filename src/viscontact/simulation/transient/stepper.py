@@ -1,0 +1,370 @@
+"""Time stepper: solve one step of a run, and keep the history that the next one needs.
+
+Each step is one elastic contact (Spinu & Cerlinca 2018, section 2):
+
+1. The load at the step's end gives force or approach, eccentricity and tilts.
+2. The hereditary integral splits the displacement into a history, which is known, and the step's
+   own compliance times the unit displacement K p of the pressure increment sought.
+3. The equilibrium of that contact is solved, from an extrapolated guess.
+4. The error that the step adds is estimated; the step control accepts it or asks for a shorter one.
+5. An accepted solution joins the hereditary integral.
+
+It departs from the paper in step 2: within a step the pressure is linear in time, not constant.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.loads import LoadHistory, LoadPoint
+from viscontact.mechanics.contact.clearance import just_clear
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
+from viscontact.mechanics.contact.problem import ContactProblem, Guess
+from viscontact.mechanics.contact.rigid_balance import Constraints
+from viscontact.mechanics.state import Outcome
+from viscontact.mechanics.time_integration.extrapolation import (
+    EXTRAPOLATION_POINTS,
+    ElasticReference,
+    predict,
+    shifted,
+)
+from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.hereditary_integral import response_to
+from viscontact.mechanics.time_integration.internal_variables import InternalVariables
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.mechanics.time_integration.step_error import StepError, TimeErrors
+from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.step_solution import StepSolution
+from viscontact.simulation.transient.surface_history import SurfaceHistory, SurfaceStep
+
+#: Errors are relative to the displacement that the pressure causes, but to no less than this part
+#: of the largest displacement so far, where rounding would dominate [-].
+PAST_DISPLACEMENT_WEIGHT = 1e-3
+
+#: Samples each way within a cell in the search for the body's lowest point; even, so that they
+#: include the cell's edges and corners.
+TOUCH_SAMPLES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class StepProblem:
+    """The contact problem of a step, and the guess of its solution if there is one.
+
+    `drive` is the force [N] or approach [m] that the elastic reference is extrapolated over.
+    """
+
+    point: LoadPoint
+    response: SurfaceStep
+    drive: float
+    problem: ContactProblem
+    guess: Guess | None
+
+
+@dataclass(frozen=True, eq=False)
+class TrialStep:
+    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds.
+
+    `pairs` are pressure and unit displacement of each term of the surface.
+    """
+
+    point: LoadPoint
+    solution: ContactSolution
+    response: SurfaceStep
+    pairs: tuple[Floats, ...]
+    reference: ElasticReference
+    outcome: Outcome
+    error: StepError
+
+
+class Stepper:
+    """Solves a run's steps and keeps hereditary integrals, elastic references and rigid motion."""
+
+    def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
+        self._run, self._domain = run, domain
+        # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
+        self._history = SurfaceHistory(run, domain)
+        self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
+        self._creeping = run.problem.surface.most_creeping  # term whose time error is estimated
+        self._errors = TimeErrors(run.plans[self._creeping], run.problem.load, domain.team)
+        self._scale = 1e-12 * max(run.grid.cell_size)
+        self._references: list[ElasticReference] = []
+        self._motion = np.zeros(3)
+
+    def trial(self, step: Step) -> TrialStep:
+        """Solve a step without accepting it."""
+        posed = self._step_problem(step)
+        solution, outcome = self._solved(step, posed)
+        response = posed.response
+        pairs = self._history.pairs(response, solution.values)
+        reference = ElasticReference(step.time, posed.drive, response.of(pairs), solution.motion)
+        creeping = pairs[self._creeping], response.terms[self._creeping]
+        error = self._errors.of_step(step, posed.point, *creeping)  # step 4
+        return TrialStep(posed.point, solution, response, pairs, reference, outcome, error)
+
+    def whole_solution(self, trial: TrialStep) -> StepSolution:
+        """Return the solution of a step on the whole grid, without accepting it."""
+        return _on_full_grid(self._domain, trial, 0.0)
+
+    def continue_under(self, load: LoadHistory) -> None:
+        """Go on under another load, which is the same up to the last step."""
+        self._run = replace(self._run, problem=replace(self._run.problem, load=load))
+
+    def restart_data(self) -> RestartData:
+        """Return the state after an accepted step as plain data."""
+        return {
+            "history": self._history.restart_data(),
+            "force_memory": self._force_memory.restart_data(),
+            "errors": self._errors.restart_data(),
+            "scale": self._scale,
+            "references": [vars(reference) for reference in self._references],
+            "motion": self._motion,
+        }
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue the same run from restart data."""
+        self._history.restore(restart_data["history"])
+        self._force_memory.restore(restart_data["force_memory"])
+        self._errors.restore(restart_data["errors"])
+        self._scale = restart_data["scale"]
+        self._references = [ElasticReference(**each) for each in restart_data["references"]]
+        self._motion = restart_data["motion"]
+
+    def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
+        """Continue the same run on a larger grid."""
+        mapped = enlargement.pairs
+        self._run, self._domain = run, enlargement.large
+        self._history.map_fields(enlargement)
+        self._errors.map_fields(mapped, enlargement.pressure)
+        self._references = [
+            replace(reference, fields=mapped(reference.fields)) for reference in self._references
+        ]
+
+    def _step_problem(self, step: Step) -> StepProblem:
+        """Pose a step: load at its end, response of the history, elastic contact to be solved."""
+        point = self._run.problem.load.at(step.time, side=step.side)  # step 1
+        response, force_response = (
+            self._history.respond(step),
+            response_to(step, self._force_memory),
+        )
+        reference_force = float(force_response.of(_force(point))[0])
+        drive = reference_force if point.approach is None else point.approach
+        position = self._run.position_at(step.time)
+        self._domain.move_axis(position)
+        open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
+        past, displacement = response.past()
+        problem = ContactProblem(  # step 2: the history widens the gap
+            open_gap + displacement,
+            response.compliance,
+            self._domain.reduced_constraints(Constraints.of(point)),
+            self._scale,
+        )
+        known, team = self._reference_history(step), self._domain.team
+        if self._run.problem.motion.stands:
+            guess = self._reference_guess(predict(known, step.time, drive, team), response, past)
+        else:
+            moved = predict(self._moved(known, step), step.time, point.level, team)
+            guess = None if moved is None else self._moved_guess(moved, problem)
+        return StepProblem(point, response, drive, problem, guess)
+
+    def accept(self, step: Step, trial: TrialStep) -> StepSolution:
+        """Add a solved step to the history (step 5), and return its solution on the whole grid."""
+        if trial.outcome is Outcome.NO_CONTACT:
+            self._references = []
+        else:
+            # A jump breaks the extrapolation: what came before it does not count.
+            known = [] if step.is_jump else self._reference_history(step)
+            self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
+        self._motion = trial.solution.motion
+        loss = self._loss(trial.pairs)
+        self._history.accept(trial.pairs)
+        self._force_memory.accept(_force(trial.point))
+        time_error = self._errors.after(step, trial.pairs[self._creeping], trial.error)
+        largest = float(trial.reference.fields[1].max())
+        self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
+        return _on_full_grid(self._domain, trial, time_error, loss)
+
+    def _known_from(self, trial: TrialStep) -> ElasticReference:
+        """What the next guess is extrapolated from: of a moving body pressures, over the load.
+
+        Its elastic reference has a trace of where it was, which pressures have not.
+        """
+        if self._run.problem.motion.stands:
+            return trial.reference
+        return replace(trial.reference, drive=trial.point.level, fields=trial.solution.values)
+
+    def _loss(self, pairs: tuple[Floats, ...]) -> tuple[float, float]:
+        """Heat [J] of a step and power [W] lost at its end.
+
+        NaN without internal variables, and without a datum: part of it is lost by the approach.
+        """
+        run = self._run
+        if run.problem.motion.stands or not run.problem.has_datum(run.grid):
+            return math.nan, math.nan
+        lost = self._history.loss(pairs)
+        if lost is None:
+            return math.nan, math.nan
+        area = self._domain.symmetry_count * self._domain.grid.cell_area
+        return lost[0] * area, lost[1] * area
+
+    def _reference_history(self, step: Step) -> list[ElasticReference]:
+        """The references that the next one is extrapolated from; after a kink, the last one."""
+        return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
+
+    def _moved_guess(self, moved: ElasticReference, problem: ContactProblem) -> Guess:
+        """Guess from earlier pressures that have been moved with the body."""
+        pressure, unit_displacement = moved.fields  # made by `predict` for this use
+        # Moved by whole cells it may lie beyond the body's end.
+        beyond = np.isinf(problem.open_gap)
+        if pressure[beyond].any():
+            pressure[beyond] = 0.0
+            self._domain.convolution.apply(pressure, into=unit_displacement)
+        return Guess(moved.fields, moved.motion)
+
+    def _reference_guess(
+        self,
+        reference: ElasticReference | None,
+        response: SurfaceStep,
+        history: Floats,
+    ) -> Guess | None:
+        """Pressure and unit displacement that a predicted elastic reference belongs to.
+
+        `history` is that of the first term.
+        """
+        if reference is None or response.first.compliance == 0:
+            return None
+        values = reference.fields  # made by `predict` for this use, so it may be overwritten
+        if len(response.terms) > 1:  # the displacement is that of all terms
+            np.subtract(values[0], history[0], out=values[0])
+            values[0] /= response.first.compliance
+            self._domain.convolution.apply(values[0], into=values[1])
+            return Guess(values, reference.motion)
+
+        def increment(found: Floats, past: Floats) -> None:
+            found -= past
+            found /= response.compliance
+
+        self._domain.team.each_part(increment, values, history)
+        return Guess(values, reference.motion)
+
+    def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:
+        """Known solutions, moved by whole cells to where the body is at the end of a step."""
+        run = self._run
+        there = np.array(run.position_at(step.time))
+        moved = []
+        for each in known:
+            way = there - run.position_at(each.time)
+            cells = np.rint(way / run.grid.cell_size).astype(int)
+            fields = shifted(
+                each.fields,
+                (cells[0], cells[1]),
+                periodic=(run.grid.periodic[0], run.grid.periodic[1]),
+            )
+            moved.append(replace(each, fields=fields))
+        return moved
+
+    def _solved(self, step: Step, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
+        """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
+        point, problem, response = posed.point, posed.problem, posed.response
+        if point.force == 0:
+            untouched = not response.past()[1].any()
+            return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT
+        given = problem.constraints.with_prescribed(self._motion)
+        if point.force is None and self._is_separated(problem, given):
+            return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT
+        tolerance = self._run.problem.tolerance
+        solution = solve_contact(problem, self._domain, posed.guess, tolerance=tolerance)
+        if not solution.converged:
+            return solution, Outcome.NOT_CONVERGED
+        if solution.in_contact.any():
+            return solution, Outcome.CONVERGED
+        # A body that can tilt has turned away: from its last tilts no farther than it must.
+        plane = self._domain.whole.plane
+        motion = just_clear(problem.open_gap, plane, given, solution.motion)
+        return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT
+
+    def _is_separated(self, problem: ContactProblem, motion: Floats) -> bool:
+        plane = self._domain.whole.plane.field(motion)
+        return bool((problem.open_gap >= plane).all())
+
+    def _first_touch(
+        self, step: Step, problem: ContactProblem, *, untouched: bool
+    ) -> ContactSolution:
+        """Place a body without force where it just touches the surface; free tilts are kept."""
+        tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
+        distance = problem.open_gap - self._domain.whole.plane.field(tilts)
+        motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
+        apart = _without_pressure(problem, self._domain, motion)
+        return _at_lowest_point(self._run, step.time, apart) if untouched else apart
+
+
+def _force(point: LoadPoint) -> Floats:
+    """The prescribed force as a field of one number [N]; 0 under a prescribed approach."""
+    return np.array([point.force or 0.0])
+
+
+def _without_pressure(
+    problem: ContactProblem, domain: ContactDomain, motion: Floats
+) -> ContactSolution:
+    nothing = np.zeros((2, *domain.shape))
+    gap = problem.open_gap - domain.whole.plane.field(motion)
+    nowhere = np.zeros(domain.shape, bool)
+    return ContactSolution(nothing, motion, gap, nowhere, 0.0, 0, 0, converged=True)
+
+
+def _at_lowest_point(run: RunSetup, time: float, apart: ContactSolution) -> ContactSolution:
+    """Let the body's lowest point touch a flat surface, in place of the nearest cell centre."""
+    tilts = apart.motion[1:]
+    at_x, at_y = run.position_at(time)
+    slopes = np.add.outer(tilts[0] * (run.grid.x - at_x), tilts[1] * (run.grid.y - at_y))
+    cells = run.gap_at(time) - slopes
+    i, j = np.unravel_index(int(cells.argmin()), cells.shape)
+    part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
+    x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
+    y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
+    gap = run.indenter_at(time).gap(x, y)
+    lowest = float((gap - tilts[0] * (x - at_x) - tilts[1] * (y - at_y)).min())
+    below = apart.motion[0] - lowest
+    motion = apart.motion - np.array([below, 0.0, 0.0])
+    return replace(apart, motion=motion, gap=apart.gap + below)
+
+
+def _on_full_grid(
+    domain: ContactDomain,
+    trial: TrialStep,
+    time_error: float,
+    loss: tuple[float, float] = (math.nan, math.nan),
+) -> StepSolution:
+    """The solution of a step, on the whole grid, with heat [J] and power [W] lost."""
+    solution = trial.solution
+    found = solution.found
+    fields = {
+        "pressure": domain.expand_by_symmetry(found.pressure),
+        "gap": domain.expand_by_symmetry(solution.gap),
+        "displacement": domain.expand_by_symmetry(trial.reference.fields[1]),
+    }
+    reference, in_contact = trial.reference.fields, domain.expand_by_symmetry(solution.in_contact)
+    for field in (*fields.values(), reference, in_contact):
+        field.flags.writeable = False  # later steps start from them
+    cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images
+    energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
+    return StepSolution(
+        **fields,
+        in_contact=in_contact,
+        reference=reference,
+        motion=found.motion,
+        resultants=domain.whole.plane.sums(found.pressure) * cell_area,
+        energy=energy * cell_area,
+        residual=solution.residual,
+        iterations=solution.iterations,
+        outcome=trial.outcome,
+        resolved=all(term.resolved for term in trial.response.terms),
+        time_error=time_error,
+        heat=loss[0],
+        power=loss[1],
+    )

@@ -1,0 +1,125 @@
+"""Figures of fitted laws and master curves."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from viscontact import reference
+from viscontact.bodies.materials.material import Material
+from viscontact.identification import (
+    IndentationRecord,
+    Isotherm,
+    build_master_curve,
+    fit_creep,
+    fit_dynamic,
+    fit_indentation,
+    fit_master_curve,
+)
+from viscontact.indenters import Sphere
+from viscontact.laws import WLF, Elastic, RelaxationSeries
+from viscontact.plot import fitted_indentation, fitted_series, master_curve, save_figure
+
+T = np.geomspace(0.1, 100.0, 20)
+LAW = RelaxationSeries(1e6, [1e9, 3e8], [1.0, 30.0])
+
+
+def test_a_fitted_series_shows_measured_values_and_residuals_in_per_cent(tmp_path):
+    compliance = (1e-9 + 1e-9 * (1 - np.exp(-T / 5.0))) * (1 + 0.01 * np.cos(40 * T))
+    fit = fit_creep(T, compliance, data="shear")
+    figure = fitted_series(fit)
+    above, below = figure.axes
+    np.testing.assert_allclose(above.lines[0].get_ydata(), 1e9 * compliance)
+    residuals = 100 * (fit.law(T) * 2 / compliance - 1)
+    np.testing.assert_allclose(below.lines[0].get_ydata(), residuals, atol=1e-9)
+    assert above.get_ylabel() == "Creep compliance J [1/GPa]"
+    assert below.get_xlabel() == "Time [s]"
+    save_figure(figure, tmp_path / "fit.png")
+
+
+def test_the_instant_of_the_step_is_left_off_the_logarithmic_axis():
+    t = np.concatenate([[0.0], T])
+    above, _ = fitted_series(fit_creep(t, 2 - np.exp(-t), data="deviatoric")).axes
+    assert above.lines[0].get_xdata().min() == pytest.approx(0.1)
+
+
+def test_an_oscillation_has_both_moduli_and_ticks_at_the_inverse_times(tmp_path):
+    modulus = LAW.complex_modulus(T)
+    fit = fit_dynamic(T, modulus.real, modulus.imag, data="shear", tolerance=1e-9)
+    figure = fitted_series(fit)
+    above, _ = figure.axes
+    legend = above.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["Storage modulus", "Loss modulus"]
+    ticks = next(line for line in above.lines if line.get_marker() == "|")
+    np.testing.assert_allclose(ticks.get_xdata(), [1.0], rtol=1e-5)  # 1/30 s is off the axis
+    assert "(loss)" in above.get_title(loc="right")
+    save_figure(figure, tmp_path / "fit.svg")
+
+
+def test_a_master_curve_shows_sets_factors_and_the_curve(tmp_path):
+    rule = WLF(300.0, 10.0, 60.0)
+    sets = [
+        Isotherm(t, T, {"modulus": LAW.relaxation(T / rule.factor(t))})
+        for t in (296.15, 300.0, 303.15)
+    ]
+    curve = build_master_curve(sets, 300.0)
+    figure = master_curve(curve, fit=fit_master_curve(curve, data="shear"), rules=[curve.fit_wlf()])
+    by_title = {axes.get_title(loc="left"): axes for axes in figure.axes}
+    shifts = by_title["Shift factors"]
+    np.testing.assert_allclose(shifts.lines[0].get_xdata(), [23.0, 26.85, 30.0])  # °C
+    np.testing.assert_allclose(shifts.lines[0].get_ydata(), np.log10(curve.factors))
+    master = next(axes for title, axes in by_title.items() if title.startswith("Master curve at"))
+    assert "Master curve at 26.85 °C, " in master.get_title(loc="left")
+    shown = np.sort(np.concatenate([line.get_xdata() for line in master.lines[:3]]))
+    np.testing.assert_allclose(shown, curve.points)
+    save_figure(figure, tmp_path / "master.pdf")
+
+
+def test_a_master_curve_of_oscillations_explains_which_markers_are_storage_and_loss():
+    omega = np.geomspace(0.1, 10.0, 5)
+    sets = []
+    for temperature, factor in ((290.0, 3.0), (300.0, 1.0)):
+        modulus = LAW.complex_modulus(factor * omega)
+        measured = {"storage": modulus.real, "loss": modulus.imag}
+        sets.append(Isotherm(temperature, omega, measured))
+    panel = master_curve(build_master_curve(sets, 300.0)).axes[0]
+    assert panel.get_title(loc="left") == "As measured: ● storage, □ loss"
+    storage, loss = panel.lines[:2]
+    assert (storage.get_marker(), loss.get_marker()) == ("o", "s")
+    assert loss.get_markerfacecolor() == "none"
+
+
+@pytest.mark.parametrize("given", ["approach", "force"])
+def test_an_indentation_fit_shows_record_and_residuals(given, tmp_path):
+    t = np.linspace(0.0, 2.0, 21)
+    d = 1e-6 * np.minimum(t, 2 - t)
+    force = reference.press_axisymmetric(
+        reference.SphereProfile(5e-6),
+        t,
+        approach=d,
+        creep_compliance=Material(Elastic(1e6), 0.5).contact_compliance(),
+    ).force
+    record = IndentationRecord(Sphere(5e-6), t, d, force)
+    fit = fit_indentation(record, "elastic", poisson_ratio=0.5, given=given)
+    figure = fitted_indentation(fit)
+    loop, over_time, rest = figure.axes
+    np.testing.assert_allclose(loop.lines[0].get_xdata(), 1e6 * d)
+    np.testing.assert_allclose(rest.lines[0].get_ydata(), 100 * fit.residuals)
+    assert over_time.get_ylabel() == ("Force [µN]" if given == "approach" else "Approach [µm]")
+    save_figure(figure, tmp_path / "record.png")
+
+
+@pytest.mark.filterwarnings("ignore:the fit misses")
+def test_a_misfit_and_its_reason_stand_above_the_figure():
+    omega = np.geomspace(0.01, 100.0, 15)
+    modulus = LAW.complex_modulus(omega)
+    missing = fit_dynamic(omega, modulus.real, 5 * modulus.imag, data="shear")
+    heading = fitted_series(missing).axes[0].get_title(loc="left")
+    assert heading.endswith("Misses the data: no series has such storage and loss together")
+    meeting = fit_dynamic(omega, modulus.real, modulus.imag, data="shear")
+    assert fitted_series(meeting).axes[0].get_title(loc="left") == ""
+    isotherm = Isotherm(293.15, omega, missing.measured)
+    curve = build_master_curve([isotherm], 293.15, WLF(293.15, 12.0, 70.0))
+    panel = master_curve(curve, fit=missing).axes[2]
+    assert "Misses the data" in panel.get_title(loc="left")

@@ -1,0 +1,143 @@
+"""Steps chosen by their error: what they hit, how they grow, and what they refuse."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viscontact.bodies.loads import harmonic
+from viscontact.bodies.materials.compliance import SeriesCompliance
+from viscontact.loads import ApproachHistory, ForceHistory, ramp, step
+from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
+from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, plan_steps
+from viscontact.mechanics.time_integration.requested_times import adaptive_times
+
+KELVIN = SeriesCompliance(1.0, [1.0], [2.0])
+
+
+def walk(steps, error_of=lambda each: 0.0):
+    """Take all steps, each with an error by its duration; how many were refused, too."""
+    taken, refused = [], 0
+    while (each := steps.next_step()) is not None:
+        if steps.accept_step(error_of(each)):
+            taken.append(each)
+        else:
+            refused += 1
+        assert refused + len(taken) < 10_000
+    return taken, refused
+
+
+def cubic(each, scale=1.0):
+    """The error of a second-order rule over one step."""
+    return scale * each.duration**3
+
+
+@given(
+    st.lists(st.floats(0.01, 9.9), max_size=5),
+    st.lists(st.floats(0.0, 12.0), min_size=1, max_size=6, unique=True),
+    st.sampled_from([0.0, 1e-3, 1.0, 1e3]),
+)
+def test_stops_kinks_and_end_are_all_hit_and_no_step_is_longer_than_asked(stops, knots, scale):
+    load = ForceHistory(sorted(knots), np.arange(1.0, len(knots) + 1))
+    steps = AdaptiveSteps(adaptive_times(10.0, 1e-2), np.array(stops), load, KELVIN)
+    taken, _ = walk(steps, lambda each: cubic(each, scale))
+    ends = {each.time for each in taken}
+    assert {*stops, 10.0, *(kink for kink in knots if kink < 10)} <= ends
+    assert sum(each.duration for each in taken) == pytest.approx(10.0)
+    assert taken[-1].time == 10.0
+    assert all(scale * each.duration**3 <= 0.2 * 1e-2 * (1 + 1e-9) for each in taken)
+    shown = [each.requested for each in taken if each.requested is not None]
+    assert shown == sorted(set(shown))
+
+
+def test_a_jump_is_two_steps_of_which_the_second_is_shown():
+    load = ForceHistory([0, 2, 2], [1.0, 1.0, 5.0])
+    taken, _ = walk(AdaptiveSteps(adaptive_times(4.0, 1e-2), np.zeros(0), load, KELVIN))
+    at_jump = [each for each in taken if each.time == 2.0]
+    assert [(each.is_jump, each.side, each.requested) for each in at_jump] == [
+        (False, "left", None),
+        (True, "right", 2.0),
+    ]
+    after = taken[taken.index(at_jump[1]) + 1]
+    assert not after.smooth
+
+
+def test_steps_grow_under_creep_in_log_time_and_a_decade_costs_a_fixed_number():
+    # A pressure that falls as log t errs by d³ times its second derivative, 1/t².
+    steps = AdaptiveSteps(adaptive_times(1e6, 1e-3), np.zeros(0), step(1.0), KELVIN)
+    taken, _ = walk(steps, lambda each: 1e-2 * each.duration**3 / max(each.time, 1e-9) ** 3)
+    ends = np.array([each.time for each in taken])
+    in_decade = [((ends > 10.0**k) & (ends <= 10.0 ** (k + 1))).sum() for k in range(1, 5)]
+    assert max(in_decade) - min(in_decade) <= 2
+    assert max(in_decade) <= 15
+
+
+def test_smaller_tolerance_takes_steps_by_its_cube_root():
+    counts = [
+        len(walk(AdaptiveSteps(adaptive_times(10.0, t), np.zeros(0), ramp(1.0, 10.0), KELVIN),
+                 cubic)[0])
+        for t in (1e-3, 1e-6)
+    ]  # fmt: skip
+    assert counts[1] / counts[0] == pytest.approx(10.0, rel=0.2)
+
+
+def test_a_refused_step_is_shortened_and_offered_again():
+    steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), ramp(1.0, 10.0), KELVIN)
+    assert steps.accept_step(0.0)  # time 0
+    first = steps.next_step()
+    assert not steps.accept_step(1.0)
+    again = steps.next_step()
+    assert again.time - again.duration == first.time - first.duration
+    assert again.duration == pytest.approx(0.2 * first.duration)
+
+
+def test_a_first_step_creeps_little():
+    for compliance in (KELVIN, SeriesCompliance(1.0, [1.0], [2e-6])):
+        steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), step(1.0), compliance)
+        assert steps.accept_step(0.0)
+        duration = steps.next_step().duration
+        assert compliance(duration) < 1.1 * compliance(0.0)
+
+
+def test_steps_begin_small_where_bodies_come_to_touch():
+    load = ApproachHistory([0.0, 10.0], [-1e-6, 1.5e-6])
+    taken, _ = walk(AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), load, KELVIN))
+    touch = next(k for k, each in enumerate(taken) if each.time == pytest.approx(4.0, rel=1e-14))
+    assert KELVIN(taken[touch + 1].duration) < 1.1 * KELVIN(0.0)
+    assert taken[touch].duration > 10 * taken[touch + 1].duration
+
+
+def test_a_swinging_load_is_never_stepped_over():
+    load = harmonic(2.0, 1.0, period=1.0, cycles=3)
+    taken, _ = walk(AdaptiveSteps(adaptive_times(6.0, 0.1), np.zeros(0), load, KELVIN))
+    assert max(each.duration for each in taken if each.time <= 3.0) <= 1 / 128 * (1 + 1e-9)
+    assert {1.0, 2.0, 3.0} <= {each.time for each in taken}
+
+
+def test_what_is_left_is_predicted_within_a_factor_of_two_under_steady_growth():
+    steps = AdaptiveSteps(adaptive_times(1e4, 1e-3), np.zeros(0), step(1.0), KELVIN)
+    predicted, taken = [], 0
+    while (each := steps.next_step()) is not None:
+        if steps.accept_step(1e-2 * each.duration**3 / max(each.time, 1e-9) ** 3):
+            taken += 1
+            predicted.append(taken + steps.left)
+    half = predicted[len(predicted) // 2 :]
+    assert all(0.5 <= total / taken <= 2 for total in half)
+    assert steps.left == 0
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1e-3, 1.0, math.nan, "1 %", None, True])
+def test_bad_tolerance_is_refused(tolerance):
+    with pytest.raises(ValueError, match=r"tolerance must lie between 1e-6 and 0\.1"):
+        adaptive_times(10.0, tolerance)
+
+
+def test_fixed_steps_are_taken_whatever_error_they_make():
+    steps = FixedSteps(plan_steps(np.array([0.0, 1.0, 2.0]), step(1.0)))
+    taken, refused = walk(steps, lambda each: 1e9)
+    assert [each.time for each in taken] == [0.0, 1.0, 2.0]
+    assert refused == 0

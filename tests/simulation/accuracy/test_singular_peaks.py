@@ -1,0 +1,104 @@
+"""Bars of peak pressures next to the end of a body, from results of coarser runs."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.accuracy.coarser_results import history_of
+from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
+from viscontact.simulation.accuracy.singular_peaks import SINGULAR, peak_bars, singular_warnings
+from viscontact.simulation.transient.setup import prepare_run
+from viscontact.simulation.transient.state_generator import march_run
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+BALL, RUBBER = vc.Paraboloid(0.01, 0.01), vc.Material(vc.Elastic(1e6), 0.5)
+BARS = np.array([1.0])
+
+
+@pytest.fixture(scope="module")
+def ball():
+    """History and coarser results of a ball, 20 cells across."""
+    grid = vc.Grid((32, 32), (2.7e-3, 2.7e-3))
+    run = prepare_run(Problem(BALL, RUBBER, vc.step(0.1), grid, [0.0]))
+    history = history_of(list(march_run(run)))
+    return history, [march_coarser_run(each) for each in plan_coarser_runs(run, history)]
+
+
+def at_end(ball, exponent, beside, inner):
+    """The results with peaks that grow by an exponent, at an end that carries parts of them."""
+    history, results = ball
+    changed = []
+    for each in results:
+        peaks = history["peak_pressure"] * each.spacing**-exponent
+        ends = np.array([[beside, inner]]) * peaks[:, None]
+        scalars = each.scalars | {"peak_pressure": peaks}
+        reached = np.ones_like(each.at_end)
+        changed.append(replace(each, scalars=scalars, end_pressures=ends, at_end=reached))
+    return history, changed
+
+
+@pytest.mark.parametrize(
+    ("exponent", "beside", "is_endless"),
+    [
+        (0.5, 1.0, True),
+        (0.25, 1.0, True),
+        (0.05, 1.0, False),
+        (-0.2, 1.0, False),
+        (0.5, 0.7, False),
+    ],
+    ids=["sharp", "sharp on few cells", "logarithmic", "falling", "elsewhere"],
+)
+def test_peak_at_an_end_has_no_limit_if_it_lies_there_and_grows(ball, exponent, beside, is_endless):
+    """As 1/sqrt(h) at a sharp end (Johnson 1985, eq. 2.64)."""
+    (bar,) = peak_bars(BARS, *at_end(ball, exponent, beside, inner=0.9))
+    assert math.isinf(bar) == is_endless
+
+
+def test_bar_of_a_peak_near_an_end_is_at_least_its_excess(ball):
+    history, results = at_end(ball, exponent=0.0, beside=0.5, inner=0.8)
+    (bar,) = peak_bars(BARS, history, results)
+    assert 0.2 <= bar / history["peak_pressure"][0] <= 0.6
+
+
+def test_peak_that_an_automatic_grid_left_out_has_no_limit_at_an_end(ball):
+    changed = at_end(ball, exponent=0.0, beside=0.5, inner=1.0)
+    assert math.isinf(peak_bars(BARS, *changed, left_out=True)[0])
+    assert peak_bars(BARS, *changed)[0] == 1.0
+    assert peak_bars(BARS, *ball, left_out=True)[0] == 1.0  # no end is reached
+
+
+def test_peak_has_no_limit_between_instants_that_coarser_runs_have_far_apart(ball):
+    """Cells in which a round edge lies on the finer one of the two grids may hide its growth."""
+    history, results = ball
+    many = {name: np.repeat(values, 9) for name, values in history.items()}
+    many["time"] = np.arange(9.0)
+    changed = []
+    for each, instants, exponent in zip(results, ([0, 8], [0, 4, 8]), (0.5, 0.02), strict=True):
+        count = len(instants)
+        scalars = {name: np.repeat(values, count) for name, values in each.scalars.items()}
+        peaks = np.full(count, history["peak_pressure"][0] * each.spacing**-exponent)
+        repeated = ("bend_growth", "spots", "peak_drops", "rises_to_ends")
+        changed.append(
+            replace(
+                each,
+                scalars=scalars | {"time": np.array(instants, float), "peak_pressure": peaks},
+                end_pressures=np.stack([peaks, peaks / 2], axis=1),
+                at_end=np.ones(count, bool),
+                **{name: np.repeat(getattr(each, name), count, axis=0) for name in repeated},
+            )
+        )
+    assert np.isinf(peak_bars(np.ones(9), many, changed)).all()
+
+
+def test_infinite_bars_come_with_a_warning_and_a_remedy_once():
+    endless, cone = np.array([1.0, np.inf]), vc.Cone(1.4)
+    (text,) = singular_warnings(endless, cone, issued=["the steps are long"])
+    assert text.startswith(SINGULAR)
+    assert "under indenter" in text
+    assert singular_warnings(BARS, cone) == ()
+    (issued,) = vc.march(cone, RUBBER, vc.step(0.1), vc.Grid((32, 32), (1.6e-3,) * 2), [0.0])
+    assert singular_warnings(endless, cone, issued.warnings) == ()

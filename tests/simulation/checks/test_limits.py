@@ -1,0 +1,84 @@
+"""Limits of the warnings: values that are warned of, and values that are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.bodies.materials.compliance import SeriesCompliance
+from viscontact.simulation.checks.arguments import unusual_radius
+from viscontact.simulation.checks.material import law_warnings, origin_warnings, splitting_warnings
+from viscontact.simulation.checks.mesh import layer_warnings
+from viscontact.simulation.checks.motion import free_tilt_warnings, unresolved_loss, way_warnings
+from viscontact.simulation.checks.periodicity import datum_warnings
+from viscontact.simulation.checks.sampling import local_approach
+from viscontact.simulation.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
+
+
+def test_radius_of_metres_is_unusual():
+    assert unusual_radius(vc.Sphere(10)) == (
+        "the radius of the indenter is 10 m: lengths are in metres in Python; write 0.01 for 10 mm"
+    )
+    assert unusual_radius(vc.Sphere(10e-3)) is None
+
+
+def test_law_may_deviate_by_a_small_error():
+    assert list(law_warnings(0.1, 0.0)) == ["memory"]
+    assert list(law_warnings(1e-3, 0.02)) == ["conversion"]
+    assert law_warnings(1e-3, 1e-3) == {}
+    assert list(splitting_warnings(0.02)) == ["splitting"]
+    assert splitting_warnings(1e-4) == {}
+
+
+def test_warning_of_a_law_is_repeated():
+    fitted = vc.Material(vc.Elastic(1e9), 0.4, warning="the fit misses storage by 20 %")
+    assert origin_warnings([fitted]) == {"origin": "the fit misses storage by 20 %"}
+
+
+def test_cells_are_compared_with_the_thinnest_layer():
+    assert list(layer_warnings(1e-3, (5e-3, 1.2e-3))) == ["layers"]
+    assert layer_warnings(1e-3, (5e-3, 1e-4)) == {}
+
+
+def test_way_of_a_step_is_compared_with_the_contact():
+    assert way_warnings(1e-4, 1e-3) == {}
+    assert list(way_warnings(1e-3, 1e-3)) == ["way"]
+    assert list(free_tilt_warnings(["tilt_y"])) == ["axle"]
+
+
+def test_loss_of_times_shorter_than_a_step_is_unresolved():
+    series = SeriesCompliance(1.0, [1.0], [2.0])
+    assert unresolved_loss(series, rate=0.1, duration=3.0) == pytest.approx(1.0)
+    assert unresolved_loss(series, rate=0.1, duration=1.0) == 0.0
+
+
+def test_approach_has_no_datum_along_one_periodic_axis():
+    grid = vc.Grid((1, 8), (1e-3, 1e-3), periodic=(True, False))
+    assert list(datum_warnings(grid, ["approach"])) == ["datum"]
+
+
+def test_approach_in_the_middle_of_a_grid_has_the_tilt_there():
+    grid = vc.Grid((4, 4), (1.0, 1.0), centre=(100.0, 0.0))
+    assert local_approach(grid, np.array([2.0, -0.01, 0.0])) == 1.0
+
+
+def test_pressures_at_the_end_of_a_body_are_apart_from_those_inside():
+    ends = cells_at_end(np.array([[0.0, 0.0, 0.0, np.inf]]))
+    assert ends.pressures(np.array([[1.0, 2.0, 3.0, 0.0]])) == (3.0, 1.0)
+
+
+def test_wedge_bends_by_twice_its_slope():
+    grid = vc.Grid((5, 5), (5.0, 5.0))
+    assert bend_at(np.abs(grid.x)[:, None] + 0 * grid.y, grid, (2, 2)) == 2.0
+
+
+def test_cone_is_sharp_and_a_sphere_is_not():
+    near = (0.0, 0.0), (1e-4, 1e-4), (1e-4, 1e-4)
+    assert is_sharp(vc.Cone(1.5), *near, strain=0.07)
+    assert not is_sharp(vc.Sphere(0.01), *near, strain=0.01)
+
+
+def test_strain_of_a_peak_is_hertzian():
+    """p0 = 2/pi E* delta/a, with the compliance 1/E*."""
+    assert strain_of(1e6, 1e-9) == pytest.approx(np.pi / 2 * 1e6 * 1e-9)

@@ -1,0 +1,188 @@
+"""A run that is stopped after any of its steps and gone on with ends in the same bits."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import Outcome
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.runs.directory.npz_archive import read_plain, write_plain
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.setup import RunSetup, prepare_run
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+GRID = vc.Grid((36, 24), (3e-3, 2e-3))
+SMALL = vc.Grid((16, 16), (2e-3, 2e-3))  # for runs of many steps
+ZENER = vc.Material(vc.Zener(1e6, 5e5, 1e6), 0.5)
+POWER = vc.Material(vc.PowerLaw(2e-7, 0.3, 1.0, instant=3e-7), 0.4)
+UP_AND_DOWN = vc.ForceHistory([0, 1, 2, 2, 3, 4, 5], [0, 0.2, 0.2, 0.05, 0, 0, 0.1])
+
+
+def rough() -> vc.Indenter:
+    axis = np.linspace(-2e-3, 2e-3, 30)
+    height = 2e-6 * np.random.default_rng(3).standard_normal((30, 30))
+    return vc.HeightMap(axis, axis, height) + vc.Sphere(0.02)
+
+
+def roller() -> vc.Roller:
+    return vc.Roller(4e-3, 0.8e-3, 0.01)
+
+
+RUNS = {
+    "series law, up, jump, away and back": lambda: prepare_run(
+        Problem(vc.Sphere(0.01), ZENER, UP_AND_DOWN, GRID, vc.uniform_times(5.0, 9))
+    ),
+    "power law, eccentric roller": lambda: prepare_run(
+        Problem(
+            roller(), POWER, vc.ramp(0.1, 1.0, eccentricity_x=1e-4), GRID, vc.uniform_times(2.0, 20)
+        )
+    ),
+    "rough, off both axes": lambda: prepare_run(
+        Problem(
+            rough(),
+            ZENER,
+            vc.step(0.02, eccentricity_x=5e-5, eccentricity_y=2e-5),
+            GRID,
+            vc.log_times(0.01, 3.0, 7),
+        )
+    ),
+    "adaptive swing": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            vc.harmonic(0.1, 0.06, 2.0, 1),
+            SMALL,
+            vc.adaptive_times(2.2, 0.03),
+        )
+    ),
+    "adaptive power law in a soft start": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            POWER,
+            vc.ramp(0.1, 1.0),
+            GRID,
+            vc.adaptive_times(3.0, 0.03),
+            fields=[2.0],
+        )
+    ),
+    "stage, contact lost": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            vc.ApproachHistory([0, 1, 1.3, 3], [0, 2e-5, 0, 1.6e-5]),
+            GRID,
+            vc.uniform_times(3.0, 15),
+        )
+    ),
+    "cycles of a triangle": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            vc.ForceHistory(np.arange(7.0), [0, 0.1, 0, 0.1, 0, 0.1, 0]),
+            GRID,
+            vc.uniform_times(6.0, 18),
+        )
+    ),
+}
+
+
+def same(one: object, other: object) -> bool:
+    """Equal to the last bit, NaN included."""
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return one.dtype == other.dtype and one.tobytes() == other.tobytes()
+    if isinstance(one, float) and isinstance(other, float) and math.isnan(one):
+        return math.isnan(other)
+    return one == other
+
+
+def through_a_file(restart_data: RestartData) -> RestartData:
+    file = io.BytesIO()
+    write_plain(file, restart_data)
+    return read_plain(file)
+
+
+def leaves(value: object, where: str = "") -> dict[str, object]:
+    """Plain data as a flat dict of numbers, texts and the bytes of arrays."""
+    if isinstance(value, dict):
+        inner = [leaves(each, f"{where}.{key}") for key, each in value.items()]
+    elif isinstance(value, list):
+        inner = [leaves(each, f"{where}[{number}]") for number, each in enumerate(value)]
+    else:
+        return {where: value.tobytes() if isinstance(value, np.ndarray) else repr(value)}
+    return {place: leaf for each in inner for place, leaf in each.items()}
+
+
+def steps_of(march: March) -> list[tuple[vc.ContactState | None, int, int]]:
+    """Take the remaining steps: state, number of states done and left."""
+    return [(state, march.done, march.left) for state in march]
+
+
+def differing(
+    ours: list[tuple[vc.ContactState | None, int, int]],
+    theirs: list[tuple[vc.ContactState | None, int, int]],
+) -> list[str]:
+    """Differences between two ends of one run."""
+    found = []
+    assert len(ours) == len(theirs)
+    for (one, *counts), (other, *other_counts) in zip(ours, theirs, strict=True):
+        assert (one is None) == (other is None)
+        assert counts == other_counts
+        if one is None or other is None:
+            continue
+        names = [field.name for field in fields(vc.ContactState)]
+        found += [
+            f"{name} at t = {one.time:g}"
+            for name in names
+            if not same(getattr(one, name), getattr(other, name))
+        ]
+    return found
+
+
+@pytest.fixture(params=RUNS, scope="module")
+def run(request: pytest.FixtureRequest) -> RunSetup:
+    return RUNS[request.param]()
+
+
+def test_run_continues_from_restart_data_after_any_step(run: RunSetup) -> None:
+    whole = steps_of(March(run))
+    assert len(whole) > 7
+    march = March(run)
+    every = max(1, len(whole) // 5)  # a swing has hundreds
+    for count, _ in enumerate(march, 1):
+        if count < 3 or count % every == 0:
+            resumed = steps_of(March(run, through_a_file(march.restart_data())))
+            assert differing(whole[count:], resumed) == []
+
+
+def test_what_was_carried_is_what_is_carried_on(run: RunSetup) -> None:
+    # Some of it counts only in runs that are rare, such as those with long steps after a jump.
+    march = March(run)
+    for _, _ in zip(march, range(8), strict=False):
+        restart_data = through_a_file(march.restart_data())
+        assert leaves(March(run, restart_data).restart_data()) == leaves(restart_data)
+
+
+@pytest.mark.parametrize("name", ["series law, up, jump, away and back", "rough, off both axes"])
+def test_states_mark_the_cells_that_touch(name: str) -> None:
+    run = RUNS[name]()
+    for state in March(run):
+        if state is None:
+            continue
+        # Within the tolerance of the solver, closed cells are those in contact.
+        closed = 2 * run.problem.tolerance * state.displacement.max()
+        assert state.in_contact.dtype == bool
+        assert (state.gap[state.in_contact] <= closed).all()
+        assert (state.pressure[~state.in_contact] == 0).all()
+        assert state.in_contact.any() == (state.outcome is Outcome.CONVERGED)
+        assert state.without_fields().in_contact.size == 0
+        own = state.with_own_fields().in_contact
+        assert own.base is None
+        assert (own == state.in_contact).all()
