@@ -729,9 +729,9 @@ def test_instant_that_is_not_stored_is_drawn_nearby_and_said(
 def test_without_matplotlib_a_line_says_what_to_install(
     finished: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in [name for name in sys.modules if name.startswith("viscontact.plot")]:
+    for name in [name for name in sys.modules if name.startswith("viscontact.drawing.matplotlib")]:
         monkeypatch.delitem(sys.modules, name)
-    monkeypatch.delattr("viscontact.plot", raising=False)
+    monkeypatch.delattr("viscontact.drawing.matplotlib", raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     assert main(["plot", str(finished), "history"]) == 2

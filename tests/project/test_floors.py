@@ -27,8 +27,8 @@ FLOORS = (
     ("mechanics", "identification"),
     ("results",),
     ("case", "drawing", "simulation"),
-    ("report", "runs", "verify"),
-    ("studies", "web"),
+    ("report", "runs"),
+    ("studies", "verify", "web"),
     ("cli",),
     ("__main__", "laws", "indenters", "loads", "surfaces", "plot", "figures", "notebook"),
 )

@@ -302,7 +302,7 @@ def test_page_receives_the_list_of_scalars(extended: xr.Dataset, tmp_path: Path)
 def test_scripts_of_the_page_have_no_list_of_scalars() -> None:
     labels = {variable.label for variable in SCALARS.values() if " " in variable.label}
     scripts = [*files("viscontact.web").joinpath("static").iterdir()]
-    scripts += [files("viscontact.figures").joinpath("linked.js")]
+    scripts += [files("viscontact.drawing.plotly").joinpath("linked.js")]
     for script in scripts:
         if script.name.endswith(".js") and "plotly" not in script.name:
             text = script.read_text(encoding="utf-8")

@@ -49,5 +49,5 @@ open(JSON.parse(document.getElementById("figures").textContent));
 
 def _linked() -> str:
     """Script of the figures, which is a module on the calculator page, as part of another."""
-    script = (files("viscontact.figures") / "linked.js").read_text(encoding="utf-8")
+    script = (files("viscontact.drawing.plotly") / "linked.js").read_text(encoding="utf-8")
     return script.replace("export function", "function")

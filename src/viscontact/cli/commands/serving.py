@@ -15,7 +15,7 @@ import typer
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import refuse, say
 
-_NEEDED = ("fastapi", "starlette", "uvicorn", "anyio", "matplotlib", "contourpy", "plotly")
+_NEEDED = ("fastapi", "starlette", "uvicorn", "anyio", "matplotlib", "plotly")
 
 
 def serve(

@@ -44,7 +44,7 @@ def _report_package() -> Any:
     try:
         from viscontact import report as package
     except ModuleNotFoundError as error:
-        if error.name not in ("matplotlib", "contourpy", "plotly"):
+        if error.name not in ("matplotlib", "plotly"):
             raise
         refuse(f"a report needs {error.name}: pip install 'viscontact[plot]'")
     return package

@@ -113,7 +113,7 @@ def write_report(found: StudyResult, page: Path) -> None:
     try:
         found.report(page)
     except ModuleNotFoundError as error:
-        if error.name not in ("matplotlib", "contourpy", "plotly"):
+        if error.name not in ("matplotlib", "plotly"):
             raise
         say(f"without a report: it needs {error.name}: pip install 'viscontact[plot]'")
     except (ConvergenceError, DomainError, ValueError, OSError) as error:
