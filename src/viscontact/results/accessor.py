@@ -11,18 +11,8 @@ from viscontact.units.display import Displayable, result_explorer, result_plots
 
 @xr.register_dataset_accessor("viscontact")
 class ResultAccessor(Displayable):
-    """A result of `simulate` or `open_results`, in a few lines and small drawings.
+    """A result in a few lines and small drawings, as ``ds.viscontact``.
 
-    Displayed in a notebook, or printed, it summarises the result. It is available after
-    ``import viscontact`` and the first of its names that makes or opens results.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        The result.
-
-    Examples
-    --------
     >>> import viscontact as vc
     >>> material = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((32, 32), (4e-3, 4e-3))
@@ -30,6 +20,8 @@ class ResultAccessor(Displayable):
     >>> print(str(ds.viscontact).splitlines()[3].split()[:3])
     ['force', '100', 'mN']
     """
+
+    # Available after ``import viscontact`` and the first of its names that makes or opens results.
 
     def __init__(self, result: xr.Dataset) -> None:
         self.result = result

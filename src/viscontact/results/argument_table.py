@@ -41,8 +41,6 @@ _MAX_LISTED = 8
 def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[tuple[str, str]]:
     """Yield names and values of an object's arguments, with those of the objects within it.
 
-    Examples
-    --------
     >>> sphere = {"type": "Sphere", "radius": 0.01}
     >>> list(argument_rows(sphere))
     [('shape', 'sphere'), ('radius', '10 mm')]
@@ -169,8 +167,6 @@ def _format(value: float, unit: str, digits: int = _DIGITS) -> str:
 def in_plain_words(kind: str) -> str:
     """Name of a type in words, such as "creep series" for ``"CreepSeries"``.
 
-    Examples
-    --------
     >>> in_plain_words("CreepSeries"), in_plain_words("FractionalMaxwell")
     ('creep series', 'fractional Maxwell')
     """

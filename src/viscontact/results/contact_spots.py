@@ -154,13 +154,8 @@ def contact_spots(ds: xr.Dataset, times: ArrayLike | None = None) -> xr.Dataset:
 
 
 def label_spots(contact: Bools, periodic: Sequence[bool]) -> Integers:
-    """Number the spots from 1: regions of cells that share edges; 0 is open. Shape (nx, ny).
-
-    Along a periodic axis, spots continue at the other border.
-
-    >>> label_spots(np.array([[True, False, True]]), (False, True)).tolist()
-    [[1, 0, 1]]
-    """
+    """Number the spots from 1: regions of cells that share edges; 0 is open. Shape (nx, ny)."""
+    # Along a periodic axis, spots continue at the other border.
     numbers, count = scipy.ndimage.label(contact)
     pairs = [
         np.stack([first, last])[:, (first > 0) & (last > 0)]

@@ -32,10 +32,8 @@ def to_dataset(
     attributes: Mapping[str, Any],
     errors: Mapping[str, Floats] | None = None,
 ) -> xr.Dataset:
-    """Label the states of a run, over time or speed; errors by name, over the states.
-
-    The fields lie on an axis of their own unless all states keep them.
-    """
+    """Label the states of a run, over time or speed; errors by name, over the states."""
+    # The fields lie on an axis of their own unless all states keep them.
     over = states[0].over
     values = np.array([getattr(state, over) for state in states])
     scalars = {

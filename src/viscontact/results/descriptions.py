@@ -35,13 +35,7 @@ LARGEST_ARRAY = 4096
 
 
 def describe(obj: Any) -> Any:
-    """Describe an object as plain data: its type's name and its arguments in SI units.
-
-    Examples
-    --------
-    >>> describe(Grid((4, 8), (0.1, 0.2)))
-    {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2], 'periodic': False}
-    """
+    """Describe an object as plain data: its type's name and its arguments in SI units."""
     if is_dataclass(obj) and not isinstance(obj, type):
         arguments = {
             item.name: describe(getattr(obj, item.name))
@@ -81,13 +75,7 @@ def parse_case(text: str) -> dict[str, Any]:
 
 
 def rebuild(description: Any) -> Any:
-    """Rebuild an object from its description.
-
-    Examples
-    --------
-    >>> rebuild({"type": "Sphere", "radius": 0.01})
-    Sphere(radius=0.01)
-    """
+    """Rebuild an object from its description."""
     if description == INFINITE:
         return math.inf
     if isinstance(description, list):

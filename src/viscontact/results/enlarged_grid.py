@@ -14,15 +14,13 @@ from viscontact.units.formatting import format_quantity
 
 
 def on_wider(name: str, field: Field, grid: Grid, wider: Grid) -> Field:
-    """A field on the widest grid of a result, from the grid of its instant.
-
-    The shape of the field is (..., nx, ny). Beyond its grid pressure is 0, gap and displacement
-    are NaN, and no cell is in contact.
+    """A field (..., nx, ny) on the widest grid of a result, from the grid of its instant.
 
     >>> small = Grid((4, 4), (1.0, 1.0))
     >>> on_wider("gap", np.ones((4, 4)), small, small.widened((6, 4)))[:, 0].tolist()
     [nan, 1.0, 1.0, 1.0, 1.0, nan]
     """
+    # Beyond its grid pressure is 0, gap and displacement are NaN, and no cell is in contact.
     if grid == wider:
         return field
     return grid.embed(field, wider, beyond=FIELDS[name].beyond)
@@ -42,8 +40,6 @@ def line_on_wider(line: Floats, grid: Grid, wider: Grid) -> Floats:
 def enlargement(time: float, before: Grid, after: Grid) -> str:
     """One line of the log of enlargements; the time is the first on the larger grid [s].
 
-    Examples
-    --------
     >>> small = Grid((32, 16), (2e-3, 1e-3))
     >>> enlargement(1.5, small, small.widened((48, 16)))
     't = 1.5 s: from 32 x 16 cells on 2 mm x 1 mm to 48 x 16 cells on 3 mm x 1 mm'

@@ -16,14 +16,7 @@ _TYPES = {"title_block": dict, "measured": dict, "input_files": list, "case_as_t
 
 @dataclass(frozen=True)
 class FiledCase:
-    """Contents of a case file that a result keeps; empty for a run from Python.
-
-    Examples
-    --------
-    >>> kept = FiledCase(title_block={"project": "P-7"})
-    >>> FiledCase.of(kept.attributes).title_block
-    {'project': 'P-7'}
-    """
+    """Contents of a case file that a result keeps; empty for a run from Python."""
 
     #: Entries of the section `report`, by name.
     title_block: Mapping[str, str] = field(default_factory=dict)
@@ -65,13 +58,7 @@ def _content(attributes: Mapping[str, Any], name: str, kind: type) -> Any:
 
 
 def started_at(attributes: Mapping[str, Any]) -> str:
-    """Date and time of the start of a run, local with its offset and in UTC; empty if unknown.
-
-    >>> started_at({"started": "2026-03-01T00:30:05+00:00"})
-    '2026-03-01 00:30:05 UTC'
-    >>> started_at({"started": "2026-03-01T00:30:05+01:00"})
-    '2026-03-01 00:30:05 +01:00 (2026-02-28 23:30:05 UTC)'
-    """
+    """Date and time of the start of a run, local with its offset and in UTC; empty if unknown."""
     try:
         moment = datetime.fromisoformat(str(attributes.get("started", "")))
     except ValueError:

@@ -24,13 +24,8 @@ MESH_MARK = "mesh"
 
 
 def format_with_error(value: float, error: float, units: str) -> str:
-    """Format a value with its error, both in SI, and its unit.
+    """Format a value with its error, both in SI, and its unit; NaN unknown, inf mesh-dependent.
 
-    The error is the half width of the error bar: NaN where it is not known, inf where the value
-    depends on the mesh.
-
-    Examples
-    --------
     >>> format_with_error(57.634e-6, 0.149e-6, "m2"), format_with_error(152.2e6, math.inf, "Pa")
     ('57.63 ± 0.15 mm²', '>152.2 MPa (depends on the mesh)')
     """
@@ -45,8 +40,6 @@ def format_with_error(value: float, error: float, units: str) -> str:
 def format_bounded(value: float, error: float, units: str) -> str:
     """Format a value without its error, with ``>`` in front if it depends on the mesh; all in SI.
 
-    Examples
-    --------
     >>> [format_bounded(152.2e6, error, "Pa") for error in (5e6, math.nan, math.inf)]
     ['152.2 MPa', '152.2 MPa', '>152.2 MPa']
     """
@@ -57,10 +50,6 @@ def format_bounded(value: float, error: float, units: str) -> str:
 def format_with_error_in(unit: ReadableUnit, value: float, error: float) -> str:
     """Format a value with its error, both in SI, in the unit of a table.
 
-    A negligible error is left out; a value that depends on the mesh has ``>`` in front.
-
-    Examples
-    --------
     >>> table = readable_unit("m", 0.08)
     >>> [format_with_error_in(table, 0.0576344, error) for error in (0.000149, 0.0, math.inf)]
     ['57.63 ± 0.15', '57.63', '>57.63']
@@ -81,15 +70,7 @@ def format_scalar(ds: Result, name: str, index: int) -> str:
 
 
 def format_supported(value: float, error: float, digits: int = _DIGITS) -> str:
-    """Format a number down to the second digit of its error, in the same unit.
-
-    Examples
-    --------
-    >>> format_supported(152.234, 4.6), format_supported(152.234, 46.0)
-    ('152.2', '152')
-    >>> format_supported(152.234, math.inf), format_supported(0.3, 20.0)
-    ('>152.2', '0')
-    """
+    """Format a number down to the second digit of its error, in the same unit."""
     if math.isnan(value) or math.isnan(error) or error <= 0:
         return format_number(value, digits)
     if math.isinf(error):
@@ -102,26 +83,14 @@ def format_supported(value: float, error: float, digits: int = _DIGITS) -> str:
 
 
 def format_error(error: float) -> str:
-    """Format the half width of an error bar with two significant digits.
-
-    Examples
-    --------
-    >>> [format_error(error) for error in (0.4567, 107.0, 0.0, math.nan, math.inf)]
-    ['±0.46', '±110', '±0', '±?', 'mesh']
-    """
+    """Format the half width of an error bar with two significant digits."""
     if not math.isfinite(error):
         return "±?" if math.isnan(error) else MESH_MARK
     return "±0" if error == 0 else f"±{format_number(_rounded(error), _ERROR_DIGITS)}"
 
 
 def format_percent(part: float) -> str:
-    """Format a part of a whole [-] in per cent, with two significant digits.
-
-    Examples
-    --------
-    >>> [format_percent(part) for part in (0.00312, 0.127, 1e-7, 2.0, math.inf)]
-    ['0.31 %', '13 %', '<0.01 %', '200 %', 'mesh']
-    """
+    """Format a part of a whole [-] in per cent, with two significant digits."""
     if math.isinf(part):
         return MESH_MARK
     percent = 100 * part
@@ -133,8 +102,6 @@ def format_percent(part: float) -> str:
 def format_bound(part: float) -> str:
     """Format an upper bound on a part of a whole [-] in per cent.
 
-    Examples
-    --------
     >>> format_bound(0.0031), format_bound(1e-9)
     ('at most 0.31 %', 'below 0.01 %')
     """

@@ -20,11 +20,9 @@ from viscontact.units.formatting import format_quantity
 def write_history(
     ds: xr.Dataset, file: IO[str], points: Sequence[tuple[float, float]] = ()
 ) -> None:
-    """Write all scalars of a result and their errors in SI units with every digit.
-
-    A row is an instant, or a speed in steady motion. Behind them are the margins to the allowable
-    values, and the pressure at some points (x, y) [m], empty where no fields are stored.
-    """
+    """Write all scalars of a result and their errors in SI units with every digit."""
+    # A row is an instant, or a speed in steady motion. Behind them are the margins to the allowable
+    # values, and the pressure at some points (x, y) [m], empty where no fields are stored.
     writer = csv.writer(file, lineterminator="\n")
     further = {**_margins(ds), **_pressures(ds, points)}
     writer.writerow([*_header(ds), *further])

@@ -12,15 +12,7 @@ from viscontact.results.variables import Place, error_name, shown_in
 
 
 def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Largest magnitudes of a scalar over time or speed, and their errors, for each run.
-
-    Both are NaN for a run without a result; the error is NaN if it is unknown.
-
-    >>> force = (("run", "time"), [[1.0, -3.0], [np.nan, np.nan]])
-    >>> ds = xr.Dataset({"state": ("run", ["done", "failed"]), "force": force})
-    >>> largest_values(ds, "force")[0].values
-    array([ 3., nan])
-    """
+    """Largest magnitudes of a scalar in each run, and their errors; NaN without result or error."""
     along = str(ds[name].dims[-1])  # time, speed or step
     size = abs(ds[name])
     at = size.fillna(-1.0).argmax(along)

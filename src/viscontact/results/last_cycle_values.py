@@ -87,10 +87,7 @@ def last_cycle(ds: xr.Dataset, *, least: int = 2) -> LoadCycle | None:
 
 
 def worst_places(ds: xr.Dataset, name: str, shown: int) -> dict[str, Any]:
-    """Indices of the extremes in the last `cycle`, and of the `largest` of the run; None if none.
-
-    The largest is left out if it hardly exceeds the value at `shown` or those of the cycle.
-    """
+    """Indices of the extremes in the last `cycle`, and of the notable `largest`; None if none."""
     if not run_axis(ds).is_history:
         return {"cycle": None, "largest": None}
     cycle = last_cycle(ds)

@@ -35,27 +35,11 @@ class PeakStress:
 def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
     """Return the largest stress on the two vertical planes through the largest pressure of a run.
 
-    ValueError, with the reason, where the fields of that instant or speed are not stored, or the
-    stresses are not known.
-
-    Notes
-    -----
-    Stresses are those of a pressure that is constant in each cell. The error is the sum of the
-    relative error of the peak pressure, to which stresses are proportional, the change of the
-    stress on cells of twice the size, and that between the depths of the search.
-
-    Examples
-    --------
-    Below a ball on a body of ν = 0.3 it is 0.62 of the peak pressure, at 0.48 radii of the contact:
-
-    >>> import viscontact as vc
-    >>> steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
-    >>> grid = vc.Grid((48, 48), (0.6e-3, 0.6e-3))
-    >>> ds = vc.simulate(vc.Paraboloid(0.01, 0.01), steel, vc.step(100.0), grid, [0.0])
-    >>> found = peak_stress(ds, "von_mises")
-    >>> round(found.value / float(ds.peak_pressure[0]), 2)
-    0.62
+    ValueError, with the reason, where that instant has no stored fields, or no known stresses.
     """
+    # The error is the sum of the relative error of the peak pressure, to which stresses are
+    # proportional, the change of the stress on cells of twice the size, and that between the depths
+    # of the search.
     peaks = np.nan_to_num(ds["peak_pressure"].values)
     row = first_largest(peaks)
     place = float(run_axis(ds).values(ds)[row])

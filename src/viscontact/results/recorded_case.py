@@ -52,10 +52,8 @@ def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float
 
 
 def recorded_grid(results: Result) -> Grid:
-    """Grid of a result: shape, size and centre from its coordinates, periodic as in its case.
-
-    The length of a single cell, which coordinates do not show, is that of the case.
-    """
+    """Grid of a result: shape, size and centre from its coordinates, periodic as in its case."""
+    # Coordinates do not show the length of a single cell.
     x, y = results["x"].values, results["y"].values
     recorded = case_of(results).get("grid") or {}
     along, across = (
@@ -115,11 +113,8 @@ def is_prescribed(ds: Result, name: str) -> bool:
 
 
 def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
-    """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
-
-    ValueError, naming the figure that needs it, if the result has no case, or only a fingerprint
-    of a large part.
-    """
+    """Rebuild a part of the recorded case, such as "indenter"; None where the case has none."""
+    # A large part is recorded by its fingerprint only.
     if "case" not in results.attrs:
         raise ValueError(
             f"{figure}: needs to know the {part} of the case, but the result has no attribute "

@@ -15,8 +15,6 @@ from viscontact.results.run_axis import run_axis
 def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
     """Axis along which the body of a result moves farther, None for a standing contact.
 
-    That of a steady motion is recorded.
-
     >>> moved = xr.Dataset({"position_x": ("time", [0.0, 0.0]), "position_y": ("time", [0.0, 1.0])})
     >>> motion_axis(moved), motion_axis(xr.Dataset())
     ('y', None)
@@ -34,8 +32,6 @@ def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
 def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None:
     """Direction (x, y) in which the body arrives at an instant [s], of length 1; None at rest.
 
-    At the first instant it is that in which it leaves; in steady motion that of the motion.
-
     >>> moved = xr.Dataset(
     ...     {"position_x": ("time", [0.0, 0.0, 0.0]), "position_y": ("time", [0.0, -2.0, -2.0])},
     ...     {"time": [0.0, 1.0, 2.0]},
@@ -43,6 +39,7 @@ def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None
     >>> [direction_at(moved, time) for time in (0.0, 1.0, 2.0)]
     [(0.0, -1.0), (0.0, -1.0), None]
     """
+    # At the first instant it is that in which it leaves; in steady motion that of the motion.
     axis = motion_axis(results)
     if axis is None:
         return None

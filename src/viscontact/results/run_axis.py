@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 class RunAxis:
     """Quantity in which the states of a run differ.
 
-    Examples
-    --------
     >>> TIME.place(2.0), SPEED.place(0.5)
     ('t = 2 s', '500 mm/s')
     """
@@ -65,8 +63,6 @@ RUN_AXES: dict[str, RunAxis] = {axis.name: axis for axis in (TIME, SPEED)}
 def run_axis(results: Result) -> RunAxis:
     """Return the axis of a result.
 
-    Examples
-    --------
     >>> import xarray as xr
     >>> run_axis(xr.Dataset({"force": ("speed", [1.0])})).row
     'speed'
@@ -75,10 +71,8 @@ def run_axis(results: Result) -> RunAxis:
 
 
 def in_order(results: xr.Dataset) -> xr.Dataset:
-    """Return a result over speed from the slowest to the fastest; others as they are.
+    """Return a result over speed from the slowest to the fastest; others unchanged.
 
-    Examples
-    --------
     >>> import xarray as xr
     >>> fast_first = xr.Dataset({"force": ("speed", [1.0, 2.0])}, {"speed": [3.0, 0.5]})
     >>> in_order(fast_first)["force"].values.tolist()
@@ -94,8 +88,6 @@ def in_order(results: xr.Dataset) -> xr.Dataset:
 def require_time(results: xr.Dataset, figure: str) -> None:
     """Raise ValueError for a result of steady motion, which has nothing over time.
 
-    Examples
-    --------
     >>> import xarray as xr
     >>> require_time(xr.Dataset({"force": ("speed", [1.0])}), "history")
     Traceback (most recent call last):
@@ -111,12 +103,8 @@ draw friction, motion-profile, pressure-map or pressure-profile
 
 
 def law_times(results: xr.Dataset) -> Floats:
-    """Times at which the law of a run's material matters [s].
+    """Times at which a run's law matters [s]: of its states, or of the passage in steady motion.
 
-    Those of its states; in steady motion those in which the contact is passed.
-
-    Examples
-    --------
     >>> import xarray as xr
     >>> passed = {"contact_width": ("speed", [0.02, 0.01])}
     >>> law_times(xr.Dataset(passed, {"speed": [1.0, 2.0]}, {"along": "y"})).tolist()

@@ -25,16 +25,13 @@ WITH_DATUM = ("approach", "work", "loss_per_cycle", "dissipation", "heat")
 def is_long(ds: Result) -> bool:
     """Test for a contact that is at least three widths long along x when it is largest.
 
-    One that continues through the only period of a grid has no end.
-
-    Examples
-    --------
     >>> import xarray as xr
     >>> sizes = {"contact_area": [0.0, 5.0], "contact_length": [0.0, 6.0]}
     >>> run = xr.Dataset({name: ("time", each) for name, each in sizes.items()})
     >>> [is_long(run.assign(contact_width=("time", [0.0, width]))) for width in (1.0, 3.0)]
     [True, False]
     """
+    # One that continues through the only period of a grid has no end.
     largest = int(np.nan_to_num(ds["contact_area"].values).argmax())
     length, width = (float(ds[f"contact_{name}"][largest]) for name in ("length", "width"))
     if across_period(ds) == "y" and length >= recorded_grid(ds).size[0]:
@@ -52,8 +49,6 @@ def is_shown(ds: Result, name: str) -> bool:
 def lacks_datum(ds: Result) -> bool:
     """Test for a line contact, whose approach has no datum.
 
-    Examples
-    --------
     >>> import xarray as xr
     >>> [lacks_datum(xr.Dataset({"approach": ("time", [one])})) for one in (np.nan, 1e-6)]
     [True, False]

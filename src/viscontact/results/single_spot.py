@@ -21,15 +21,8 @@ def ends_in_one_spot(stored: StoredResult) -> bool:
 
 
 def is_one_spot(contact: Bools) -> bool:
-    """True if each line of a region is one piece, and next to that of the next line.
-
-    Such a region is a single spot; another one may be.
-
-    >>> is_one_spot(np.array([[True, True, False], [False, True, True]]))
-    True
-    >>> is_one_spot(np.array([[True, False, True]]))
-    False
-    """
+    """True if each line of a region is one piece, and next to that of the next line."""
+    # Such a region is a single spot; another one may be.
     lines = np.flatnonzero(contact.any(axis=1))
     if not lines.size or lines.size != lines[-1] - lines[0] + 1:
         return False

@@ -69,8 +69,6 @@ class Snapshot:
     def with_border(self, cells: int) -> Snapshot:
         """The same fields with more cells at each border: next periods, or open cells.
 
-        Examples
-        --------
         >>> at = np.array([-1.5, -0.5, 0.5, 1.5])
         >>> pressure = np.arange(16.0).reshape(4, 4)
         >>> period = Snapshot(0.0, at, at, pressure, 0 * pressure, pressure != 0, periodic=True)
@@ -97,12 +95,9 @@ class Snapshot:
     def section(
         self, along: Literal["x", "y"] = "x", at: float | None = None
     ) -> tuple[Floats, Floats]:
-        """Cell centres [m] and pressure [Pa] on a line parallel to an axis.
-
-        It crosses the other axis at `at` [m], by default in the middle of the grid. Between two
-        rows of cells the pressure is interpolated linearly: on an even grid the line through the
-        middle takes the mean of the two middle rows.
-        """
+        """Cell centres [m] and pressure [Pa] on a line that crosses the other axis at `at` [m]."""
+        # Between two rows of cells the pressure is interpolated linearly: on an even grid the line
+        # through the middle, the default, takes the mean of the two middle rows.
         return self._line(self.pressure, along, at)
 
     def contact_section(

@@ -44,12 +44,9 @@ def field_times(results: xr.Dataset, figure: str) -> Floats:
 def take_snapshots(
     results: xr.Dataset, times: ArrayLike | None, figure: str, *, count: int = 5
 ) -> list[Snapshot]:
-    """Fields at the stored instants nearest to those requested [s].
-
-    By default the first instant in contact, the last one, and some in between that are spread
-    evenly on a logarithmic scale until the contact area is final. In steady motion speeds [m/s],
-    from the slowest to the fastest.
-    """
+    """Fields at the stored instants [s], or speeds [m/s], nearest to those requested."""
+    # By default the first instant in contact, the last one, and some in between that are spread
+    # evenly on a logarithmic scale until the contact area is final.
     stored, axis = field_times(results, figure), run_axis(results)
     if times is not None:
         chosen = _nearest(stored, times, figure, axis)

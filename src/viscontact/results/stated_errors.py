@@ -31,12 +31,8 @@ _USUAL_STRAIN = 1e-3
 
 
 def stated_error(results: Result, name: str) -> Floats | None:
-    """Half widths of the error bars of a scalar over time, in its unit; None if none are stated.
+    """Half widths of a scalar's error bars over time; None if not stated, NaN unknown, inf mesh.
 
-    NaN where the error is not known, inf where the value depends on the mesh.
-
-    Examples
-    --------
     >>> import xarray as xr
     >>> run = xr.Dataset({"approach": ("time", [1e-5]), "approach_error": ("time", [1e-7])})
     >>> stated_error(run, "approach"), stated_error(run, "force")
@@ -55,8 +51,6 @@ def errors_of(ds: Result, name: str) -> Floats:
 def mesh_dependent(results: Result, name: str) -> Bools:
     """Instants at which a scalar depends on the mesh, as booleans.
 
-    Examples
-    --------
     >>> import xarray as xr
     >>> run = xr.Dataset({"force": ("time", [1.0, 2.0]), "force_error": ("time", [0.0, np.inf])})
     >>> mesh_dependent(run, "force").tolist()
@@ -73,15 +67,12 @@ def mesh_dependent(results: Result, name: str) -> Bools:
 def drawn_values(results: Result, name: str) -> Floats:
     """Values of a scalar for a curve over time: NaN where it depends on the mesh.
 
-    All are NaN if only zeros, as without contact, would remain.
-
-    Examples
-    --------
     >>> import xarray as xr
     >>> peak = {"p": ("time", [0.0, 2.0, 3.0]), "p_error": ("time", [0.0, np.inf, 0.1])}
     >>> drawn_values(xr.Dataset(peak), "p"), drawn_values(xr.Dataset(peak).isel(time=[0, 1]), "p")
     (array([ 0., nan,  3.]), array([nan, nan]))
     """
+    # All are NaN if only zeros, as without contact, would remain.
     values = np.asarray(results[name].values, dtype=np.float64)
     marked = mesh_dependent(results, name)
     drawn = np.where(marked, np.nan, values)
@@ -107,8 +98,6 @@ class LargestError:
 def largest_error(ds: Result, name: str) -> LargestError | None:
     """Return the largest error bar of a scalar.
 
-    Examples
-    --------
     >>> import xarray as xr
     >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
     >>> largest_error(xr.Dataset(force, {"time": [0.0, 1.0]}), "force")
@@ -129,10 +118,8 @@ def largest_error(ds: Result, name: str) -> LargestError | None:
 
 
 def is_rounding(ds: Result, name: str) -> bool:
-    """Test for a scalar that is zero throughout, or of rounding size.
-
-    Tilts and eccentricities under a centred load are, and the resistance across the motion.
-    """
+    """Test for a scalar that is zero throughout, or of rounding size."""
+    # Tilts and eccentricities under a centred load are, and the resistance across the motion.
     if is_centred(ds, name):
         return True
     largest = _largest(ds[name].values)
@@ -161,16 +148,8 @@ def is_centred(ds: Result, name: str) -> bool:
 
 
 def is_rounding_tilt(tilt: ArrayLike, contact_length: ArrayLike, approach: ArrayLike) -> bool:
-    """Test for a tilt [rad] of rounding size, as a centred load leaves; NaN is ignored.
-
-    It then moves the ends of the longest contact [m] by less than a millionth of the largest
-    approach [m].
-
-    Examples
-    --------
-    >>> is_rounding_tilt([0.0, 1e-12], 5e-3, 1e-4), is_rounding_tilt([0.0, 1e-6], 5e-3, 1e-4)
-    (True, False)
-    """
+    """Test for a tilt [rad] of rounding size, as a centred load leaves; NaN is ignored."""
+    # It moves the ends of the longest contact by less than a millionth of the largest approach.
     return _largest(tilt) * _largest(contact_length) <= _ROUNDING_TILT * _largest(approach)
 
 

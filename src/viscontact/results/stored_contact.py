@@ -8,14 +8,7 @@ from viscontact.results.stored_result import Result
 
 
 def cells_in_contact(results: Result, rows: Any = ...) -> Any:
-    """Mask of the cells where the bodies touch, of some or all stored rows, as stored.
-
-    Results from before the mask was stored are without adhesion: in these, cells in contact are
-    those under pressure.
-
-    >>> import xarray as xr
-    >>> before = xr.Dataset({"pressure": (("time", "x", "y"), [[[0.0, 2.0]]])})
-    >>> cells_in_contact(before, 0).values.tolist()
-    [[False, True]]
-    """
+    """Mask of the cells where the bodies touch, of some or all stored rows, as stored."""
+    # Results from before the mask was stored are without adhesion: in these, cells in contact are
+    # those under pressure.
     return results["in_contact" if "in_contact" in results else "pressure"][rows] > 0

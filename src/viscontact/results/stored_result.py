@@ -41,8 +41,6 @@ class StoredVariable:
 class StoredResult:
     """Result file, with the attributes of an xarray.Dataset that tables use.
 
-    Examples
-    --------
     >>> import tempfile, xarray
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     xarray.Dataset({"force": ("time", [1.0, 2.0])}).to_netcdf(Path(folder) / "result.nc")

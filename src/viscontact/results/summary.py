@@ -37,8 +37,6 @@ _LEGEND = (
 def legend(ds: xr.Dataset) -> str:
     """Legend of the columns.
 
-    Examples
-    --------
     >>> legend(xr.Dataset({"force": ("speed", [1.0])}))[:41]
     '±: the error of each value at that speed '
     """
@@ -80,17 +78,7 @@ class SummaryRow:
 
 
 def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
-    """Rows of the summary: one for each scalar of a result that is more than rounding.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), vc.Grid((64, 64), (2e-3, 2e-3)))
-    >>> row = next(row for row in summary_rows(ds) if row.name == "force")
-    >>> row.title, row.unit, row.last
-    ('force', 'mN', '100.0')
-    """
+    """Rows of the summary: one for each scalar of a result that is more than rounding."""
     return [_row(ds, name) for name in summary_scalars(ds)]
 
 
@@ -129,12 +117,9 @@ def _largest_error(
 
 
 def headline(ds: xr.Dataset) -> str:
-    """The result in words: the contact at the end, or when largest if it is lost by then.
-
-    Under a cyclic load the last whole cycle comes first. The largest peak pressure follows where it
-    exceeds that of the sentence. In steady motion the largest friction coefficient, and the contact
-    at its speed.
-    """
+    """The result in words: the contact at the end, or when largest if it is lost by then."""
+    # Under a cyclic load the last whole cycle comes first. The largest peak pressure follows where
+    # it exceeds that of the sentence. In steady motion: the largest friction coefficient.
     if not run_axis(ds).is_history:
         return _headline_over_speed(ds)
     instants, area = ds["time"].values, ds["contact_area"].values

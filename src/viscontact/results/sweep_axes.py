@@ -27,12 +27,7 @@ def over_of(ds: xr.Dataset) -> str:
 
 
 def varied_keys(ds: xr.Dataset) -> list[str]:
-    """Coordinates of a sweep, or its cases, of which there are several values.
-
-    >>> ds = xr.Dataset({"state": ("F", ["done", "done"])}, {"F": [1.0, 2.0], "G": ("F", [5, 5])})
-    >>> varied_keys(ds)
-    ['F']
-    """
+    """Coordinates of a sweep, or its cases, of which there are several values."""
     dims = set(run_dims(ds))
     names = [str(name) for name in ds.coords if ds[name].dims and set(ds[name].dims) <= dims]
     return [name for name in names if name not in _NO_KEYS and np.unique(ds[name]).size > 1]

@@ -12,12 +12,8 @@ _MOST_LISTED = 8
 
 
 def typed_rows(section: Any, owner: str = "") -> Iterator[tuple[str, str]]:
-    """Yield names and texts of the values of a section, with those of the sections in it.
+    """Yield names, as those of `argument_rows`, and texts of the values of a nested section.
 
-    Names are those of `argument_rows`, so that both can be compared.
-
-    Examples
-    --------
     >>> crown = {"kind": "johns-gohar", "force": "500 N"}
     >>> list(typed_rows({"half_length": "8 mm", "profile": crown}))
     [('half length', '8 mm'), ('profile', 'johns-gohar'), ('profile force', '500 N')]

@@ -212,11 +212,7 @@ NOT_STEADY = (
 
 
 def scalars_of(*, moving: bool, over: str = "time") -> dict[str, Variable]:
-    """Scalars of a result over time or speed: those without motion, or all for a moving contact.
-
-    >>> set(SCALARS) - set(scalars_of(moving=False)) >= {"position_x", "resistance_x", "heat"}
-    True
-    """
+    """Scalars of a result over time or speed: those without motion, or all for a moving contact."""
     left_out = NOT_STEADY if over == "speed" else ()
     return {
         name: each
@@ -240,10 +236,8 @@ REQUIRED = (
 
 
 def shown_in(place: Place, stored: Container[Hashable] | None = None) -> list[str]:
-    """Names of the scalars that are shown in a place, in its order; of those of a result, if given.
+    """Names of the scalars shown in a place, in its order; of those of a result, if given.
 
-    Examples
-    --------
     >>> shown_in(Place.LIVE), shown_in(Place.LIVE, {"approach"})
     (['contact_area', 'approach', 'peak_pressure', 'friction_coefficient'], ['approach'])
     """
@@ -294,8 +288,6 @@ ERRORS = {
 def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     """Attributes of a scalar, with CF's pointer to its error if the result has errors.
 
-    Examples
-    --------
     >>> scalar_attributes("force", errors=True)["ancillary_variables"]
     'force_error'
     """

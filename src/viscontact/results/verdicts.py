@@ -51,9 +51,7 @@ class Verdict:
 
     @property
     def margin(self) -> float:
-        """Part of the limit that the value with its error leaves, (a - v - e) / a.
-
-        NaN without a value or a known error, -inf if the value depends on the mesh.
+        """Part of the limit left by value and error, (a - v - e) / a; NaN unknown, -inf mesh.
 
         >>> Verdict("force", 10.0, "passed", 7.0, 1.0).margin
         0.2
@@ -77,18 +75,9 @@ class Verdict:
 
 
 def verdicts(ds: xr.Dataset) -> list[Verdict]:
-    """Return the verdicts of a result on the allowable values of its case.
-
-    Those of the finished run if it states them; else they are computed, and what has passed so far
-    is undecided.
-
-    Examples
-    --------
-    >>> size = {"force": ("time", [4.0, 6.0]), "force_error": ("time", [0.1, 0.1])}
-    >>> run = xr.Dataset(size, {"time": [0.0, 1.0]}, {"allowable": '{"force": {"limit": 6.05}}'})
-    >>> [(each.verdict, each.found, each.reason) for each in verdicts(run)]
-    [('undecided', '6.00 ± 0.10 N', 'the limit lies within the error')]
-    """
+    """Return the verdicts of a result on the allowable values of its case."""
+    # A finished run may state them; else they are computed, and what has passed so far is
+    # undecided.
     given = _given(ds)
     if all("verdict" in each for each in given.values()):
         return [_read(name, each) for name, each in given.items()]
@@ -126,11 +115,9 @@ def verdict_attribute(found: Sequence[Verdict]) -> str:
 
 
 def verdict_on(ds: xr.Dataset, name: str, limit: float) -> Verdict:
-    """Compare the largest magnitude of a scalar or of a stress over a run with its limit.
-
-    It has passed if all magnitudes with their errors are within the limit, and failed if one of
-    them less its error is beyond it, or one that depends on the mesh: smaller cells give more.
-    """
+    """Compare the largest magnitude of a scalar or of a stress over a run with its limit."""
+    # Passed if all magnitudes with their errors are within the limit, failed if one of them less
+    # its error is beyond it, or one that depends on the mesh: smaller cells give more.
     if name in STRESSES:
         return _on_stress(ds, name, limit)
     if name not in ds:
@@ -140,11 +127,7 @@ def verdict_on(ds: xr.Dataset, name: str, limit: float) -> Verdict:
 
 
 def overall(found: Sequence[Verdict]) -> Outcome | None:
-    """Return the worst of some verdicts; None without any.
-
-    >>> overall([Verdict("force", 1.0, "passed"), Verdict("work", 1.0, "undecided")])
-    'undecided'
-    """
+    """Return the worst of some verdicts; None without any."""
     outcomes = [each.verdict for each in found]
     order: tuple[Outcome, ...] = ("failed", "undecided", "passed")
     return next((each for each in order if each in outcomes), None)
