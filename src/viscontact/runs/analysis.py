@@ -149,11 +149,7 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
         issued: Sequence[str],
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:
-        """Errors of the scalars after the last step, from coarser runs.
-
-        The run has ended on a grid, and has issued warnings. `on_step` is called after each step of
-        a coarser run; its exceptions end the estimate.
-        """
+        """Errors of the scalars, from coarser runs; `on_step` may end them by an exception."""
 
     @abstractmethod
     def error_bars_so_far(self, states: OfStates, history: History) -> ErrorBars:
@@ -224,9 +220,6 @@ def plain_case(described: Mapping[str, Any], fields: KeptFields, *, errors: bool
 
 
 def fits_single_precision(problem: Problem, late: float) -> bool:
-    """True if pressures are far from the ends of single precision's range, 1e-38 to 3e38 Pa.
-
-    `late` is a time at which the material has crept [s].
-    """
+    """True if pressures fit into single precision, 1e-38 to 3e38 Pa, until a `late` time [s]."""
     compliance, level = float(problem.compliance(late)), problem.load.largest_level
     return 1e-20 <= compliance <= 1e10 and 1e-25 <= level <= 1e15

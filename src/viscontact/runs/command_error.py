@@ -8,10 +8,7 @@ from viscontact.runs.processes.request import REFUSED, STOPPED
 
 
 class CommandError(Exception):
-    """End of a command with an exit code, and the lines that `main` prints on stderr.
-
-    `resumable`: its run goes on from where it stopped, once the cause is corrected.
-    """
+    """End of a command: exit code and lines for stderr; `resumable` if its run can go on."""
 
     def __init__(self, code: int, lines: tuple[str, ...], *, resumable: bool = False) -> None:
         super().__init__("; ".join(lines))

@@ -43,7 +43,6 @@ def predicted_warnings(
     """Warnings about the material, the steps and the estimated contact of a run, by kind.
 
     The estimate is None without a load; `compliance` is the one that it was made with [1/Pa].
-    Warnings about a given mesh are not included.
     """
     warnings = setup_warnings(run) | _range_warnings(run.problem) | _step_warnings(run.problem)
     return warnings if estimate is None else warnings | _contact_warnings(run, estimate, compliance)
@@ -71,10 +70,8 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
 def _corner_warnings(
     run: RunSetup, geometry: Geometry, found: ContactEstimate, compliance: float
 ) -> dict[str, str]:
-    """Warning about a peak at a corner, on cells at most four times finer than the estimate's.
-
-    An estimate on far coarser cells than the run's says little about the peak.
-    """
+    """Warning about a peak at a corner, on cells at most four times finer than the estimate's."""
+    # An estimate on far coarser cells than the run's says little about the peak.
     coarse = found.rim.grid.cell_size
     finest = tuple(max(own, each / 4) for own, each in zip(run.grid.cell_size, coarse, strict=True))
     grid = replace(run.grid, size=(finest[0] * run.grid.shape[0], finest[1] * run.grid.shape[1]))

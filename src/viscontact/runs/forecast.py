@@ -44,21 +44,7 @@ class Forecast:
 
 
 def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
-    """Return the forecast of a checked run; `errors` adds the time of its coarser runs.
-
-    ValueError if the coarse solve finds no contact that can carry the load.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> from viscontact.mechanics.problem.problem import Problem
-    >>> from viscontact.simulation.transient.setup import prepare_run
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> grid = vc.Grid((64, 64), (2e-3, 2e-3))
-    >>> run = prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(0.1), grid))
-    >>> round(forecast(run).estimate.length / 2 * 1e3, 1)  # Hertz: (3 W R / (16 G))**(1/3) mm
-    0.6
-    """
+    """Forecast a checked run, with coarser runs if `errors`; ValueError without contact."""
     time, point = run.problem.largest_load
     compliance, named = _representative_compliance(run.problem, time)
     if point.level > 0:

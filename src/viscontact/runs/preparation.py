@@ -32,11 +32,8 @@ class PreparedRun:
 def prepared(
     case: Case, threads: int = 1, memory: float | None = None, *, roughly: bool = False
 ) -> PreparedRun:
-    """Set up the run of a case, on some threads of one Fourier transform.
-
-    The events of a load program are found; `roughly` on few cells and steps, for a forecast.
-    CaseError if it cannot be run, or needs more than some memory [bytes]; by default what is free.
-    """
+    """Set up the run of a case, `roughly` for a forecast; CaseError if it needs too many bytes."""
+    # The events of a load program are found.
     available = available_memory() if memory is None else memory
     if isinstance(case.grid, Grid):  # before arrays of its size are allocated
         even = True, True  # as it may turn out to be

@@ -12,8 +12,6 @@ def progress_made(
 ) -> str:
     """Describe the progress of a run, with times in seconds.
 
-    Examples
-    --------
     >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
     '2 of 3 instants'
     """

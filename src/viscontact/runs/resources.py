@@ -72,14 +72,14 @@ def needed_memory(
     """Memory of a run without the scalars of its steps [bytes]; allocates no arrays.
 
     `fields_kept` counts the stored fields of pressure, and as many of displacement: one for each
-    exponential term of the contact compliance, or one for each step. A body that is even across
-    x = 0, or y = 0 (`mirrored`) needs less; `further` counts other arrays of the computed cells.
+    exponential term of the contact compliance, or one for each step; `further` other arrays.
 
     >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
     390
     >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), 2, mirrored=(True, True)) / 1e6)
     284
     """
+    # A body that is even across x = 0, or y = 0 (`mirrored`), needs less.
     share = 0.5 ** sum(mirrored)
     arrays = further + ARRAYS_PER_TERM * fields_kept
     if any(mirrored):
@@ -108,9 +108,7 @@ def least_memory(
 
 
 def fitting(needs: Iterable[float], available: float) -> int:
-    """Number of runs, in any choice, that fit into memory at once; needs and memory in bytes.
-
-    0 if the largest does not fit alone.
+    """Number of runs that fit into memory [bytes] in any choice; 0 if the largest does not.
 
     >>> fitting([1e8, 2e8, 1.5e8], available=4e8)
     2

@@ -23,10 +23,8 @@ _CALLER = 3
 
 
 def solve(run: Analysis[Any, Any], progress: Progress | None = None) -> xr.Dataset:
-    """Compute all states of a run and the errors of their scalars, and return the result.
-
-    ConvergenceError and DomainError of its states carry the result so far as `partial`.
-    """
+    """Compute the states and errors of a run as a data set."""
+    # ConvergenceError and DomainError of its states carry the result so far as `partial`.
     started = clock.perf_counter()
     loop, states = run.states(), list[ContactState]()
     keep, axis = frozenset(run.fields.among(run.places, run.axis.name).tolist()), run.axis.name

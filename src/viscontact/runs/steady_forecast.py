@@ -20,10 +20,7 @@ AT_A_SPEED, SPEED_OVERHEAD = 150.0, 0.05
 
 
 def steady_forecast(run: SteadySetup, *, errors: bool) -> Forecast:
-    """Return the forecast of a checked run; its contact is that of the slowest speed.
-
-    ValueError if the coarse solve finds no contact that can carry the load.
-    """
+    """Forecast a checked run by the contact at the slowest speed; ValueError without contact."""
     speed = float(run.problem.speeds.min())
     found, grid = _estimate(run, speed), run.grids[int(run.problem.speeds.argmin())]
     extents, reach = (found.length, found.width), found.reach_from(grid.centre)

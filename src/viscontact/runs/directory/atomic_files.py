@@ -26,10 +26,8 @@ def flush_to_disk(path: Path) -> None:
 
 
 def flush_directory(directory: Path) -> None:
-    """Wait until the names in a directory are on the disk, where the system has a call for that.
-
-    Windows does so by itself; some network file systems refuse the call.
-    """
+    """Wait until the names in a directory are on the disk, where the system has a call for that."""
+    # Windows does so by itself; some network file systems refuse the call.
     if os.name == "nt":
         return
     descriptor = os.open(directory, os.O_RDONLY)
@@ -45,8 +43,7 @@ def flush_directory(directory: Path) -> None:
 def put_in_place(fresh: Path, path: Path, check: LockCheck = never_lost) -> None:
     """Replace a file by a closed one on the same file system, atomically and durably.
 
-    PermissionError on Windows, while a program has the old file open; LockLost, and no
-    replacement, if the check of the directory's lock raises that.
+    PermissionError on Windows, while a program has the old file open; LockLost of the check.
     """
     flush_to_disk(fresh)
     check()

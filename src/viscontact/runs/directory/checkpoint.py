@@ -51,10 +51,7 @@ def is_checkpoint(path: Path) -> bool:
 
 
 def load_checkpoint(path: Path) -> Checkpoint:
-    """Load a checkpoint, equal to the saved one to the last bit.
-
-    ValueError if the file is damaged, of another origin, or of another version.
-    """
+    """Load a checkpoint to the last bit; ValueError if damaged, or of another origin or version."""
     try:
         with path.open("rb") as file:
             saved = read_plain(file)

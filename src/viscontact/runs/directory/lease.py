@@ -41,16 +41,11 @@ class LeaseHeld(Exception):  # noqa: N818 - a state of the directory, no fault
 class Lease(AbstractContextManager["Lease"]):
     """Lease of an existing directory, renewed by a thread until it is released.
 
-    A lease that another process has left is watched for its duration, by the clock of this
-    machine. LeaseHeld as soon as it is renewed; OSError if the directory may not be written to, or
-    its file system has no hard links.
-
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder, Lease(Path(folder)) as lease:
-    ...     lease.check()
-    ...     [file.name for file in Path(folder).iterdir()]
-    ['.lock']
+    LeaseHeld as soon as another process renews its own; OSError if the directory may not be
+    written to, or its file system has no hard links.
     """
+
+    # A lease left by another process is watched for its duration, by the clock of this machine.
 
     def __init__(self, directory: Path, duration: float = DURATION) -> None:
         self._directory, self._duration = directory, duration

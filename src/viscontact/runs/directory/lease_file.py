@@ -21,12 +21,7 @@ _TOKEN = re.compile("[0-9a-f]{32}")
 
 @dataclass(frozen=True)
 class LeaseFile:
-    """Contents of a lease file, as they were read.
-
-    Its lines are the process and its machine, a random token, the duration [s], the mark of the
-    process, and the number of renewals. A file of other contents counts as a lease, too, which is
-    never renewed.
-    """
+    """Contents of a lease file; one of other contents counts as a lease that is never renewed."""
 
     path: Path
     text: str
@@ -66,11 +61,7 @@ class LeaseFile:
 
 
 def header(token: str, owner: str, duration: float) -> str:
-    """Contents of a lease file of this process, without the number of renewals.
-
-    >>> header("0123", "4711 on node7", 60.0).splitlines()[:3]
-    ['4711 on node7', '0123', '60.0']
-    """
+    """Contents of a lease file of this process, without the number of renewals."""
     return f"{owner}\n{token}\n{duration}\n{process_mark(os.getpid())}\n"
 
 
@@ -114,10 +105,7 @@ def is_gone(lease: LeaseFile) -> bool:
 
 
 def process_mark(number: int) -> str:
-    """Mark of a process on Linux that no other has: start of the machine, process space, start.
-
-    The start is ``ended`` for a process that has ended; empty if the system does not tell.
-    """
+    """Unique mark of a Linux process: boot, process space, start or ``ended``; else empty."""
     try:
         boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
         space = Path("/proc/self/ns/pid").readlink()

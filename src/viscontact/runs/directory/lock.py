@@ -34,23 +34,13 @@ class DirectoryInUse(RuntimeError):  # noqa: N818 - a state of the directory, no
 def locked(directory: str | Path, lease_duration: float = DURATION) -> Iterator[LockCheck]:
     """Lock an existing directory against other runs during a block; yield the check of the lock.
 
-    The lock is the operating system's where a probe shows that it excludes all others: it ends
-    with its process, however that ends, and a file ``.lock`` that is left over locks nothing. On
-    other file systems it is a `Lease` of some duration [s], which another run takes over when its
-    holder has not renewed it for that time; the check then raises LockLost, so call it immediately
-    before each write. DirectoryInUse if another run, of this or another process, has locked the
-    directory; OSError if it may not be written to.
-
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder, locked(folder) as check:
-    ...     check()
-    ...     try:
-    ...         with locked(folder):
-    ...             pass
-    ...     except DirectoryInUse as error:
-    ...         "in use by another run" in str(error)
-    True
+    Call the check immediately before each write: it raises LockLost. DirectoryInUse if another run,
+    of this or another process, has locked it; OSError if the directory may not be written to.
     """
+    # The lock is the operating system's where a probe shows that it excludes all others: it ends
+    # with its process, however that ends, and a file ``.lock`` that is left over locks nothing. On
+    # other file systems it is a `Lease` of some duration [s], which another run takes over when its
+    # holder has not renewed it for that time.
     place = Path(directory)
     with ExitStack() as held:
         try:
@@ -71,11 +61,9 @@ def locked(directory: str | Path, lease_duration: float = DURATION) -> Iterator[
 
 
 def in_use(directory: Path) -> str:
-    """Message that another run has locked the directory; empty if none has. Never waits.
-
-    A lease of another machine counts by the time of its file. So two clocks that differ by more
-    than its duration make the message wrong; `locked` compares no clocks.
-    """
+    """Message that another run has locked the directory; empty if none has. Never waits."""
+    # A lease of another machine counts by the time of its file. So two clocks that differ by more
+    # than its duration make the message wrong; `locked` compares no clocks.
     if not (directory / LOCK_NAME).exists():
         return ""
     try:
@@ -108,10 +96,7 @@ def is_locked(directory: Path) -> bool:
 
 @contextmanager
 def _file_locked(directory: Path, patience: float = 0.0) -> Iterator[None]:
-    """Lock the file of a directory by the operating system.
-
-    Timeout if another has locked it for so long [s].
-    """
+    """Lock the file of a directory by the operating system; Timeout after some time [s]."""
     path = directory / LOCK_NAME
     # A lock by mere existence of a file would outlast its process.
     lock = FileLock(path, blocking=False, fallback_to_soft=False, on_acquired=_leave_name)

@@ -22,23 +22,16 @@ LOCAL = frozenset({
 
 
 def has_locks(directory: Path) -> bool:
-    """True if locks of files exclude every process that can reach a directory.
-
-    On a file system of several machines (NFS, Lustre, GPFS, SMB, FUSE and all unknown ones) locks
-    may hold within one machine only, which no probe on that machine can see. On other file systems
-    the locks are tried. OSError if the directory may not be written to.
-    """
+    """True if locks of files exclude all that reach a directory; OSError if it is read-only."""
+    # On a file system of several machines (NFS, Lustre, GPFS, SMB, FUSE and all unknown ones) locks
+    # may hold within one machine only, which no probe on that machine can see.
     if fcntl is None:  # locks of Windows are enforced by the server, too
         return True
     return file_system(directory) in LOCAL and _excludes(directory)
 
 
 def file_system(directory: Path) -> str:
-    """Kind of the file system of a directory; empty if the system does not report it.
-
-    >>> file_system(Path("nowhere").absolute() / "at all") == file_system(Path.cwd())
-    True
-    """
+    """Kind of the file system of a directory; empty if the system does not report it."""
     place, found, longest = f"{directory.resolve()}{os.sep}", "", 0
     for mounted in psutil.disk_partitions(all=True):
         mount = mounted.mountpoint.rstrip(os.sep) + os.sep

@@ -198,11 +198,8 @@ def read_scalars(file: netCDF4.Dataset) -> dict[str, Floats]:
 
 
 def described_fields(file: netCDF4.Dataset) -> dict[str, Any] | None:
-    """Describe the fields of a result as plain data; None without fields.
-
-    Results with equal descriptions store fields at the same instants [s], or speeds [m/s], on the
-    same grid: cells along an axis, with the first and the last centre [m].
-    """
+    """Describe instants [s] or speeds [m/s], and grid [m], of the stored fields; None without."""
+    # Results with equal descriptions store fields at the same places.
     if not (names := [name for name in FIELDS | LINES if name in file.variables]):
         return None
     axis = str(file.variables[names[0]].dimensions[0])

@@ -25,14 +25,7 @@ _DAMAGE = (
 
 
 def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
-    """Write arrays, numbers, texts and None, in lists and dicts, as an ``.npz`` archive.
-
-    >>> import io
-    >>> file = io.BytesIO()
-    >>> write_plain(file, {"work": 1.5, "past": [None, "left"]})
-    >>> read_plain(file)
-    {'work': 1.5, 'past': [None, 'left']}
-    """
+    """Write arrays, numbers, texts and None, in lists and dicts, as an ``.npz`` archive."""
     arrays: list[Numbers] = []
     outline = json.dumps(_outlined(restart_data, arrays))
     with zipfile.ZipFile(file, "w") as archive:
@@ -53,16 +46,7 @@ def _add(archive: zipfile.ZipFile, name: str, array: Numbers) -> None:
 
 
 def read_plain(file: BinaryIO) -> RestartData:
-    """Read the data of `write_plain`, equal to the last bit.
-
-    ValueError if the file is incomplete or a checksum is wrong.
-
-    >>> import io
-    >>> read_plain(io.BytesIO(b"half a file"))
-    Traceback (most recent call last):
-    ...
-    ValueError: it is damaged, or was written by something else
-    """
+    """Read the data of `write_plain` to the last bit; ValueError if incomplete or damaged."""
     file.seek(0)
     try:
         # Without pickles: reading a file must never run what is in it.
@@ -79,9 +63,7 @@ def read_plain(file: BinaryIO) -> RestartData:
 
 
 def outline_of(file: BinaryIO) -> Any:
-    """Read the outline of the data of `write_plain`, without the arrays, which may be damaged.
-
-    ValueError if there is none.
+    """Read the outline of `write_plain`, without the arrays; ValueError if there is none.
 
     >>> import io
     >>> file = io.BytesIO()

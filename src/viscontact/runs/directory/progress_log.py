@@ -23,28 +23,11 @@ LONGEST_LINE = 2**16
 
 
 class ProgressLog(AbstractContextManager["ProgressLog"]):
-    r"""A file with a line of JSON for each state.
+    """A file with a line of JSON for each state, in SI units; `count` lines so far."""
 
-    A line holds the instant or the speed, all scalars of the result in SI units by their names
-    there, the outcome by its name, the warnings that are new there, and the finished part of the
-    run. A value that is not finite, such as the eccentricity without contact, is null. Numbers keep
-    all their bits. A line is written at once: when the process is killed, only the last line may be
-    incomplete. `finish` adds the errors of the scalars, "inf" for an infinite one, and marks the
-    last line as complete. `count` is the number of lines; an existing file is replaced.
-
-    >>> import tempfile
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e7), 0.5)
-    >>> grid = vc.Grid((32, 32), (3e-3, 3e-3))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "progress.jsonl"
-    ...     with ProgressLog(path) as log:
-    ...         for state in vc.march(vc.Sphere(0.01), rubber, vc.step(2.0), grid, [0.0]):
-    ...             log.append(state)
-    ...     line = json.loads(path.read_text(encoding="utf-8"))
-    >>> round(line["force"], 3), line["outcome"], line["loss_per_cycle"], line["warnings"]
-    (2.0, 'converged', None, [])
-    """
+    # A line is written at once: when the process is killed, only the last line may be incomplete. A
+    # value that is not finite, such as the eccentricity without contact, is null; an infinite error
+    # is "inf".
 
     def __init__(self, path: str | Path, check: LockCheck = never_lost) -> None:
         self.count = 0
@@ -55,12 +38,12 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     def resume(
         cls, path: Path, lines: int, reached: float | None, check: LockCheck = never_lost
     ) -> Self:
-        """Continue a log after some of its lines, the last of a given instant [s] or speed [m/s].
+        """Continue a log after some lines, the last of a given instant [s] or speed [m/s].
 
-        Lines beyond these are cut off by the next `append` or `flush_to_disk`, so that the file
-        is unchanged if the run is refused for another reason. ValueError if the lines are not all
-        there, cannot be read, or are not of this run.
+        ValueError if the lines are not all there, cannot be read, or are not of this run.
         """
+        # Lines beyond these are cut off by the next `append` or `flush_to_disk`, so that the file
+        # is unchanged if the run is refused for another reason.
         try:
             with path.open("rb") as file:
                 found = [line for line in islice(file, lines) if line.endswith(b"\n")]
@@ -80,10 +63,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         return log
 
     def append(self, state: ContactState, part: float | None = None) -> None:
-        """Write the line of the next state, with the finished part of the run [-] if known.
-
-        OSError, and no line, if it cannot be written whole.
-        """
+        """Write a state and the finished part of the run [-]; OSError and no line if not whole."""
         entries = _entries(state)
         encoded = _encoded(entries if part is None else entries | {"part": part})
         begin = self._file.tell()
@@ -109,12 +89,9 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         fields: Mapping[str, Any] | None = None,
         judged: Mapping[str, str] | None = None,
     ) -> None:
-        """Add the errors of scalars over all lines, by their names, and mark the end of the run.
-
-        The last line gets `fields`, the description of the fields that the result stores, and the
-        entries of `judged`: the worst verdict on the allowable values, and what it is about. The
-        file is replaced at once and durably; one that a program holds on Windows remains without.
-        """
+        """Add errors of scalars to all lines; to the last one `fields` and verdicts, `judged`."""
+        # The file is replaced at once and durably; one that a program holds on Windows is
+        # unchanged.
         self.flush_to_disk()
         fresh = fresh_name(self._path)
         fresh.unlink(missing_ok=True)

@@ -67,11 +67,7 @@ class Recorded:
         return self.directory / RESULT_NAME
 
     def load_checkpoint(self) -> Checkpoint:
-        """Load the last checkpoint.
-
-        FileNotFoundError if there is none, ChangedCaseError if it is of another case, ValueError if
-        it cannot be read.
-        """
+        """Load the last checkpoint; FileNotFoundError, ChangedCaseError, ValueError."""
         saved = load_checkpoint(self.directory / STATE_NAME)
         if changes := differences(saved.case, self.run.case):
             raise ChangedCaseError(changes)
@@ -97,10 +93,7 @@ class Recorded:
             raise ValueError(f"{path}: does not fit the run it says it is of; {REMEDY}") from error
 
     def resumed_writer(self, saved: Checkpoint) -> ResultWriter:
-        """Return the writer of the result at a checkpoint.
-
-        ValueError if the result is of another run, cannot be read, or has fewer rows.
-        """
+        """Return the writer at a checkpoint; ValueError if the result does not belong to it."""
         path = self.result_path
         try:
             is_other = path.is_file() and stored_run(path).case != self.run.case

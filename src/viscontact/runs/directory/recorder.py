@@ -38,13 +38,13 @@ class Reached(NamedTuple):
 class Recorder:
     """A run under way, recorded in its directory.
 
-    A checkpoint publishes the result and saves the restart state of the march. It comes after the
-    first step, then once a second or less often, so that checkpoints take at most a twentieth of
-    the time. A process that is killed loses the steps since the last checkpoint; the march is
-    deterministic, so that a resumed run computes the same bits again. An OSError of any method
-    leaves the previous checkpoint and result, from which the run can be resumed. The lock of the
-    directory is checked immediately before each write; its LockLost ends the run without one.
+    An OSError of any method leaves the previous checkpoint and result, from which the run can be
+    resumed. The LockLost of the lock's check ends the run without a write.
     """
+
+    # A checkpoint publishes the result and saves the restart state of the march. It comes after the
+    # first step, then once a second or less often, so that checkpoints take at most a twentieth of
+    # the time. The march is deterministic, so that a resumed run computes the same bits again.
 
     saved: Reached  # at the last checkpoint, from which `resume` continues
     shown: Reached  # in the published result
@@ -67,11 +67,7 @@ class Recorder:
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> Self:
-        """Continue a run from its last checkpoint.
-
-        FileNotFoundError if nothing is saved, ChangedCaseError for another case, ValueError if a
-        file of the run is damaged or of another origin; nothing has been changed then.
-        """
+        """Continue from the last checkpoint; errors as of `load_checkpoint` before any change."""
         saved = recorded.load_checkpoint()
         recorded = recorded.with_transforms(saved.transforms)
         record = cls.__new__(cls)
@@ -112,11 +108,7 @@ class Recorder:
         return Reached(self._rows, self._place)
 
     def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
-        """March, and yield each converged step after it is recorded; None for an inner step.
-
-        `progress` is called with (state, done, total) after each instant. ConvergenceError and
-        DomainError as in `march`; recorded steps remain.
-        """
+        """March, and yield each converged step once recorded, None for an inner one; as `march`."""
         march = self._march
         for state in march:
             with self._undisturbed():
@@ -148,10 +140,7 @@ class Recorder:
                 self._publish()
 
     def estimate_errors(self, on_step: Callable[[], None] | None = None) -> ErrorBars | None:
-        """Estimate the errors of the scalars after the last step; None where none are requested.
-
-        `on_step` is called after each step of a coarser run; its exceptions end the estimate.
-        """
+        """Estimate the errors of the scalars after the last step; None where none are requested."""
         if not self._recorded.run.errors:
             return None
         self.checkpoint()

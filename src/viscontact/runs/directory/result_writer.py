@@ -55,18 +55,13 @@ def working_files(path: Path) -> tuple[Path, Path]:
 class ResultWriter(AbstractContextManager["ResultWriter"]):
     """Writer of a result that grows by one state at a time and can be read at any moment.
 
-    Rows are written to a hidden working file. `publish` closes it and renames it to the result;
-    a copy of that becomes the next working file. So the result is a closed and complete netCDF-4
-    file at every moment, whatever happens to the process or to the power: HDF5 leaves a file
-    incomplete that is open for writing when its process is killed, and locks it against readers.
-    An OSError of any method leaves the result as it was published last, and an existing file
-    remains until the first `publish`. A state on a larger grid gives the file a new layout.
-    `check` is called before each write; its LockLost leaves all files to the other run.
-
-    To the given global attributes are added `warnings` and `grid_enlarged`, a line each;
-    `started`, the date and time of the first start; `wall_time` [s], summed over resumptions;
-    `complete`, 1 once the run is finished.
+    An OSError of any method leaves the result as it was published last, and the LockLost of
+    `check`, which is called before each write, leaves all files to the other run.
     """
+
+    # Rows are written to a hidden working file. `publish` closes it and renames it to the result; a
+    # copy of that becomes the next working file. HDF5 leaves a file incomplete that is open for
+    # writing when its process is killed, and locks it against readers.
 
     _layout: Layout
 
@@ -82,8 +77,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     ) -> Self:
         """Continue a result from the `position` of an earlier process when it published.
 
-        Rows that the result has beyond that are dropped at the next publication. ValueError if
-        the result cannot be read, is of another run, or has fewer rows than that.
+        ValueError if it is unreadable, of another run, or has too few rows; later ones are dropped.
         """
         writer = cls.__new__(cls)
         writer._set_up(Path(path), contents, position, check)
@@ -148,10 +142,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
                 self._write_waiting()
 
     def publish(self) -> bool:
-        """Replace the result by one with all states so far, at once and durably.
-
-        False, and `position` is not reached yet, if another program holds the result on Windows.
-        """
+        """Replace the result at once and durably; False if a program holds it on Windows."""
         return self._published == self._done or self._publish()
 
     def reopen(self) -> None:
@@ -174,10 +165,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     def finish(
         self, bars: ErrorBars | None = None, attributes: Mapping[str, Any] | None = None
     ) -> None:
-        """Publish the complete result, with the errors of its scalars, and close it.
-
-        The attributes replace those of the contents.
-        """
+        """Publish the complete result with errors and these attributes, and close it."""
         found = {} if bars is None else bars.attributes
         described = {**self._contents.attributes, **found, **(attributes or {})}
         self._contents = replace(self._contents, attributes=described)

@@ -10,10 +10,9 @@ from viscontact.runs.directory.lock_check import LockCheck
 
 
 class WriteGuard:
-    """State of the writes to a file: after one that has failed, it is torn.
+    """State of the writes to a file: after one that has failed, it is torn."""
 
-    `check` is called before each write; its LockLost leaves the file to the other run.
-    """
+    # `check` is called before each write; its LockLost leaves the file to the other run.
 
     def __init__(self, path: Path, check: LockCheck) -> None:
         self._path, self._check = path, check

@@ -28,10 +28,7 @@ Digests = Mapping[str, str]
 
 
 def changed_parts(case: Path, settings: Mapping[str, str], before: Digests) -> list[str]:
-    """Return the sections and files of a case with settings that have changed since its digests.
-
-    None if there are no digests, or the case cannot be read, which its run will report.
-    """
+    """Return changed sections and files of a case; None without digests, or if it is unreadable."""
     try:
         now = digests_of(case)(settings) if before else {}
     except (CaseError, OSError):

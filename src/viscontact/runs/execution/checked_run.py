@@ -44,10 +44,7 @@ class CheckedRun:
 
 
 def checked_run(request: RunRequest, memory: float | None = None) -> CheckedRun:
-    """Read and check the case of a run, and choose its directory; nothing is created.
-
-    It may need some memory [bytes]; by default what is free.
-    """
+    """Check a run and choose its directory, creating nothing; it may need some memory [bytes]."""
     directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads, memory)
     case = found.case

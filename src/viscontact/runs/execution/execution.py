@@ -36,10 +36,7 @@ class Monitor:
 
 
 def execute_run(request: RunRequest, monitor: Monitor) -> tuple[Path, bool]:
-    """Run a case and write its result; return its directory, and False if it was finished before.
-
-    CommandError if the run is refused or ends early; its lines say how to continue.
-    """
+    """Run a case; return its directory, False if finished before. CommandError if it ends early."""
     with before_the_first_step():
         checked = checked_run(request)
     return execute_checked(checked, monitor)

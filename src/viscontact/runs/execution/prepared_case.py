@@ -18,10 +18,7 @@ def prepare(
     *,
     roughly: bool = False,
 ) -> PreparedRun:
-    """Read a case and check everything that can be checked before the first step.
-
-    It may need some memory [bytes]; by default what is free. `roughly` as in `prepared`.
-    """
+    """Read a case and check what can be checked before the first step; memory in bytes."""
     try:
         return prepared(read_case(path, settings), threads, memory, roughly=roughly)
     except CaseError as error:

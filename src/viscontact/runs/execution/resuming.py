@@ -78,11 +78,9 @@ def _stored(directory: Path) -> StoredRun | str | None:
 
 
 def _case_changes(kept: Path, case: Case, computed: Iterable[Difference]) -> list[str]:
-    """Return a line for each change of the case.
-
-    The computed differences, in SI units, are used where the files are equal, as when a table that
-    they name has changed.
-    """
+    """Return a line for each change of the case."""
+    # The computed differences, in SI units, are used where the files are equal, as when a table
+    # that they name has changed.
     try:
         written = differences(read_document(kept).data, parse(case.text)[0])
     except CaseError:

@@ -12,11 +12,9 @@ _PAUSE = 0.5
 
 
 class StopRequests:
-    """State of the requests to stop.
+    """State of the requests to stop; none has an effect once the work is `over`."""
 
-    `over`: the work is done, and further requests have no effect. `file`: its existence is a
-    request, which any process that sees its disk can make.
-    """
+    # Any process that sees the disk can request a stop by making the file.
 
     def __init__(self, file: Path | None = None) -> None:
         self.over = False
@@ -60,10 +58,7 @@ class StopRequests:
             raise KeyboardInterrupt
 
     def request(self) -> bool:
-        """Note a request in the main thread; True if it lets the current step be finished.
-
-        KeyboardInterrupt if it is the second one, or nothing is being marched.
-        """
+        """Note a request; True if the step may be finished, KeyboardInterrupt for the second."""
         if self._marching and not self._requested:
             self._requested = True
             return True

@@ -10,11 +10,7 @@ ROOT = Path("/")
 
 
 def control_groups(controller: str, root: Path = ROOT) -> Iterator[Path]:
-    """Directories of the control groups that limit this process, versions 1 and 2.
-
-    Each hierarchy begins with the process's own group and ends with the root that is mounted.
-    `controller` is ``cpu`` or ``memory``; nothing is returned where there are no groups.
-    """
+    """Directories of the control groups (v1, v2) of this process, its own first; empty without."""
     try:
         groups = _lines(root / "proc/self/cgroup")
         mounts = _lines(root / "proc/self/mountinfo")

@@ -13,14 +13,9 @@ from viscontact.runs.machine.control_groups import ROOT, control_groups, number_
 
 
 def usable_cores(root: Path = ROOT, environment: Mapping[str, str] = os.environ) -> int:
-    """Number of cores that this process may use, at least 1.
-
-    The least of the cores to which it is bound, the processor time of its control groups (rounded
-    up), and the cores that SLURM has allocated to the task, or else to the job on this node.
-
-    >>> 1 <= usable_cores() <= (os.cpu_count() or 1)
-    True
-    """
+    """Number of cores that this process may use, at least 1."""
+    # The least of the cores to which it is bound, the processor time of its control groups (rounded
+    # up), and the cores that SLURM has allocated to the task, or else to the job on this node.
     allocated = slurm_number("SLURM_CPUS_PER_TASK", environment) or slurm_number(
         "SLURM_CPUS_ON_NODE", environment
     )

@@ -20,14 +20,9 @@ _SLURM_UNIT = 2**20
 
 
 def available_memory(root: Path = ROOT, environment: Mapping[str, str] = os.environ) -> float:
-    """Memory that is free for this process [bytes].
-
-    The least of the machine's free memory, of what the control groups of the process have left,
-    and of the memory that SLURM has allocated to the job on this node, less that of this process.
-
-    >>> available_memory() > 1e6
-    True
-    """
+    """Memory that is free for this process [bytes]."""
+    # The least of the machine's free memory, of what the control groups of the process have left,
+    # and of the memory that SLURM has allocated to the job on this node, less that of this process.
     left = [float(psutil.virtual_memory().available), *_left_in_groups(root)]
     if allocated := _slurm_memory(environment):
         left.append(allocated - psutil.Process().memory_info().rss)

@@ -22,13 +22,7 @@ class Package:
 
 
 def packages() -> tuple[Package, ...]:
-    """Return the packages that viscontact and its extras need, with their installed versions.
-
-    Examples
-    --------
-    >>> [package.name for package in packages() if not package.extras][:2]
-    ['filelock', 'lazy-loader']
-    """
+    """Return the packages that viscontact and its extras need, with their installed versions."""
     extras: dict[str, set[str]] = {}
     for requirement in requires("viscontact") or ():
         name = re.split(r"[\[<>=!~; ]", requirement)[0]

@@ -11,15 +11,7 @@ _LOADED = (numpy_linalg, scipy_linalg)
 
 
 def limit_threads(threads: int = 1) -> threadpool_limits:
-    """Limit linear algebra and OpenMP to a number of threads in this process.
-
-    Inner products over a contact are too short for several threads. Call it once in a worker (it
-    takes 6 ms), or use it as a context manager, which restores the earlier limits. The threads of
-    a run are those of its Fourier transforms, which have no limit here.
-
-    >>> from threadpoolctl import threadpool_info
-    >>> with limit_threads():
-    ...     {library["num_threads"] for library in threadpool_info()}
-    {1}
-    """
+    """Limit linear algebra and OpenMP to a number of threads; reverts as a context manager."""
+    # Inner products over a contact are too short for several threads. The call takes 6 ms. Fourier
+    # transforms have threads of their own.
     return threadpool_limits(limits=threads)

@@ -29,10 +29,7 @@ class Ended:
 
 
 class RunProcess:
-    """Process that imports what a run needs, and waits for one.
-
-    An OSError means that the system starts no process.
-    """
+    """Process that imports what a run needs, and waits for one; OSError if none can be started."""
 
     def __init__(self) -> None:
         # -P: no file of the working directory is imported in place of a library.
@@ -77,8 +74,7 @@ class RunProcess:
 class Child:
     """Process of a run, which locks its directory, saves and handles signals as a single run does.
 
-    `spare` is a process that waits for a run. The error output is kept until the end. An OSError
-    means that the system starts no process.
+    `spare` is a process that waits for a run. An OSError means that the system starts no process.
     """
 
     def __init__(self, job: Job, spare: RunProcess | None = None) -> None:

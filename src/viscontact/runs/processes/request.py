@@ -31,8 +31,6 @@ class RunRequest:
     def resuming(self) -> str:
         """Shell command that resumes the run.
 
-        Examples
-        --------
         >>> RunRequest(Path("my case.yaml"), settings=("load.force=20 kN",)).resuming
         "viscontact run 'my case.yaml' --set 'load.force=20 kN' --resume"
         """
