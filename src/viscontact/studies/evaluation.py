@@ -36,10 +36,7 @@ class StudyRun(Protocol):
         """Values that the outcome depends on, as text."""
 
     def __call__(self) -> Entry:
-        """Compute the outcome.
-
-        ValueError, ConvergenceError or DomainError if the run fails.
-        """
+        """Compute the outcome; ValueError, ConvergenceError or DomainError if the run fails."""
 
 
 #: Groups of runs that are likely to follow, at most the given number.
@@ -79,11 +76,10 @@ class Evaluation:
     def outcomes(
         self, runs: Sequence[StudyRun], ahead: Ahead | None = None, *, is_limited: bool = True
     ) -> list[Entry]:
-        """Outcomes of some runs; BudgetSpentError if they are too many and the number is limited.
-
-        Workers that are free compute groups of runs that are likely to follow. Those that are never
-        requested do not count, so the number of workers changes neither outcomes nor budget.
-        """
+        """Outcomes of some runs; BudgetSpentError if there are more than the limit."""
+        # Workers that are free compute groups of runs that are likely to follow. Those that are
+        # never requested do not count, so the number of workers changes neither outcomes nor
+        # budget.
         wanted = {each.key: each for each in runs if each.key not in self.known}
         if is_limited:
             self.budget.require(len(wanted))

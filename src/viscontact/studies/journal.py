@@ -17,10 +17,7 @@ JOURNAL_NAME = "trials.jsonl"
 
 
 class Journal:
-    """Outcomes of runs by the values that they belong to, so that an interrupted study goes on.
-
-    ValueError if the file holds something else, or the runs of a study with other arguments.
-    """
+    """Outcomes of runs by their values, kept in a file; ValueError if it is of another study."""
 
     def __init__(self, path: Path, study: str, arguments: Mapping[str, Any], place: str) -> None:
         self._path = path
@@ -47,10 +44,7 @@ class Journal:
 def journal_in(
     directory: str | PathLike[str] | None, study: str, arguments: Mapping[str, Any]
 ) -> Iterator[Journal | None]:
-    """Lock the directory of a study and open its journal there; None without a directory.
-
-    ValueError if the directory is a file, or another study is at work there.
-    """
+    """Lock a study's directory and open its journal; None without, ValueError if in use."""
     if directory is None:
         yield None
         return

@@ -142,11 +142,7 @@ class Space:
 
 
 def read_range(text: str) -> Range:
-    """Read a range, ``KEY=LOW:HIGH`` or ``KEY=LOW:HIGH:log``; ValueError names the fault.
-
-    >>> read_range("load.force=500 N:2 kN:log").high
-    2000.0
-    """
+    """Read a range, ``KEY=LOW:HIGH`` or ``KEY=LOW:HIGH:log``; ValueError names the fault."""
     name, _, given = text.partition("=")
     key, (low, *others) = name.strip(), (part.strip() for part in given.split(":"))
     logarithmic = others[1:] == ["log"]
@@ -156,17 +152,12 @@ def read_range(text: str) -> Range:
 
 
 def given_range(argument: str, key: str, given: Any) -> Range:
-    """Return the range of two bounds, with ``"log"`` for a logarithmic scale.
-
-    ValueError begins with the argument.
-    """
+    """Range of two bounds, with ``"log"`` if logarithmic; ValueError begins with the argument."""
     return _given(argument, key, given, ("log",), takes_tolerance=False)[0]
 
 
 def given_scatter(argument: str, key: str, given: Any, *, is_sampled: bool) -> Scatter:
-    """Return the scatter of two bounds, or of a number with its tolerance.
-
-    A sampled one may have another distribution. ValueError begins with the argument.
+    """Scatter of two bounds, or of a number with its tolerance; ValueError names the argument.
 
     >>> str(given_scatter("scatter", "indenter.radius", "12 mm ± 0.02 mm", is_sampled=False))
     '11.98 mm to 12.02 mm'
@@ -176,10 +167,7 @@ def given_scatter(argument: str, key: str, given: Any, *, is_sampled: bool) -> S
 
 
 def given_parameter(argument: str, key: str, given: Any) -> Range | Choice:
-    """Return the range of a tuple of bounds, or the choice of a list of values.
-
-    ValueError begins with the argument.
-    """
+    """Range of a tuple of bounds, or choice of a list of values; ValueError names the argument."""
     if isinstance(given, list):
         values = tuple(str(value) for value in given)
         if len(set(values)) < 2 or len(set(values)) < len(values):

@@ -111,10 +111,7 @@ class ContactRecord:
 
 
 def read_record(path: str | PathLike[str]) -> ContactRecord:
-    """Read a record from a table with columns time, and force or approach.
-
-    ValueError if the table cannot be read or a column is missing, with the line of the file.
-    """
+    """Read a record: columns time, and force or approach; ValueError names the line."""
     table = read_table(path)
     columns = {name: table[name] for name in ("force", "approach") if name in table}
     if not columns:
@@ -133,10 +130,7 @@ Drive = Literal["force", "approach", "case"]
 
 
 def chosen_drive(record: ContactRecord, control: Control, wanted: str | None) -> Drive:
-    """Drive of the run of a record, whose case controls force or approach.
-
-    ValueError if there is no column to prescribe, or none left to compare with.
-    """
+    """Drive of a record's run, whose case controls force or approach; or ValueError."""
     drive = wanted or (control if control in record.columns else "case")
     compared = compared_column(drive, control)
     for name, use in ((drive, "prescribed"), (compared, "compared")):

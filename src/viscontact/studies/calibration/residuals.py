@@ -33,11 +33,8 @@ class Residuals:
     evaluation: Evaluation
 
     def __call__(self, points: Sequence[Floats], level: Level) -> list[Floats | str]:
-        """Fitted less measured values over the largest of each record, of the rows that count.
-
-        The reason in place of them where a run fails. Those on the cells of the case are computed
-        beyond the budget.
-        """
+        """Fitted less measured values over the largest of each record, or why a run fails."""
+        # Those on the cells of the case are computed beyond the budget.
         fitted = self.fitted(points, level)
         return [each if isinstance(each, str) else self._over_largest(each) for each in fitted]
 

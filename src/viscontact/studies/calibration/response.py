@@ -66,10 +66,7 @@ class Mounting:
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Run of a test with some values: its force and approach at the rows of the record [N, m].
-
-    The machine is not part of the approach.
-    """
+    """Run of a test: force and approach at the rows of the record [N, m], without the machine."""
 
     experiment: Experiment
     values: Mapping[str, str]  # by key of the case

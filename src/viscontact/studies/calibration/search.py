@@ -26,27 +26,13 @@ _CORRECTIONS, _SMALL = 3, 0.1
 
 @dataclass(frozen=True)
 class Optimum:
-    """Least squares on the cells of the case.
+    """Least squares on the cells of the case: p parameters and n residuals."""
 
-    Attributes
-    ----------
-    point : ndarray, shape (p,)
-        Parts of the ranges.
-    shift : ndarray, shape (p,)
-        Change from the least squares on the coarse cells.
-    residuals : ndarray, shape (n,)
-        Fitted less measured values over the largest of each record [-].
-    jacobian : ndarray, shape (n, p)
-        Derivatives of the residuals by the parts.
-    complete : bool
-        False if the runs were used up before the search had ended.
-    """
-
-    point: Floats
-    shift: Floats
-    residuals: Floats
-    jacobian: Floats
-    complete: bool
+    point: Floats  # parts of the ranges (p,)
+    shift: Floats  # from the least squares on the coarse cells (p,)
+    residuals: Floats  # fitted less measured values over the largest of each record [-] (n,)
+    jacobian: Floats  # of the residuals by the parts (n, p)
+    complete: bool  # False if the runs were used up before the search had ended
 
     @property
     def freedom(self) -> int:
@@ -112,10 +98,9 @@ def _all(evaluate: Evaluate, points: Sequence[Floats], level: Level) -> list[Flo
 
 
 class _Descent:
-    """Search on the coarse cells, which keeps its best point.
+    """Search on the coarse cells, which keeps its best point."""
 
-    Trust-region reflective (Branch, Coleman and Li 1999).
-    """
+    # Trust-region reflective (Branch, Coleman and Li 1999).
 
     def __init__(self, evaluate: Evaluate, start: Floats) -> None:
         self._evaluate, self._start = evaluate, start
@@ -190,10 +175,8 @@ class _Descent:
 def _corrected(
     evaluate: Evaluate, coarse: Floats, jacobian: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """Least squares on the case's cells with steps half as long: point, its shift, residuals.
-
-    Gauss-Newton steps with the Jacobian of the coarse cells, which is near enough.
-    """
+    """Least squares on the case's cells with steps half as long: point, its shift, residuals."""
+    # Gauss-Newton steps with the Jacobian of the coarse cells, which is near enough.
     (residuals,), best = _all(evaluate, [coarse], "case"), coarse
     inverse = np.linalg.pinv(jacobian)
     variance = float(residuals @ residuals) / (residuals.size - coarse.size)

@@ -93,10 +93,7 @@ class Constraint:
 
 
 def magnitude(results: xr.Dataset, scalar: str, at: At, *, largest: bool) -> Value:
-    """Largest or least magnitude of a scalar over a run, or that at an instant.
-
-    ValueError if the run does not have the scalar, or a given time is none of its instants.
-    """
+    """Largest or least magnitude of a scalar in a run, or at an instant; ValueError without."""
     if scalar not in results:
         raise ValueError(f"{scalar}: the result does not have it")
     sizes = np.abs(np.asarray(results[scalar].values, dtype=float))

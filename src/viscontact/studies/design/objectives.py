@@ -17,12 +17,11 @@ AUGMENTATION = 1e-3
 
 @dataclass(frozen=True)
 class Objective:
-    """Number that is least for the best trial.
+    """Number that is least for the best trial: the cost of one goal, or a distance of several."""
 
-    Of one goal it is its cost. Of several it is the augmented weighted Chebyshev distance from
-    their best values (Steuer and Choo 1983), plus one: its least values for all weights are the
-    trials that are not dominated, also where their curve is not convex.
-    """
+    # Of several it is the augmented weighted Chebyshev distance from their best values (Steuer and
+    # Choo 1983), plus one: its least values for all weights are the trials that are not dominated,
+    # also where their curve is not convex.
 
     goals: tuple[Goal, ...]
     weights: tuple[float, ...] = (1.0,)

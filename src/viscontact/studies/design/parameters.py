@@ -12,11 +12,7 @@ MOST_PARAMETERS = 8
 
 
 def space_of(change: Mapping[str, Any]) -> Space:
-    """Return the space of the parameters of `design`; ValueError names the fault.
-
-    >>> space_of({"load.force": ("1 N", "1 kN", "log")}).parameters[0].value(0.0)
-    '1 N'
-    """
+    """Return the space of the parameters of `design`; ValueError names the fault."""
     if not isinstance(change, Mapping) or not change:
         raise ValueError(
             "change: name a key, as {'indenter.crown_radius': ('20 mm', '2 m', 'log')}"

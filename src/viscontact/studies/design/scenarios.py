@@ -59,10 +59,7 @@ def scenarios_of(
     space: Space,
     own: Mapping[str, str],
 ) -> list[Scenario]:
-    """Return all scenarios of `design`, those of `over` at every corner of `scatter`.
-
-    `own` are the values of the case by key. ValueError names the fault.
-    """
+    """All scenarios of `design`, those of `over` at every corner of `scatter`; ValueError."""
     given, spread = _given(over), _scattered(scatter, space, own)
     found = []
     for row, corner in product(range(len(given.rows)), _corners(spread)):

@@ -136,10 +136,8 @@ class Search:
             self._around(closest, level, WIDE_SIMPLEX)
 
     def _try_ends(self, level: Level) -> None:
-        """Try the end of a range that the best trial is close to, which DIRECT never reaches.
-
-        Without a feasible trial it is the one that is closest to being so.
-        """
+        """Try the end of a range that the best or least infeasible trial is close to."""
+        # DIRECT never reaches it.
         best, near_end = self.best(level), NEAR_END
         if best is None:
             best, near_end = self.closest(level), NEAR_UNFEASIBLE_END
@@ -255,11 +253,9 @@ class _Watched:
         return cost
 
     def _foreseen(self, count: int) -> list[Point]:
-        """Next points of the search, if each of them costs as much as the nearest known one.
-
-        The first one is the present point. A method asks for several points before it decides on
-        their costs, and repeated with the known costs it takes the same way.
-        """
+        """Next points of the search, if each of them costs as much as the nearest known one."""
+        # The first one is the present point. A method asks for several points before it decides on
+        # their costs, and repeated with the known costs it takes the same way.
         found: dict[Point, None] = {}
         points, costs = list(self._known), list(self._known.values())
 

@@ -17,9 +17,7 @@ _SHARP = (CylindricalProfile, PartialCrown, FullCrown, TwoRadiiCrown, Chamfer)
 
 
 def reaches_sharp_end(indenter: Indenter, warnings: str) -> bool:
-    """True if a contact with these warnings of its run reaches an edge at the end of a roller.
-
-    The end of a logarithmic profile has a finite pressure, which the error bars cover.
-    """
+    """True if a contact with these warnings of its run reaches an edge at the end of a roller."""
+    # The end of a logarithmic profile has a finite pressure, which the error bars cover.
     has_edge = isinstance(indenter, Roller) and isinstance(indenter.line, _SHARP)
     return has_edge and AT_THE_END in warnings

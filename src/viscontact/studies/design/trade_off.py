@@ -32,11 +32,9 @@ def compromises(count: int) -> list[tuple[float, ...]]:
 def searched_trade_off(
     search_for: Callable[[Objective, int], Search], goals: Sequence[Goal]
 ) -> list[tuple[Search, Trial | None]]:
-    """Search for the best trial of each goal, then for compromises; the equal one is the last.
-
-    `search_for` makes a search for an objective that leaves some runs to others. If a goal has no
-    feasible trial, its search is the last.
-    """
+    """Search for the best trial of each goal, then for compromises; the equal one is the last."""
+    # `search_for` makes a search for an objective that leaves some runs to others. If a goal has no
+    # feasible trial, its search is the last.
     weights = compromises(len(goals))
     found: list[tuple[Search, Trial | None]] = []
 
@@ -63,11 +61,7 @@ def costs_of(trials: Sequence[Trial], goals: Sequence[Goal]) -> Floats:
 
 
 def not_dominated(costs: Floats) -> Bools:
-    """Rows of which no other one is as good in every cost and better in one.
-
-    >>> not_dominated(np.array([[1.0, 3.0], [2.0, 2.0], [2.0, 4.0], [np.nan, 0.0]])).tolist()
-    [True, True, False, False]
-    """
+    """Rows of which no other one is as good in every cost and better in one."""
     no_worse = np.all(costs[None] <= costs[:, None], axis=2)
     better = np.any(costs[None] < costs[:, None], axis=2)
     is_dominated = np.any(no_worse & better, axis=1)

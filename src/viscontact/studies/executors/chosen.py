@@ -36,10 +36,8 @@ def chosen_workers(
     client: Any = None,
     most: int | None = None,
 ) -> Iterator[ChosenWorkers]:
-    """Executor of a study: a given one, that of a Dask client, or warm processes, at most `most`.
-
-    With one process, the runs are computed in this one.
-    """
+    """Executor of a study: a given one, that of a Dask client, or up to `most` processes."""
+    # With one process, the runs are computed in this one.
     require_executor(executor, client, workers)
     if client is not None:
         yield ChosenWorkers(

@@ -18,10 +18,8 @@ def declared_memory(client: Any) -> list[float]:
 
 
 def dask_executor(client: Any) -> Callable[[float], Executor]:
-    """Return the function that gives the executor for the memory of a run [bytes].
-
-    If any worker declares its memory, a run is computed where its memory is free.
-    """
+    """Return the function that gives the executor for the memory of a run [bytes]."""
+    # If any worker declares its memory, a run is computed where its memory is free.
     declares = any(declared_memory(client))
     executors: dict[float, Executor] = {}
 

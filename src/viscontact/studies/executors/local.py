@@ -31,11 +31,10 @@ class _Call:
 
 
 class LocalWorkers(Executor):
-    """Executor with warm worker processes.
+    """Executor with warm worker processes."""
 
-    Each worker is the only process of an executor of its own: a killed one takes no other call
-    with it. It is replaced, and its call is repeated once.
-    """
+    # Each worker is the only process of an executor of its own: a killed one takes no other call
+    # with it. It is replaced, and its call is repeated once.
 
     def __init__(self, count: int) -> None:
         self._count = count

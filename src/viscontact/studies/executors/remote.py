@@ -19,10 +19,9 @@ _MOST = 10_000
 
 
 class RemoteTasks:
-    """Tasks on the executor that a function returns for the memory of a run [bytes].
+    """Tasks on the executor that a function returns for the memory of a run [bytes]."""
 
-    A file in the directory of the sweep asks all tasks to save and end, wherever they run.
-    """
+    # A file in the directory of the sweep asks all tasks to save and end, wherever they run.
 
     def __init__(
         self,

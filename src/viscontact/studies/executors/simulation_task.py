@@ -109,10 +109,7 @@ def _case_at_once(arguments: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def change_of_results(arguments: Mapping[str, Any], directory: Path) -> str:
-    """Difference of arguments from those of the results in a directory; empty without any.
-
-    Results that cannot be read are left to the run. ValueError or TypeError as of the arguments.
-    """
+    """Difference of arguments from those of the results in a directory; empty without."""
     if not (directory / RESULT_NAME).exists():
         return ""
     try:

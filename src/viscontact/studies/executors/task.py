@@ -38,11 +38,10 @@ ONE_AT_A_TIME = threading.Lock()
 
 @dataclass(frozen=True)
 class Task:
-    """A run in its directory.
+    """A run in its directory; a file `stop` asks it to finish its step, save and end."""
 
-    What an earlier task with the same `token` has left there, because its process was killed, is
-    resumed. A file `stop` asks the run to finish its step, save and end.
-    """
+    # What an earlier task with the same `token` has left there, because its process was killed, is
+    # resumed.
 
     request: RunRequest
     directory: Path
@@ -97,10 +96,8 @@ class RecordedTask(Protocol):
 
 
 def perform(task: RecordedTask, stops: StopRequests | None = None) -> TaskEnd:
-    """Compute a run in its directory, or what is left of it; a failure is written there.
-
-    Short runs are computed in this process, one at a time; others are processes of their own.
-    """
+    """Compute a run in its directory, or what remains of it; a failure is written there."""
+    # Short runs are computed in this process, one at a time; others are processes of their own.
     stops = StopRequests(task.stop) if stops is None else stops
     while is_locked(task.directory) and not stops.requested:
         clock.sleep(PAUSE)  # the process of an earlier attempt, or of the run itself, is saving

@@ -41,10 +41,8 @@ class WorkerRequests(StopRequests):
         self.idle.set()
 
     def ask(self) -> None:
-        """Note a request in any thread: the second one stops at once.
-
-        A signal that a batch system has sent to this process, too, is not the first of two.
-        """
+        """Note a request in any thread: the second one stops at once."""
+        # A signal that a batch system has sent to this process, too, is not the first of two.
         if self._asked:
             self._now = True
             _thread.interrupt_main()

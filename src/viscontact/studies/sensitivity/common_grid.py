@@ -15,12 +15,7 @@ TOLERATED = 1.5
 
 
 def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
-    """Return a grid over the extents of all grids, whose cells lie on those of the nominal one.
-
-    >>> small, large = Grid((32, 32), (1.0, 1.0)), Grid((32, 32), (1.5, 0.4))
-    >>> covering(small, [large]).shape, covering(small, [large]).size
-    ((48, 64), (1.5, 1.0))
-    """
+    """Return a grid over the extents of all grids, whose cells lie on those of the nominal one."""
     cell = np.array(nominal.cell_size)
     finest = np.min([each.cell_size for each in (nominal, *others)], axis=0)
     # Parts of whole cells still end where a straight part of the body ends.
@@ -36,11 +31,7 @@ def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
 
 
 def coarser(grid: Grid) -> Grid:
-    """Return the grid with cells of twice the length, where there are several along an axis.
-
-    >>> coarser(Grid((64, 1), (1.0, 1.0), (False, True))).shape
-    (32, 1)
-    """
+    """Return the grid with cells of twice the length, where there are several along an axis."""
     nx, ny = grid.shape
     return replace(grid, shape=(-(-nx // 2), -(-ny // 2)))
 

@@ -28,11 +28,9 @@ class Slopes:
         return np.abs(self.near - self.far)
 
     def distance(self, other: Slopes) -> Floats:
-        """Largest difference from the slopes on other cells; NaN if one is not known.
-
-        Errors of cells vary with the place of the rim within a cell, and may be equal by chance in
-        one of the differences, but not in all.
-        """
+        """Largest difference from the slopes on other cells; NaN if one is not known."""
+        # Errors of cells vary with the place of the rim within a cell, and may be equal by chance
+        # in one of the differences, but not in all.
         names = ("near", "far", "extrapolated")
         apart = [np.abs(getattr(self, name) - getattr(other, name)) for name in names]
         return np.asarray(np.max(apart, axis=0))
@@ -40,13 +38,7 @@ class Slopes:
 
 @dataclass(frozen=True)
 class Stencil:
-    """Two differences of second order: with a step, and with twice this step.
-
-    Each has a weight for every point, in steps from the nominal one.
-
-    >>> CENTRAL.points, BELOW.points
-    ((-2, -1, 1, 2), (-4, -2, -1))
-    """
+    """Weights of the points, in steps, of second-order differences with a step and twice this."""
 
     near: Mapping[int, float]
     far: Mapping[int, float]
@@ -57,13 +49,7 @@ class Stencil:
         return tuple(sorted({*self.near, *self.far} - {0}))
 
     def slopes(self, values: Mapping[int, Floats], step: float) -> Slopes:
-        """Derivative from values at all points and at the nominal one.
-
-        >>> at = {point: np.array(np.exp(2 * 0.1 * point)) for point in (-2, -1, 0, 1, 2)}
-        >>> found = CENTRAL.slopes(at, 0.1)  # of exp(2 x) at 0
-        >>> round(float(found.extrapolated), 4), round(float(found.error), 3)
-        (1.9999, 0.04)
-        """
+        """Derivative from values at all points and at the nominal one."""
         near, far = (
             sum((weight * values[point] for point, weight in each.items()), start=np.array(0.0))
             for each in (self.near, self.far)

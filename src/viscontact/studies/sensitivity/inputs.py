@@ -22,11 +22,7 @@ NO_INPUTS = ("grid", "time", "output", "tolerance", "report", "allowable", "titl
 
 @dataclass(frozen=True)
 class Input:
-    """Number of a case, as it is written there.
-
-    >>> Input("load.force", "2 kN", 2000.0, "N").at(0.1)
-    '2.21034183615 kN'
-    """
+    """Number of a case, as it is written there."""
 
     key: str
     text: str
@@ -42,10 +38,8 @@ class Input:
 
 
 def inputs_of(case: Case) -> list[Input]:
-    """Return the numbers other than zero of bodies, load and motion, in the order of the case.
-
-    Those of a table within the case, such as the points of a load, are left out.
-    """
+    """Return the numbers other than zero of bodies, load and motion, in the order of the case."""
+    # Those of a table within the case, such as the points of a load, are left out.
     found = []
     for section in SECTIONS:
         for path, value in _leaves(case.document.data.get(section), (section,)):

@@ -99,7 +99,7 @@ def planned(  # noqa: PLR0913
     *,
     chosen: bool,
 ) -> tuple[Plan, list[str]]:
-    """Return the plan of derivatives by some inputs and of samples, and notes on what is left out.
+    """Plan derivatives by some inputs, and samples, with notes on inputs that cannot change.
 
     CaseError if an input that was `chosen` cannot change, or a bound of the samples is refused.
     """

@@ -21,10 +21,10 @@ MOST_SAMPLES = 2**14
 
 @dataclass(frozen=True)
 class Samples:
-    """Two samples A and B of some inputs, and for each input A with its values of B.
+    """Two samples A and B of some inputs, and for each input A with its values of B."""
 
-    Points of one scrambled Sobol' sequence of twice as many dimensions (Saltelli and others 2010).
-    """
+    # Points of one scrambled Sobol' sequence of twice as many dimensions (Saltelli and others
+    # 2010).
 
     inputs: tuple[Scatter, ...]
     count: int  # of each sample, a power of two

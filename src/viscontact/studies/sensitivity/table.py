@@ -78,10 +78,7 @@ _ENDS = ("", "_low", "_high")
 
 
 def scatter_table(samples: Samples, scalars: OutputScalars, outputs: Sequence[str]) -> xr.Dataset:
-    """Table of the scatter of the outputs: Sobol' indices, percentiles, and values of the samples.
-
-    Percentiles are those of both independent samples, A and B.
-    """
+    """Table of the scatter of the outputs: Sobol' indices, percentiles of A and B, and values."""
     labels, count = samples.labels, samples.count
     runs = np.array(
         [[scalars.place(samples.run_name(label, n)) for n in range(count)] for label in labels]

@@ -17,27 +17,17 @@ CONSTANT = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Indices:
-    """Sobol' indices of an output, first order and total: value, lower and upper end (3, inputs).
+    """Sobol' indices, first order and total: value, lower and upper end, shape (3, inputs)."""
 
-    NaN if a sample has no result, or the output does not vary.
-    """
+    # NaN if a sample has no result, or the output does not vary.
 
     first_order: Floats
     total_order: Floats
 
 
 def indices_of(values: Floats, seed: int) -> Indices:
-    """Sobol' indices from the values of an output, shape (2 + inputs, points).
-
-    The rows are those of `Samples.labels`. Estimators of Saltelli and others (2010), with the
-    percentile bootstrap over the points.
-
-    >>> x = np.random.default_rng(0).random((2, 2, 4096))  # (A and B, inputs, points)
-    >>> rows = [x[0, 0] + 2 * x[0, 1], x[1, 0] + 2 * x[1, 1]]
-    >>> rows += [x[1, 0] + 2 * x[0, 1], x[0, 0] + 2 * x[1, 1]]
-    >>> indices_of(np.array(rows), 0).first_order[0].round(1)  # 1/5 and 4/5
-    array([0.2, 0.8])
-    """
+    """Sobol' indices from values of an output, shape (2 + inputs, points) of `Samples.labels`."""
+    # Estimators of Saltelli and others (2010), with the percentile bootstrap over the points.
     inputs, count = len(values) - 2, values.shape[1]
     unknown = np.full((3, inputs), np.nan)
     spread, mean = np.std(values[:2]), abs(np.mean(values[:2]))

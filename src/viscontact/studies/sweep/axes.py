@@ -35,15 +35,7 @@ class SweepAxes:
 
 
 def sweep_axes(runs: Sequence[SweepRun]) -> SweepAxes:
-    """Return the dimensions of a sweep: varied keys and cases of a grid, else ``run``.
-
-    >>> runs = [
-    ...     SweepRun(n, f"F={text}", f"F={text}", {"F": text}, ("F",), "a.yaml", "grid")
-    ...     for n, text in enumerate(["1 kN", "2 kN"])
-    ... ]
-    >>> sweep_axes(runs).coords["F"].values.tolist(), sweep_axes(runs).coords["F"].attrs["units"]
-    ([1000.0, 2000.0], 'N')
-    """
+    """Return the dimensions of a sweep: varied keys and cases of a grid, else ``run``."""
     columns = {key: [run.settings.get(key, "") for run in runs] for key in _varied(runs)}
     cases = [run.case for run in runs]
     if len(set(cases)) > 1:
@@ -97,10 +89,7 @@ def coordinate(key: str, dim: str, texts: Sequence[str]) -> xr.Variable:
 
 
 def _numbers(key: str, texts: Sequence[str]) -> tuple[Floats, str]:
-    """SI values of quantities of one dimension, NaN where none is given, and their unit.
-
-    ValueError for other texts.
-    """
+    """SI values and unit of quantities of one dimension, NaN where none; ValueError for others."""
     found = [_parsed(key, text) if text else None for text in texts]
     units = {each[1] for each in found if each is not None}
     if len(units) != 1:

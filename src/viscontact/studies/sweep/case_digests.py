@@ -14,10 +14,8 @@ from viscontact.studies.sweep.manifest import SweepRun
 
 
 def with_digests(directory: Path, runs: Iterable[SweepRun]) -> list[SweepRun]:
-    """Return the runs of a sweep with the digests of their cases; none for one without a case.
-
-    A case that cannot be read, which its run will report, has no digests.
-    """
+    """Return the runs of a sweep with the digests of their cases; none for one without a case."""
+    # A case that cannot be read, which its run will report, has no digests.
     of_case, found = cache(digests_of), []
     for run in runs:
         digests: Digests = {}

@@ -20,10 +20,7 @@ from viscontact.studies.sweep.lazy_fields import lazy_fields
 def write_joint_result(
     layout: JointLayout, path: Path, progress: Progress, *, fields: bool = False
 ) -> None:
-    """Write the joint result of a sweep as CF netCDF-4, atomically.
-
-    With `fields`, those that all runs share as well. OSError if it cannot be written.
-    """
+    """Write the joint result of a sweep, with shared `fields`, as CF netCDF-4, atomically."""
     fresh = fresh_name(path)
     fresh.unlink(missing_ok=True)
     try:
@@ -84,11 +81,7 @@ def _create(
 
 
 def slabs(first: int, last: int, shape: Sequence[int]) -> Iterator[tuple[slice, tuple[slice, ...]]]:
-    """Divide consecutive elements of an array, counted in C order, into rectangular blocks.
-
-    >>> [place for _, place in slabs(1, 6, (3, 2))]
-    [(slice(0, 1, None), slice(1, 2, None)), (slice(1, 3, None), slice(0, 2, None))]
-    """
+    """Divide consecutive elements of an array, counted in C order, into rectangular blocks."""
     if len(shape) == 1:
         yield slice(first, last), (slice(first, last),)
         return

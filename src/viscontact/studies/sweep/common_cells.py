@@ -65,10 +65,8 @@ def recorded_cells(earlier: Sequence[SweepRun], case: str) -> tuple[str, ...] | 
 
 
 def keeps_own_cells(case: Path, design: Design, settings: Sequence[str]) -> bool:
-    """Test whether the runs of a design keep their own cells; CaseError if the first is refused.
-
-    They do where the keys concern the grid, or where the grid or its largest cell is given.
-    """
+    """Test whether the runs of a design keep their own cells; CaseError if the first is refused."""
+    # They do where the keys concern the grid, or where the grid or its largest cell is given.
     if len(design.rows) == 1 or any(key.partition(".")[0] == "grid" for key in design.keys):
         return True
     asked = read_case(case, (*settings, *design.settings(0))).automatic_grid
@@ -82,10 +80,7 @@ def common_cells(
     threads: int = 1,
     memory: float | None = None,
 ) -> CommonCells:
-    """Common cells of the runs of a design; CommandError if one is refused.
-
-    Each run may need some memory [bytes]; by default what is free.
-    """
+    """Common cells of the runs of a design, memory in bytes; CommandError if one is refused."""
     available = available_memory() if memory is None else memory
     chosen = [(*settings, *design.settings(row)) for row in extreme_rows(design)]
     runs = [prepare(case, each, threads, memory, roughly=True).run for each in chosen]

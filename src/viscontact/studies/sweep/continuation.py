@@ -26,10 +26,7 @@ class OtherSweepError(ValueError):
 
 
 def recorded_runs(directory: Path) -> list[SweepRun]:
-    """Runs in the manifest of a directory; none without a manifest.
-
-    ValueError names the line that is damaged; OSError if the file cannot be read.
-    """
+    """Runs in the manifest of a directory, if any; ValueError names the line that is damaged."""
     path = directory / MANIFEST_NAME
     return list(read_manifest(path)) if path.exists() else []
 
@@ -53,11 +50,9 @@ def continued(
 ) -> list[SweepRun]:
     """Return the runs with the directories and settings that equal ones have in the manifest.
 
-    There may be more runs than before. A run that has no results may have other settings, or be
-    left out. Settings that were set for a run alone are kept.
-
     OtherSweepError names a run with results that is left out, or has other settings.
     """
+    # There may be more runs than before. Settings that were set for a run alone are kept.
     by_place = {each.directory: each for each in earlier}
     by_values = {_values(each): each for each in earlier} if _has_new(runs, by_place) else {}
     found, kept = [], set()

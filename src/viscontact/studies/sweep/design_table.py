@@ -18,17 +18,9 @@ _NO_UNIT = ("", "-", "–", "—", "1", "none")
 
 
 def read_design(path: Path) -> Design:
-    r"""Read a table of runs; ValueError names its line and column.
-
-    A cell below a heading with a unit is a number; any other cell is a value as ``--set`` takes it.
-
-    >>> import tempfile
-    >>> file = Path(tempfile.mkdtemp(), "plan.csv")
-    >>> _ = file.write_text("load.force [kN];material.law\n0,5;zener\n2;maxwell\n")
-    >>> design = read_design(file)
-    >>> design.settings(0), design.lines
-    (('load.force=0.5 kN', 'material.law=zener'), (2, 3))
-    """
+    """Read a table of runs; ValueError names its line and column."""
+    # A cell below a heading with a unit is a number; any other cell is a value as ``--set`` takes
+    # it.
     header, *rows = read_rows(path, example="load.force [N], time.end")
     columns = _columns(path, header)
     if not rows:

@@ -26,10 +26,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Design:
-    """Values of the varied keys, as ``--set`` takes them: a row for each run.
-
-    Rows of a table have their lines in the file, and keys their headings.
-    """
+    """Values of the varied keys, as ``--set`` takes them: a row for each run, with its line."""
 
     kind: str  # grid, zip, table, sample, or cases without varied keys
     keys: tuple[str, ...]
@@ -55,23 +52,14 @@ NOTHING_VARIED = Design("cases", (), ((),))
 
 
 def grid_design(values: Mapping[str, Sequence[str]]) -> Design:
-    """All combinations of the values of some keys; those of the last key change fastest.
-
-    >>> found = grid_design({"load.force": ["5 kN", "10 kN"], "grid.shape": ["[32, 32]"]})
-    >>> found.settings(1), found.name(1)
-    (('load.force=10 kN', 'grid.shape=[32, 32]'), 'force=10kN_shape=32-32')
-    """
+    """All combinations of the values of some keys; those of the last key change fastest."""
     for key, given in values.items():
         _refuse_equal((key,), [(value,) for value in given])
     return Design("grid", tuple(values), tuple(product(*values.values())))
 
 
 def paired_design(values: Mapping[str, Sequence[str]]) -> Design:
-    """The first values of all keys, the second ones, and so on.
-
-    >>> paired_design({"load.force": ["5 kN", "10 kN"], "time.end": ["1 s", "2 s"]}).rows
-    (('5 kN', '1 s'), ('10 kN', '2 s'))
-    """
+    """The first values of all keys, the second ones, and so on."""
     count = {key: len(given) for key, given in values.items()}
     if len(set(count.values())) > 1:
         numbers = ", ".join(f"{number} of {key}" for key, number in count.items())

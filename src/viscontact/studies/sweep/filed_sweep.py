@@ -23,11 +23,9 @@ _OWN_CASE = "case as run"
 
 
 def filed_attributes(directory: Path) -> dict[str, str]:
-    """Return attributes of a sweep as those of a result; empty without a finished run.
-
-    Title, title block and allowable values are those in which all finished runs agree, the start
-    is that of the first run, and the input files are those of all runs, without their own cases.
-    """
+    """Return attributes of a sweep like those of a result; empty without a finished run."""
+    # Title, title block and allowable values are those in which all finished runs agree, the start
+    # is that of the first run, and the input files are those of all runs, without their own cases.
     found = list(_of_finished(directory))
     if not found:
         return {}

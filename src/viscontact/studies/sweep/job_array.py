@@ -20,10 +20,7 @@ _LEAST_SECONDS, _SAVING = 600.0, 60
 
 @dataclass(frozen=True)
 class JobArray:
-    """Tasks of a batch system that compute the runs of a manifest.
-
-    The memory [bytes] and the time [s] are predicted for the largest run.
-    """
+    """Tasks of a batch system for a manifest; memory [bytes] and time [s] of the largest run."""
 
     manifest: Path  # absolute
     runs: int  # in the manifest

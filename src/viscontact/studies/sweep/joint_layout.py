@@ -136,10 +136,7 @@ class JointLayout:
         return about
 
     def blocks(self, block: int = _BLOCK) -> Iterator[tuple[slice, Floats]]:
-        """Yield consecutive runs and the values of `names`, NaN without a result.
-
-        Their shape is (runs, names, steps).
-        """
+        """Yield runs and values of `names`, shape (runs, names, steps), NaN without a result."""
         chosen = [COLUMNS.index(name) for name in self.names]
         size = max(1, block // (8 * len(COLUMNS) * max(1, self.steps)))
         for first in range(0, len(self.runs), size):
@@ -155,9 +152,9 @@ class JointLayout:
 def joint_layout(directory: str | Path, progress: Progress | None = None) -> JointLayout:
     """Read the layout of the joint result of a sweep; `progress` is called with (done, total).
 
-    A finished run whose files cannot be read counts as failed. FileNotFoundError without a
-    manifest, ValueError if it is damaged.
+    FileNotFoundError without a manifest, ValueError if it is damaged.
     """
+    # A finished run whose files cannot be read counts as failed.
     folder = Path(directory)
     manifest = folder / MANIFEST_NAME
     if not manifest.is_file():

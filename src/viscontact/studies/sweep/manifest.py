@@ -21,10 +21,7 @@ _LONGEST_LINE = 10_000_000
 
 @dataclass(frozen=True)
 class SweepRun:
-    """One run of a sweep: its number, directory and settings.
-
-    Paths are relative to the directory of the sweep, with forward slashes.
-    """
+    """One run of a sweep: number, settings, and directory relative to that of the sweep."""
 
     run: int  # number, from 0, in the order of the manifest
     name: str
@@ -39,11 +36,7 @@ class SweepRun:
 
     @property
     def assignments(self) -> tuple[str, ...]:
-        """Settings as ``--set`` takes them.
-
-        >>> SweepRun(0, "", "a", {"load.force": "5 kN"}, (), "a.yaml", "grid").assignments
-        ('load.force=5 kN',)
-        """
+        """Settings as ``--set`` takes them."""
         return tuple(f"{key}={value}" for key, value in self.settings.items())
 
     @property
@@ -78,10 +71,7 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
 
 
 def read_manifest(path: Path) -> Iterator[SweepRun]:
-    """Yield the runs of a manifest, in constant memory.
-
-    ValueError names the line that is damaged; OSError if the file cannot be read.
-    """
+    """Yield the runs of a manifest, in constant memory; ValueError names the damaged line."""
     with path.open(encoding="utf-8") as lines:
         number = 0
         try:

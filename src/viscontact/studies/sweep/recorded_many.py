@@ -40,7 +40,7 @@ def record_many(
     *,
     return_exceptions: bool,
 ) -> None:
-    """Compute runs in directories within one, or what is left of them.
+    """Compute runs in directories within one, or what remains of them.
 
     ValueError if a run cannot be recorded, or the directory holds other runs; RuntimeError after
     the end of all runs if any has failed, unless `return_exceptions`.

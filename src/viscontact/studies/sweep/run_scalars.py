@@ -55,10 +55,7 @@ def run_outline(directory: Path) -> RunOutline:
 
 
 def run_scalars(directory: Path) -> Floats:
-    """Read the scalars of a finished run: a row an instant or speed, `COLUMNS` in SI units.
-
-    NaN where the result does not state a scalar. OSError or ValueError if it cannot be read.
-    """
+    """Read the `COLUMNS` of a run in SI units, NaN where not stated; OSError or ValueError."""
     with suppress(OSError, ValueError, LookupError, TypeError, AttributeError):
         if last_line(directory).get("complete"):
             with (directory / PROGRESS_NAME).open("rb") as lines:

@@ -17,11 +17,7 @@ LISTED = shown_in(Place.TABLE | Place.KEY)
 
 
 def write_run_table(layout: JointLayout, file: IO[str], progress: Progress) -> None:
-    """Write the table of a sweep as CSV, in SI units with every digit.
-
-    Each scalar has its value at the last instant and its largest magnitude over time, each with
-    its error; the cells of a run without a result are empty.
-    """
+    """Write the table of a sweep as CSV, in SI units with every digit; empty without a result."""
     writer = csv.writer(file, lineterminator="\n")
     names = [name for name in LISTED if name in layout.columns]
     writer.writerow(_header(layout, names))

@@ -25,12 +25,9 @@ MOST_RUNS = 1_000_000
 def sample_design(
     ranges: Sequence[Range], number: int, seed: int = 0, method: Method = "sobol"
 ) -> Design:
-    """Points of a scrambled Sobol sequence or a latin hypercube in the ranges of some keys.
-
-    The same seed gives the same points; a longer Sobol sequence begins with the shorter one. A
-    latin hypercube of N points has one in each N-th of every range. Sobol' (1967), scrambled as by
-    Matousek (1998); McKay, Beckman and Conover (1979).
-    """
+    """Points of a scrambled Sobol sequence or a latin hypercube in the ranges of some keys."""
+    # A longer Sobol sequence begins with the shorter one. Sobol' (1967), scrambled as by Matousek
+    # (1998); McKay, Beckman and Conover (1979).
     if not 1 <= number <= MOST_RUNS:
         raise ValueError(f"must be a number of runs from 1 to {MOST_RUNS}, got {number}")
     if seed < 0:

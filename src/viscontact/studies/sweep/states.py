@@ -40,14 +40,9 @@ class RunState:
 
 
 def run_state(directory: Path) -> RunState:
-    """Read the state of a run from its directory, which may be missing.
-
-    A run with a result but without restart data is done. A failure is that of the last attempt; it
-    is stopped, not failed, if it was interrupted on request.
-
-    >>> run_state(Path("no such directory")).state
-    <State.WAITING: 'waiting'>
-    """
+    """Read the state of a run from its directory, which may be missing."""
+    # A run with a result but without restart data is done. A failure is that of the last attempt;
+    # it is stopped, not failed, if it was interrupted on request.
     try:
         names = {each.name for each in os.scandir(directory)}
     except OSError:

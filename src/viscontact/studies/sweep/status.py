@@ -97,10 +97,7 @@ class SweepStatus:
 
 
 def sweep_status(place: Path) -> SweepStatus:
-    """Read the status of a sweep, or of a single run, from the files of the run directories.
-
-    FileNotFoundError if a directory holds neither, ValueError for a damaged manifest.
-    """
+    """Read the status of a sweep or of a single run; FileNotFoundError, ValueError if damaged."""
     manifest = place if place.name == MANIFEST_NAME else place / MANIFEST_NAME
     status = SweepStatus()
     for run in _runs(manifest):

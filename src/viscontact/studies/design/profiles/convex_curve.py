@@ -21,16 +21,12 @@ POINTS = 100
 class ConvexCurves:
     """Curves drop(x) on |x| <= half_length, whose curvature is linear between knots.
 
-    The curvature is not negative, so that a curve is convex, and a cubic spline with two continuous
-    derivatives. Its coefficients are what the curvature at each knot adds to the drop at the ends
-    [m]: on a symmetric curve from the middle to the end; else from the middle to the left end, then
-    to the right end. With `has_slope`, a last coefficient of either sign is the drop of a straight
-    taper [m]: it counts where the tilt of the roller is prescribed.
-
-    >>> curves = ConvexCurves(half_length=2.0, knots=3, symmetric=True)
-    >>> curves.drop([1.0, 0.0, 0.0], [-2.0, 0.0, 2.0]).tolist()
-    [1.0, 0.0, 1.0]
+    Each coefficient is the drop at the ends [m] that the curvature at a knot adds: from the middle
+    to the end; else to the left end, then to the right end. With `has_slope`, the last one is the
+    drop of a straight taper [m], of either sign: it counts where the roller's tilt is prescribed.
     """
+
+    # The curvature is not negative, so that a curve is convex.
 
     half_length: float
     knots: int  # from the middle to the end
@@ -77,10 +73,8 @@ class ConvexCurves:
         return np.concatenate([-right[::-1], [0.0], right])
 
     def fitted(self, drop: ArrayLike) -> Floats:
-        """Coefficients of the curve closest to drops at the positions of the table [m].
-
-        Relative deviations count near the end, where the drop is steep, absolute ones elsewhere.
-        """
+        """Coefficients of the curve closest to drops at the positions of the table [m]."""
+        # Relative deviations count near the end, where the drop is steep, absolute ones elsewhere.
         wanted, x = np.asarray(drop, dtype=np.float64), self.table()
         weight = 1 / (np.abs(wanted) + 0.05 * np.abs(wanted).max())
         shapes = self.shapes(x) * weight[:, None]

@@ -22,12 +22,7 @@ DEVIATIONS: Mapping[str, Callable[[Floats], Floats]] = {
 
 
 def deviating(drop: Floats, places: Floats, tolerance: float) -> dict[str, Floats]:
-    """Drops [m] of profiles within a tolerance [m] of a drop, at places from -1 to 1.
-
-    >>> found = deviating(np.array([3.0, 0.0, 3.0]), np.array([-1.0, 0.0, 1.0]), 0.5)
-    >>> found["crown deeper"].tolist(), list(found)[0]
-    ([3.5, 0.0, 3.5], 'none')
-    """
+    """Drops [m] of profiles within a tolerance [m] of a drop, at places from -1 to 1."""
     if tolerance == 0.0:
         return {"none": drop}
     return {name: drop + tolerance * shape(places) for name, shape in DEVIATIONS.items()}

@@ -49,10 +49,8 @@ class LoadedRoller:
         return {**found, "indenter": self.roller if profile is None else self.with_profile(profile)}
 
     def certifying(self, profile: Profile | None, grid: Grid) -> dict[str, Any]:
-        """Arguments of a run on the cells of the case if it gives them, else on fine ones.
-
-        The profile of the case has its own automatic grid: its contact may be wider.
-        """
+        """Arguments of a run on the cells of the case if it gives them, else on fine ones."""
+        # The profile of the case has its own automatic grid: its contact may be wider.
         keeps = profile is None or isinstance(self.case.grid, Grid)
         return self.arguments(profile) | ({} if keeps else {"grid": grid})
 
@@ -105,10 +103,7 @@ def _require_roller(case: Case, path: Path) -> None:
 
 
 def without_creep(scenarios: Sequence[LoadedRoller]) -> dict[str, Any] | None:
-    """Materials of all scenarios with their instant compliance only.
-
-    None if the materials do not creep, have no such compliance, or differ between the scenarios.
-    """
+    """Materials of all scenarios with their instant compliance; None if there is no common one."""
     names = ("material", "indenter_material")
     bodies = [{name: getattr(each.case, name) for name in names} for each in scenarios]
     instant = {name: _instant(body) for name, body in bodies[0].items()}

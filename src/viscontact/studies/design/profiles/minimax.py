@@ -58,32 +58,12 @@ def cost(response: Response | None) -> float:
 
 
 def least_largest(responses: Responses, start: Floats, sizes: Floats, lowest: Floats) -> Minimum:
-    """Find the point, not below `lowest`, with the least largest value near a start.
-
-    Notes
-    -----
-    Madsen (1975), An algorithm for minimax solution of overdetermined systems of non-linear
-    equations, J. Inst. Maths Applics 16, 321-328: all values are linearised, and the linear program
-    of the least largest value is solved in a region that shrinks where the linear values mislead.
-    It converges quadratically where as many values are largest as there are variables, plus one.
-    The derivatives are forward differences.
-
-    Examples
-    --------
-    The line closest to x² on [0, 1] is x - 1/8 (Chebyshev).
-
-    >>> @dataclass(frozen=True)
-    ... class Deviations:
-    ...     values: Floats
-    ...     forbidden: Floats
-    >>> x = np.linspace(0, 1, 101)
-    >>> def deviations(points):
-    ...     lines = [x**2 - a - b * x for a, b in points]
-    ...     return [Deviations(np.concatenate([d, -d]), np.zeros(1)) for d in lines]
-    >>> found = least_largest(deviations, np.zeros(2), np.ones(2), np.full(2, -9.0))
-    >>> found.point.round(4).tolist(), round(found.cost, 4)
-    ([-0.125, 1.0], 0.125)
-    """
+    """Find the point, not below `lowest`, with the least largest value near a start."""
+    # Madsen (1975), An algorithm for minimax solution of overdetermined systems of non-linear
+    # equations, J. Inst. Maths Applics 16, 321-328: all values are linearised, and the linear
+    # program of the least largest value is solved in a region that shrinks where the linear values
+    # mislead. It converges quadratically where as many values are largest as there are variables,
+    # plus one. The derivatives are forward differences.
     point, radius = start, FIRST_RADIUS
     here, jacobian = None, None
     try:

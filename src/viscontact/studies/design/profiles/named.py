@@ -33,13 +33,8 @@ class NamedProfile:
 
 
 def amplitude_of(width: float, radius: float) -> float:
-    """Amplitude of Lundberg's profile [m] for a contact of some width [m] on a roller.
-
-    The half width of a Hertzian line contact is b = 2 sqrt(R A), with A = F'/(pi E*).
-
-    >>> amplitude_of(2.0, 5.0)
-    0.05
-    """
+    """Amplitude of Lundberg's profile [m] for a contact of some width [m] on a roller."""
+    # The half width of a Hertzian line contact is b = 2 sqrt(R A), with A = F'/(pi E*).
     return (width / 2) ** 2 / (4 * radius)
 
 

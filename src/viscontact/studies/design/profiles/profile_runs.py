@@ -56,10 +56,7 @@ class ProfileRuns:
     materials: Mapping[str, Any] = field(default_factory=dict)  # in place of those of the case
 
     def pressures(self, profiles: Sequence[Sequence[Profile]]) -> list[RowPressures | None]:
-        """Pressures under groups of profiles, all of a group together; None where a run fails.
-
-        BudgetSpentError if they would take too many runs.
-        """
+        """Pressures under groups of profiles, None where a run fails; BudgetSpentError."""
         runs = [self._search_run(each) for group in profiles for each in group]
         found = iter(self.evaluation.outcomes([run for each in runs for run in each]))
         return [
@@ -81,10 +78,7 @@ class ProfileRuns:
         ]
 
     def widths(self, profile: Profile | None = None) -> tuple[float, float]:
-        """Smallest and largest width of the loaded contact [m], by default that of the case.
-
-        ValueError if a run fails.
-        """
+        """Smallest and largest width of the loaded contact [m]; ValueError if a run fails."""
         cells = {} if self.grid is None else {"grid": self.grid}
         common = {**cells, "fields": "none", "errors": False}
         runs = [
@@ -189,13 +183,8 @@ def _described(profile: Profile | None) -> str:
 
 
 def search_grids(end: float, widths: tuple[float, float]) -> tuple[Grid, ...]:
-    """Grids of the search, the coarse one first, for a half length and widths of contacts [m].
-
-    Their cells end where the roller does, and where the part without pressure begins.
-
-    >>> [grid.shape for grid in search_grids(10e-3, (0.5e-3, 1e-3))]
-    [(108, 37), (432, 37)]
-    """
+    """Grids of the search, the coarse one first, for a half length and widths of contacts [m]."""
+    # Their cells end where the roller does, and where the part without pressure begins.
     small, large = widths
     count = int(np.clip(np.ceil(ACROSS * WIDTH * large / small), 35, MOST_ACROSS))
     across = count + 1 - count % 2  # a cell on the axis

@@ -28,11 +28,7 @@ def write_profile_design(directory: Path, found: ProfileDesign) -> None:
 
 
 def profile_csv(x: Floats, drop: Floats) -> str:
-    r"""Profile as CSV text, positions in mm and drops in um.
-
-    >>> profile_csv(np.array([-1e-3, 0.0]), np.array([2e-6, 0.0]))
-    'x [mm],drop [um]\n-1,2.0000\n0,0.0000\n'
-    """
+    """Profile as CSV text, positions in mm and drops in um."""
     rows = (
         f"{1e3 * place:.12g},{1e6 * level:.{_DIGITS}f}\n"
         for place, level in zip(x.tolist(), drop.tolist(), strict=True)
