@@ -29,7 +29,6 @@ class RunAxis:
     row: str  # name of a state in sentences
     symbol: str  # before a value
     heading: str  # of the curves over it
-    kind_of_run: str  # after "a run is"
     coarser: str  # what the errors are estimated from
     #: True if each state follows from those before: there are steps, cycles and sums over time.
     is_history: bool
@@ -52,11 +51,8 @@ class RunAxis:
         return f"{self.symbol}{self.quantity(value, digits)}"
 
 
-TIME = RunAxis("time", "s", "instant", "t = ", "Over time", "over time", "runs", True)
-SPEED = RunAxis(
-    *("speed", "m/s", "speed", "", "Over speed", "of steady motion"),
-    *("contacts at each speed", False),
-)
+TIME = RunAxis("time", "s", "instant", "t = ", "Over time", "runs", True)
+SPEED = RunAxis("speed", "m/s", "speed", "", "Over speed", "contacts at each speed", False)
 RUN_AXES: dict[str, RunAxis] = {axis.name: axis for axis in (TIME, SPEED)}
 
 
