@@ -58,7 +58,7 @@ def test_coarser_cells_are_twice_as_long() -> None:
 def test_all_runs_have_one_grid_and_coarse_ones_another(tmp_path: Path) -> None:
     path = written(tmp_path, HERTZ[: HERTZ.index("grid")])
     case = read_case(path)
-    plan, notes = planned(path, case, {}, inputs_of(case), 0.1, None, chosen=False)
+    plan, notes = planned(path, {}, inputs_of(case), 0.1, None, chosen=False)
     grids = [read_case(run.case, run.assignments).grid for run in plan.runs()]
     fine, coarse = dict.fromkeys(grids)
     assert isinstance(fine, Grid)
@@ -72,7 +72,7 @@ def test_an_input_near_its_limit_has_shorter_or_one_sided_steps(tmp_path: Path) 
         path = written(tmp_path, HERTZ.replace("0.4}", f"{ratio}}}"))
         case = read_case(path)
         given = [each for each in inputs_of(case) if each.key == "material.poisson_ratio"]
-        plan, _ = planned(path, case, {}, given, 0.1, None, chosen=True)
+        plan, _ = planned(path, {}, given, 0.1, None, chosen=True)
         [found] = plan.derivatives
         assert (len(found.stencil.points), found.step) == (points, step), ratio
 
@@ -81,7 +81,7 @@ def test_a_number_that_cannot_change_is_left_out_with_a_note(tmp_path: Path) -> 
     text = HERTZ.replace("kind: step, force: 1 N", CYCLES)
     path = written(tmp_path, text)
     case = read_case(path)
-    plan, notes = planned(path, case, {}, inputs_of(case), 0.1, None, chosen=False)
+    plan, notes = planned(path, {}, inputs_of(case), 0.1, None, chosen=False)
     assert "load.cycles" not in [each.given.key for each in plan.derivatives]
     assert [note.partition(":")[0] for note in notes] == ["load.cycles"]
 

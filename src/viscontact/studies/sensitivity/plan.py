@@ -88,9 +88,8 @@ class Plan:
         return VariedRun(whole, settings, varied, name, directory, "sample")
 
 
-def planned(  # noqa: PLR0913
+def planned(
     path: Path,
-    case: Case,
     settings: Mapping[str, str],
     inputs: Sequence[Input],
     step: float,
@@ -104,6 +103,7 @@ def planned(  # noqa: PLR0913
     CaseError if an input that was `chosen` cannot change, or a bound of the samples is refused.
     """
     found, notes, grids = [], [], []
+    case = case_with(path, settings)
     nominal = prepared(case)
     for given in inputs:
         try:

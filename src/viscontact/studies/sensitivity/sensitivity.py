@@ -169,9 +169,7 @@ def sensitivity(  # noqa: PLR0913
     sampled, rounded = samples_of(wanted, samples, seed)
     scattered = [each.key for each in sampled.inputs] if sampled else []
     refuse_repeated(scatter=scattered, settings=list(fixed))
-    plan, notes = planned(
-        path, own, fixed, inputs, length, place, sampled, chosen=change is not None
-    )
+    plan, notes = planned(path, fixed, inputs, length, place, sampled, chosen=change is not None)
     notes = [*(toleranced if sampled else ()), *rounded, *notes]
 
     def joint(runs: Sequence[VariedRun], folder: Path) -> xr.Dataset:
