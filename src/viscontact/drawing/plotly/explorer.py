@@ -26,6 +26,9 @@ _SECTION, _BETWEEN, _ABOVE, _BELOW = 190, 84, 40, 150
 _NARROW, _LEAST_WIDTH, _BAR = 560, 300, 52
 #: Time between two frames that are played [ms].
 _PAUSE = 800
+#: Change to a frame without a transition, and its display without delay.
+_AT_ONCE: Part = {"mode": "immediate", "transition": {"duration": 0}}
+_NOW: Part = _AT_ONCE | {"frame": {"duration": 0, "redraw": True}}
 
 
 def explore(
@@ -161,17 +164,20 @@ def _frame(
 
 
 def _controls(maps: Maps, look: Look) -> Part:
-    """Slider over the instants, and buttons that play and stop them."""
+    """Slider over the instants, and buttons that play and stop them; none for one instant."""
+    if len(maps.snapshots) < 2:
+        return {}
+    return {"sliders": [_slider(maps, look)], "updatemenus": [_buttons(look)]}
+
+
+def _slider(maps: Maps, look: Look) -> Part:
     labels = labels_of(maps.snapshots)
     axis = maps.snapshots[0].axis
-    at_once = {"mode": "immediate", "transition": {"duration": 0}}
-    now = at_once | {"frame": {"duration": 0, "redraw": True}}
-    played = at_once | {"fromcurrent": True, "frame": {"duration": _PAUSE, "redraw": True}}
     steps = [
-        {"label": label, "method": "animate", "args": [[str(index)], now]}
+        {"label": label, "method": "animate", "args": [[str(index)], _NOW]}
         for index, label in enumerate(labels)
     ]
-    slider = {
+    return {
         "x": 0.0,
         "len": 1.0,
         "y": 0.0,
@@ -184,11 +190,15 @@ def _controls(maps: Maps, look: Look) -> Part:
         "bordercolor": look.edge,
         "bgcolor": look.grid,
     }
+
+
+def _buttons(look: Look) -> Part:
+    played = _AT_ONCE | {"fromcurrent": True, "frame": {"duration": _PAUSE, "redraw": True}}
     buttons = [
         {"label": "Play", "method": "animate", "args": [None, played]},
-        {"label": "Stop", "method": "animate", "args": [[None], now]},
+        {"label": "Stop", "method": "animate", "args": [[None], _NOW]},
     ]
-    menu = {
+    return {
         "type": "buttons",
         "direction": "left",
         "showactive": False,
@@ -202,6 +212,3 @@ def _controls(maps: Maps, look: Look) -> Part:
         "font": {"color": look.ink, "size": 11},
         "buttons": buttons,
     }
-    if len(steps) < 2:
-        return {}
-    return {"sliders": [slider], "updatemenus": [menu]}

@@ -25,25 +25,7 @@ def sections(
 def draw_section(
     maps: Maps, along: Along, look: Look = LIGHT, reference: Maps | None = None
 ) -> go.Figure:
-    """Draw the pressure along x or y at every instant, with a frame that emphasises each.
-
-    Parameters
-    ----------
-    maps : Maps
-        Maps of a result.
-    along : {"x", "y"}
-        Direction of the section; it runs through the resultant.
-    look : Look, optional
-        Colours and units.
-    reference : Maps, optional
-        Maps of another result, whose section at the nearest instant is dashed.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        Frames are named as those of `pressure_map`. A moving contact has marks at its leading
-        (full) and trailing (hollow) edge.
-    """
+    """Draw the pressure along x or y at every instant, that of a reference dashed."""
     lines, unit = section(maps, along), maps.axes(look.unit)[0].unit
     titles = [f"Along {along}, {lines.place(unit, at)}" for at in lines.crossings]
     others = None if reference is None else section(reference, along)
@@ -80,11 +62,10 @@ def _curves(
             lines.values, labels_of(maps.snapshots), look.instants(len(maps.maps)), strict=True
         )
     ]
-    styles: list[Part] = []
+    styles: list[Part] = [{"x": numbers(position), "line": {"color": look.blue, "width": 2.6}}]
     if others is not None:
         dashed = {"color": look.warm, "width": 2, "dash": "dash"}
-        styles.append({"name": "reference", "line": dashed})
-    styles.append({"x": numbers(position), "line": {"color": look.blue, "width": 2.6}})
+        styles.insert(0, {"name": "reference", "line": dashed})
     styles = [{"mode": "lines", "hovertemplate": hover} | style for style in styles]
     if any(lines.edges):
         styles.append(_edge_style(look, lines.along, length))
@@ -97,9 +78,7 @@ def _curves(
         parts.append({"y": thin[index]["y"], "name": thin[index]["name"]})
         if len(styles) > len(parts):
             parts.append({"x": length(lines.edges[index] or []).tolist()})
-        traces = list(range(len(thin), len(thin) + len(parts)))
-        layout = {"meta": {"name": lines.name, "title": titles[index]}}
-        frames.append({"name": str(index), "traces": traces, "data": parts, "layout": layout})
+        frames.append(_frame(index, len(thin), parts, lines.name, titles[index]))
     start = frames[maps.start]
     return drawn(
         [*thin, *(style | part for style, part in zip(styles, start["data"], strict=True))],
@@ -109,6 +88,13 @@ def _curves(
         xaxis={"title": {"text": length.label(lines.along)}, "range": position[[0, -1]].tolist()},
         yaxis={"title": {"text": quantity.label}, "rangemode": "tozero"},
     )
+
+
+def _frame(index: int, first: int, parts: list[Part], name: str, title: str) -> Part:
+    """Frame that replaces the traces from the first one on."""
+    traces = list(range(first, first + len(parts)))
+    layout = {"meta": {"name": name, "title": title}}
+    return {"name": str(index), "traces": traces, "data": parts, "layout": layout}
 
 
 def _edge_style(look: Look, along: str, length: ReadableUnit) -> Part:
