@@ -186,7 +186,7 @@ def test_error_in_a_layer_is_at_its_key(change: Any, expected: str, tmp_path: Pa
         ({"layers": [{"thickness": "5 mm", "shear_modulus": "1 MPa"}]},
          "material.layers[1].law: is missing; choose one of: elastic"),
         ({"layers": [{"thickness": "5 mm", "material": {**ZENER, "thickness": "1 mm"}}]},
-         "material.layers[1].material.thickness: is that of the layer"),
+         "material.layers[1].material.thickness: belongs to the layer"),
         ({"layers": [{"thickness": "5 mm", "material": "epdm"}]},
          "material.layers[1].material: no shipped material is called 'epdm'; did you mean 'epdm-7"),
         ({"layers": [{"thickness": "5 mm", "material": "epdm-70-25c", "bulk_modulus": 2}]},

@@ -72,8 +72,8 @@ class IndentationRecord(Displayable):
             )
         if not (columns["approach"].max() > 0 and columns["force"].max() > 0):
             raise ValueError(
-                "IndentationRecord: no contact: approach and force must be positive "
-                "somewhere; both are positive when the bodies are pressed together"
+                "IndentationRecord: approach and force must be positive in some row, as they are "
+                "when the bodies are pressed together"
             )
         for name, column in columns.items():
             object.__setattr__(self, name, column)

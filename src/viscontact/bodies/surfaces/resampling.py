@@ -178,7 +178,7 @@ def _count(surface: Surface, axis: int, cell: float) -> int:
         raise ValueError(
             f"resample: {count} cells of {format_quantity(cell, 'm')} fit on the "
             f"{format_quantity(size, 'm')} of {surface.name} along {'xy'[axis]}; choose cells of "
-            "which two or more do"
+            "half that length or less"
         )
     if surface.periodic and not math.isclose(count * cell, size, rel_tol=1e-9):
         raise ValueError(

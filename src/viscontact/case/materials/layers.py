@@ -41,7 +41,7 @@ def _deep(base: Medium | Literal["rigid"]) -> Medium | Literal["rigid"]:
 
 def _without_thickness(material: Medium) -> Medium:
     if material.thickness is not None:
-        raise ValueError("thickness: is that of the layer, beside material; leave it out here")
+        raise ValueError("thickness: belongs to the layer; leave it out of its material")
     return material
 
 
