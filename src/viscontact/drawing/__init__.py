@@ -1,1 +1,1 @@
-"""What figures show, decided once for all renderers."""
+"""Figures: their content, decided once, and its renderers."""

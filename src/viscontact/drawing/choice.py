@@ -27,15 +27,12 @@ class UnknownFigureError(ValueError):
 
 @dataclass(frozen=True)
 class FigureChoice:
-    """Wanted figure and its instants or speeds, as texts with units.
-
-    `prefix` stands before the names of arguments in messages: "--" on the command line.
-    """
+    """Wanted figure and its instants or speeds, as texts with units."""
 
     name: str
     times: tuple[str, ...] = ()
     speeds: tuple[str, ...] = ()
-    prefix: str = ""
+    prefix: str = ""  # before names of arguments in messages: "--" on the command line
 
     @property
     def axis(self) -> RunAxis:

@@ -13,13 +13,7 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class FigureEntry:
-    """Figure by its name on the command line.
-
-    Examples
-    --------
-    >>> FigureEntry("pressure-map").method, FigureEntry("creep", takes=()).takes
-    ('pressure_map', ())
-    """
+    """Figure by its name on the command line."""
 
     name: str
     function: str = ""  # of viscontact.plot; by default the name

@@ -29,9 +29,7 @@ def along_run(
     units: Units = readable_unit,
     drawn: Iterable[Floats] | None = None,
 ) -> Axis:
-    """Axis of time or speed of runs, logarithmic where that suits all of them.
-
-    `drawn` are the instants [s] or speeds [m/s] that are shown of each run, if not all.
+    """Axis of time or speed, log where it suits all runs; `drawn`: shown places [s] or [m/s].
 
     >>> ramp = {name: ("time", np.arange(5.0)) for name in ("force", "approach")}
     >>> along_run([xr.Dataset(ramp, {"time": [0.0, 1.0, 2.0, 4.0, 1000.0]})]).scale
@@ -62,9 +60,7 @@ def along_run(
 def within_span(
     run: xr.Dataset, variables: Iterable[str], times: ArrayLike | None, figure: str, name: str
 ) -> xr.Dataset:
-    """Cut variables over time and their errors to a span [s]; None for the whole run.
-
-    ValueError for fewer than two instants.
+    """Cut variables and errors to a span [s], or the whole; ValueError below two instants.
 
     >>> run = xr.Dataset({"force": ("time", [0.0, 1.0, 2.0])}, coords={"time": [0.0, 1.0, 2.0]})
     >>> within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()

@@ -33,11 +33,9 @@ def runs_of(results: Runs, figure: str) -> Mapping[str, xr.Dataset]:
 def headed_snapshots(
     results: Runs, times: ArrayLike | None, figure: str, *, count: int
 ) -> list[tuple[str, Snapshot, bool]]:
-    """Headings and fields at requested instants [s], and whether the peak depends on the mesh.
-
-    By default some of a single run, as `take_snapshots` chooses them, and the last of each of
-    several.
-    """
+    """Headings, fields at instants [s], and whether the peak depends on the mesh."""
+    # By default some instants of a single run, as `take_snapshots` chooses them, and the last of
+    # each of several.
     found = []
     for name, run in runs_of(results, figure).items():
         last = float(run_axis(run).values(run)[-1])

@@ -40,10 +40,8 @@ class ContactCurve:
 def cut_at_ends(
     snapshot: Snapshot, along: Literal["x", "y"], at: float | None, curve: tuple[Floats, Floats]
 ) -> tuple[Floats, Floats]:
-    """The curve along an axis, falling to zero where the body ends, not at the next centre.
-
-    The end is that on the row of cells next to `at` [m] on the other axis, by default the middle.
-    """
+    """The curve along an axis, falling to zero where the body ends, not at the next centre."""
+    # The end is that on the row of cells next to `at` [m] on the other axis, by default the middle.
     positions, values = curve
     if snapshot.body_end is None:
         return curve

@@ -33,11 +33,7 @@ def facts(
     contact: tuple[float, float, float, float] | None,
     shaded: str,
 ) -> Iterator[str]:
-    """Yield the facts on an indenter that its drawing does not show, one per line.
-
-    `levels` are the gaps of the contour lines [m]; `contact` is the shaded box: centre and extents
-    [m].
-    """
+    """Yield the facts on an indenter that its drawing does not show, one per line; lengths [m]."""
     yield from _names(indenter, sections[0])
     yield from _ends(sections)
     if not isinstance(indenter, Sphere | Paraboloid | Roller):

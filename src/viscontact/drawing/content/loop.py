@@ -24,25 +24,19 @@ _STEADY, _ABOVE = 1e-4, 1.15
 
 @dataclass(frozen=True)
 class Loop:
-    """Two scalars of a run over each other, and the instants of the last cycle.
-
-    `last` and `end` are the indices of its first and last instant, of the whole path if it has no
-    cycles.
-    """
+    """Two scalars of a run over each other, and the instants of the last cycle."""
 
     name: str
     along: str  # scalar on the horizontal axis [m]
     value: str  # scalar on the vertical axis [N]
     area: str = "loss"  # what the area inside is
-    last: int = 0
+    last: int = 0  # indices of the first and last instant; without cycles, of all
     end: int = -1
 
 
 def loops_of(run: xr.Dataset) -> list[Loop]:
-    """Return force over approach of a cyclic load, and resistance over position along each axis.
-
-    Resistance is shown along axes on which the body turns back; nothing is over speed.
-    """
+    """Return force over approach of a cyclic load, and resistance over position along each axis."""
+    # Resistance has a loop along axes on which the body turns back; over speed nothing has one.
     if not run_axis(run).is_history:
         return []
     found = [_resistance(run, axis) for axis in "xy" if _turns_back(run, axis)]

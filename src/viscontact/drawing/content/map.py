@@ -151,11 +151,7 @@ class Maps:
 
     @cached_property
     def through(self) -> tuple[tuple[float, float], ...]:
-        """Position of the sections at each instant, x and y [m].
-
-        Those of a standing contact are through the resultant of the first instant shown, those of a
-        moving one follow it.
-        """
+        """Position of the sections at each instant, x and y [m]; it follows a moving contact."""
         if not self.moves:
             return (_middle_of(self.snapshots[self.start]),) * len(self.maps)
         return tuple(
@@ -175,21 +171,19 @@ class Maps:
         return int(np.abs([each.time - place for each in self.snapshots]).argmin())
 
     def stretched(self, slender: float) -> Maps:
-        """The same maps, a long contact no more than so many times longer than wide."""
+        """Maps with a long contact shown at most so many times longer than wide."""
         return replace(self, window=window_around(self.snapshots, slender=slender))
 
     def beside(self, other: Maps | None) -> Maps:
-        """The same maps in a window that contains the contacts of other maps as well."""
+        """Maps in a window that contains the contacts of other maps, too."""
         if other is None:
             return self
         return replace(self, window=window_around([*self.snapshots, *other.snapshots]))
 
 
 def maps_at(results: Runs, times: ArrayLike | None, figure: str, *, count: int = 1) -> Maps:
-    """Maps at requested instants [s], by default some of a run, or the last of each of several.
-
-    A moving body is shown where there is one run.
-    """
+    """Maps at requested instants [s], by default some of a run, or the last of each of several."""
+    # A moving body is shown where there is one run.
     runs = list(runs_of(results, figure).values())
     place = body_of(runs[0]) if len(runs) == 1 else None
     maps = tuple(

@@ -62,12 +62,10 @@ class Axis:
 
 @dataclass(frozen=True)
 class Ink:
-    """Colour of a curve by its meaning; each renderer has its own shades.
+    """Colour of a curve by its meaning; each renderer has its own shades."""
 
-    "run" is one of several different things, by its number from 0; "ordered" is one of a sequence,
-    by its place from 0 (first) to 1 (last); "fit" is what was fitted to measured points.
-    """
-
+    # "run" is one of several different things, by its number from 0; "ordered" one of a sequence,
+    # by its place from 0 (first) to 1 (last); "fit" what was fitted to measured points.
     kind: Literal["run", "ordered", "fit", "faint", "text"] = "run"
     place: float = 0
 

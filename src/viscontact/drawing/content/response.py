@@ -19,15 +19,12 @@ _MOST_KEYS = 4
 
 @dataclass(frozen=True)
 class SweptKeys:
-    """Runs of a sweep as they are drawn: the chief scalars, and the keys, the longest axis first.
-
-    A grid of one or two keys has curves over the first one; other runs are points over each key.
-    """
+    """Runs of a sweep: the chief scalars, and the keys, the longest axis first."""
 
     ds: xr.Dataset
     scalars: list[str]
     keys: list[str]
-    is_grid: bool
+    is_grid: bool  # of one or two keys: curves over the first one; else points over each
 
     @property
     def numeric(self) -> list[str]:
@@ -37,14 +34,11 @@ class SweptKeys:
 
 @dataclass(frozen=True)
 class RunGroup:
-    """Some runs: places on the axis, largest values [SI] with errors, and those without a result.
-
-    The error is inf for a value that depends on the mesh.
-    """
+    """Some runs: places on the axis, largest values [SI], errors, and those without a result."""
 
     places: Floats
     values: Floats
-    errors: Floats
+    errors: Floats  # inf for a value that depends on the mesh
     missing: Bools
     names: list[str]
     label: str = ""

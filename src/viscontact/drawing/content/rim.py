@@ -31,33 +31,21 @@ Corners: TypeAlias = Floats
 
 
 def rim_polygons(snapshot: Snapshot) -> list[Floats]:
-    """Closed polygons of the rim, shape (n, 2) [m]: one per spot, and per hole in a spot.
-
-    Just outside a smooth rim the gap opens as distance^(3/2) for every law, so gap^(2/3) is linear
-    there and points to the rim. Every open cell next to the contact gives one corner: the foot of
-    its steepest descent to zero. Following the gradient keeps the polygon smooth where the rim runs
-    almost along a grid line. Where the body ends, the corner is its end, or half-way between the
-    cells if that is not known. Contact across the border of a period is followed some cells beyond
-    it.
-    """
+    """Closed polygons of the rim, shape (n, 2) [m]: one per spot, and per hole in a spot."""
+    # Just outside a smooth rim the gap opens as distance^(3/2) for every law, so gap^(2/3) is
+    # linear there and points to the rim. Every open cell next to the contact gives one corner: the
+    # foot of its steepest descent to zero. Following the gradient keeps the polygon smooth where
+    # the rim runs almost along a grid line. Where the body ends, the corner is its end, or half-way
+    # between the cells if that is not known.
     return [first + cell * _closed(_spread(found)) for found, _, first, cell in _traced(snapshot)]
 
 
 def rim_curves(snapshot: Snapshot) -> list[Floats]:
-    """Closed curves of the rim, shape (n, 2) [m]: splines where it is smooth, else the polygons.
-
-    Smoothing spline of FITPACK (Dierckx, *Curve and Surface Fitting with Splines*, 1993) with the
-    least number of knots for a mean-square distance of part of a cell from the corners. The corners
-    of Hertz's ellipses are off by 0.02 to 0.05 cells, to both sides, while the polygon lies inside.
-    A rim with corners of its own, or a rough one, needs many knots: it remains a polygon.
-
-    >>> x = np.arange(-12.5, 13.0)
-    >>> outside = np.hypot(x[:, None], x) - 9.3
-    >>> gap = np.maximum(outside, 0.0) ** 1.5
-    >>> curve, = rim_curves(Snapshot(0.0, x, x, 1.0 * (outside < 0), gap, outside < 0))
-    >>> len(curve) > 300, float(np.abs(np.hypot(*curve.T) - 9.3).max().round(2))
-    (True, 0.05)
-    """
+    """Closed curves of the rim, shape (n, 2) [m]: splines where it is smooth, else the polygons."""
+    # Smoothing spline of FITPACK (Dierckx, Curve and Surface Fitting with Splines, 1993) with the
+    # least number of knots for a mean-square distance of part of a cell from the corners. The
+    # corners of Hertz's ellipses are off by 0.02 to 0.05 cells, to both sides, while the polygon
+    # lies inside. A rim with corners, or a rough one, needs many knots: it remains a polygon.
     return [
         first + cell * (_spline(found) if steady else _closed(_spread(found)))
         for found, steady, first, cell in _traced(snapshot)
@@ -77,10 +65,7 @@ def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corner
 
 
 def _borders(contact: Bools) -> Iterator[tuple[Integers, Integers]]:
-    """Cells inside and outside along each closed border, anticlockwise around a spot.
-
-    Spots that share a corner only are separate.
-    """
+    """Cells inside and outside along each closed border, anticlockwise around a spot."""
     beyond = [np.roll(contact, tuple(-way), (0, 1)) for way in _WAYS]
     side, i, j = np.nonzero(contact & ~np.array(beyond))
     inner, outwards, ahead = np.stack([i, j], axis=1), _WAYS[side], _WAYS[(side + 1) % 4]
@@ -92,6 +77,7 @@ def _borders(contact: Bools) -> Iterator[tuple[Integers, Integers]]:
     number[side, *inner.T] = np.arange(side.size)
     at_left, at_right = inner + ahead, inner + ahead + outwards
     turned_right = number[(side - 1) % 4, *at_right.T]
+    # Spots that share a corner only are separate.
     straight = np.where(contact[*at_right.T], turned_right, number[side, *at_left.T])
     following = np.where(contact[*at_left.T], straight, number[(side + 1) % 4, *inner.T]).tolist()
     unused = [True] * side.size
@@ -111,11 +97,7 @@ def beyond_period(snapshot: Snapshot) -> Snapshot:
 
 
 def offsets_from_rim(contact: Bools, gap: Floats) -> Floats:
-    """Offset of each open cell's centre from the rim [cells], shape (nx, ny, 2).
-
-    The rim is where gap^(2/3), linear around the cell, is zero; NaN in contact and where that is
-    unknown.
-    """
+    """Offset of each open cell's centre from the rim [cells], (nx, ny, 2); NaN if unknown."""
     usable = ~contact & np.isfinite(gap)
     opening = np.where(usable, np.cbrt(np.maximum(np.where(usable, gap, 0.0), 0.0)) ** 2, np.nan)
     slopes = np.stack([_slope(opening), _slope(opening.T).T], axis=-1)

@@ -58,9 +58,6 @@ def pressure_scale(
 ) -> Scale:
     """Scale of a pressure or a stress from the least to the largest [Pa], with 0.
 
-    `ordinary` is the largest pressure that does not depend on the mesh [Pa], if others do: levels
-    up to the peak would concentrate at the edge. Colours of negative values diverge from 0.
-
     >>> scale = pressure_scale(0.0, 152e6)
     >>> scale.unit(scale.levels).tolist(), scale.label
     ([0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0], 'Pressure [MPa]')
@@ -69,6 +66,8 @@ def pressure_scale(
     ([-40.0, -20.0, 0.0, 20.0], True)
     """
     low, unit = min(low, 0.0), units("Pa", low, high)
+    # `ordinary` is the largest pressure that does not depend on the mesh [Pa], if others do: levels
+    # up to the peak would concentrate at the edge.
     top = high if ordinary is None else ordinary
     levels = round_levels(low / unit.factor, top / unit.factor, most) * unit.factor
     return Scale(quantity, unit, (low, high), levels, ordinary is not None, low < 0)

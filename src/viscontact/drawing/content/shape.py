@@ -60,10 +60,7 @@ class Shape:
 def shape_of(
     indenter: Indenter, size: tuple[float, float], mesh: int, points: int = POINTS
 ) -> Shape:
-    """Shape on extents along x and y [m], with numbers of points of the plan and of a section.
-
-    ValueError if none of the body lies within them.
-    """
+    """Shape on extents [m], with numbers of points of plan and section; ValueError if empty."""
     x, y = (np.linspace(-extent / 2, extent / 2, mesh) for extent in size)
     gap = indenter.gap(x[:, None], y)
     if not np.isfinite(gap).any():
@@ -90,10 +87,6 @@ def stretch_note(what: str, stretch: float) -> str:
 
 def natural_size(indenter: Indenter) -> tuple[float, float]:
     """Extents along x and y, around the origin, over which a body is drawn by default [m].
-
-    Examples
-    --------
-    A cap an eighth of the radius high:
 
     >>> from viscontact.bodies.indenters import Sphere
     >>> [round(extent, 3) for extent in natural_size(Sphere(radius=1.0))]

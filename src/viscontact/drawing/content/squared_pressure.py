@@ -14,12 +14,10 @@ _LEAST_DEPTH = 0.1
 
 
 def squared_pressure(snapshot: Snapshot) -> Floats:
-    """Square of the pressure, continued below zero just outside the rim [Pa²], shape (nx, ny).
-
-    At a smooth rim the pressure starts as the square root of the distance to it, so its square is
-    linear there: interpolated between cells it gives smooth contours where the pressure itself
-    would follow the steps of the grid.
-    """
+    """Square of the pressure, continued below zero just outside the rim [Pa²], shape (nx, ny)."""
+    # At a smooth rim the pressure starts as the square root of the distance to it, so its square is
+    # linear there: interpolated between cells it gives smooth contours where the pressure itself
+    # would follow the steps of the grid.
     squared = np.square(snapshot.pressure)
     contact = snapshot.in_contact
     offsets = offsets_from_rim(contact, snapshot.gap)

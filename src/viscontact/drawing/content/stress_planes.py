@@ -80,10 +80,8 @@ def grouped_sections(
 def stress_sections(
     source: StressSource, snapshots: list[Snapshot], progress: Progress | None = None
 ) -> list[Section]:
-    """Sections at the given instants with contact, all to one depth.
-
-    Below small spots they are computed again to smaller depths, and `progress` begins again.
-    """
+    """Sections at the given instants with contact, all to one depth."""
+    # Below small spots they are computed again to smaller depths, and `progress` begins again.
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
     sections = _sections_down_to(

@@ -51,11 +51,9 @@ class Window:
 
 
 def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAPE) -> Window:
-    """Window around the contact of all snapshots, with a margin, within a period.
-
-    The true shape is kept up to an aspect ratio of three; a longer contact is stretched by a round
-    factor, but remains `slender` times longer than wide.
-    """
+    """Window around the contact of all snapshots, with a margin, within a period."""
+    # The true shape is kept up to an aspect ratio of three; a longer contact is stretched by a
+    # round factor, but remains `slender` times longer than wide.
     snapshots = list(snapshots)
     boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
     borders = snapshots[0].borders() if any(snapshots[0].periodic) else None

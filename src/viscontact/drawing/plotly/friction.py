@@ -18,23 +18,7 @@ from viscontact.units.formatting import format_compact
 
 
 def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = None) -> go.Figure:
-    """Draw the friction coefficient over speed with the limits of slow and fast motion.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        Result of `viscontact.steady` with a positive coefficient, from the slowest to the fastest
-        speed.
-    look : Look, optional
-        Colours and units.
-    reference : xarray.Dataset, optional
-        Another result over speed, dashed.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        Both axes are logarithmic.
-    """
+    """Draw the friction coefficient over speed with its limits; both axes are logarithmic."""
     panel = friction_panel(ds, look.unit, reference)
     results = [curve for curve in panel.curves if curve.look == "joined"]
     limits = [curve for curve in panel.curves if curve.look != "joined"]

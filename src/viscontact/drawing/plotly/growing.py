@@ -27,34 +27,7 @@ def growing(
     ends: tuple[float, float],
     look: Look = LIGHT,
 ) -> go.Figure:
-    """Draw a scalar of an active run over the whole range of the run.
-
-    Parameters
-    ----------
-    name : str
-        The scalar, such as ``"contact_area"``.
-    places : array_like, shape (n,)
-        Finished instants [s] or speeds [m/s], in any order.
-    values : array_like, shape (n,)
-        Its values [SI]; NaN where there is none.
-    axis : RunAxis
-        Time or speed.
-    ends : tuple of float
-        First and last instant or speed of the run [SI].
-    look : Look, optional
-        Colours and units.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        A line from zero on. Speed is logarithmic, and time where the steps grow.
-
-    Examples
-    --------
-    >>> figure = growing("approach", [0.0, 0.5], [1e-6, 2e-6], TIME, (0.0, 2.0))
-    >>> figure.layout.meta["title"], list(figure.layout.xaxis.range), figure.data[0].y.tolist()
-    ('Approach [µm]', [0.0, 2.0], [1.0, 2.0])
-    """
+    """Draw a scalar [SI] of an active run at its finished instants or speeds, from end to end."""
     x, y = (np.asarray(each, dtype=np.float64) for each in (places, values))
     order = np.argsort(x, kind="stable")
     every = max(1, -(-x.size // _MOST))

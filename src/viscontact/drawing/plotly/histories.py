@@ -23,33 +23,7 @@ LINEAR, LOGARITHMIC = "linear", "log"
 def history(
     ds: xr.Dataset, name: str, look: Look = LIGHT, reference: xr.Dataset | None = None
 ) -> go.Figure:
-    """Draw a scalar over time or speed with its error band.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        Result of a run, over speed from the slowest to the fastest.
-    name : str
-        The scalar, such as ``"contact_area"``.
-    look : Look, optional
-        Colours and units.
-    reference : xarray.Dataset, optional
-        Another result over the same quantity, dashed.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        Where the steps are spread over decades it has the frames ``"linear"`` and ``"log"``. Its
-        title is in ``layout.meta``, with a remark on errors that the band does not show.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> pmma = vc.Material(vc.Elastic(1e9), 0.4)
-    >>> ds = vc.simulate(vc.Sphere(0.01), pmma, vc.step(100.0), times=[0.0, 1.0], errors=False)
-    >>> history(ds, "approach").layout.meta["title"]
-    'Approach [µm]'
-    """
+    """Draw a scalar over time or speed with its error band, and the same of a reference dashed."""
     panel = history_panel({"": ds}, name, look.unit, reference)
     frames: list[Part] = [
         {

@@ -18,34 +18,7 @@ _ABOVE, _BELOW = [0.36, 1.0], [0.0, 0.22]
 
 
 def contact_point(contact: ContactPoint, look: Look = LIGHT) -> go.Figure:
-    """Draw a force curve with its baseline and the elastic body that gives the contact point.
-
-    Parameters
-    ----------
-    contact : ContactPoint
-        From `viscontact.find_contact`.
-    look : Look, optional
-        Colours and units.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        Deflection over position: the measured rows, the baseline dashed, and the fitted elastic
-        body up to the largest position; a thin line marks the contact point.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from viscontact.identification import ForceCurve, find_contact
-    >>> from viscontact.identification.contact_point import deflection_in_contact
-    >>> from viscontact.bodies.indenters import Sphere
-    >>> z = np.linspace(0.0, 3e-6, 301)
-    >>> bent = deflection_in_contact(Sphere(5e-6), 1e4, 0.1, z - 2e-6)
-    >>> found = find_contact(ForceCurve(z, z, 1e-8 + bent, 0.1), Sphere(5e-6))
-    >>> figure = contact_point(found)
-    >>> figure.layout.xaxis.title.text, round(figure.layout.shapes[0].x0, 3)
-    ('Position [µm]', 2.0)
-    """
+    """Draw a force curve with its baseline, and the elastic body that gives the contact point."""
     panel = contact_panel(contact, look.unit)
     (mark,) = panel.marks
     at = float(panel.x.unit(mark.place))
@@ -56,62 +29,13 @@ def contact_point(contact: ContactPoint, look: Look = LIGHT) -> go.Figure:
 
 
 def force_over_approach(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
-    """Draw force over approach, measured and from the fitted law.
-
-    Parameters
-    ----------
-    fit : IndentationFit
-        From `viscontact.fit_indentation`.
-    look : Look, optional
-        Colours and units.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        The rows of the record, and the law as a line, in contact and shortly before it.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from viscontact.identification import IndentationRecord, fit_indentation
-    >>> from viscontact.bodies.indenters import Sphere
-    >>> depth = 1e-6 * np.linspace(0.0, 1.0, 11)
-    >>> force = 16 / 3 * 2e6 * np.sqrt(5e-6) * depth**1.5  # Hertz with G = 2 MPa, nu = 0.5
-    >>> record = IndentationRecord(Sphere(5e-6), np.linspace(0.0, 1.0, 11), depth, force)
-    >>> fit = fit_indentation(record, "elastic", poisson_ratio=0.5)
-    >>> force_over_approach(fit).layout.meta["title"]
-    'Force [µN]'
-    """
+    """Draw force over approach, measured and from the fitted law."""
     panel = replace(force_panel(fit, look.unit), note="points: measured")
     return _drawn(panel, look, "fit-loop")
 
 
 def fit_over_time(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
-    """Draw the fitted quantity over time, and below it the residuals.
-
-    Parameters
-    ----------
-    fit : IndentationFit
-        From `viscontact.fit_indentation`.
-    look : Look, optional
-        Colours and units.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        Force or approach above, residuals in per cent of the largest value below.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from viscontact.identification import IndentationRecord, fit_indentation
-    >>> from viscontact.bodies.indenters import Sphere
-    >>> depth = 1e-6 * np.linspace(0.0, 1.0, 11)
-    >>> record = IndentationRecord(Sphere(5e-6), np.linspace(0.0, 1.0, 11), depth, depth**1.5)
-    >>> fit = fit_indentation(record, "elastic", poisson_ratio=0.5)
-    >>> fit_over_time(fit).layout.yaxis2.title.text
-    'Residual [%]'
-    """
+    """Draw the fitted quantity over time, and below it the residuals [%]."""
     above, below = course_of(fit, look.unit)
     percent = {"yaxis": "y2", "hovertemplate": "%{y:.2f} %<extra></extra>"}
     traces = _traces(above, look) + [trace | percent for trace in _traces(below, look)]

@@ -30,12 +30,10 @@ def drawn(
 
 
 def plain(figure: go.Figure) -> Part:
-    """Return a figure as data for JSON: traces, layout, frames.
-
-    Maps, which are most of a page, are packed in steps of their largest magnitude, two bytes each,
-    signed where there is tension; the step is beside them, and 0 is no value. `linked.js` unpacks
-    them.
-    """
+    """Return a figure as data for JSON: traces, layout, frames."""
+    # Maps, which are most of a page, are packed in steps of their largest magnitude, two bytes
+    # each, signed where there is tension; the step is beside them, and 0 is no value. `linked.js`
+    # unpacks them.
     made: Part = figure.to_dict()
     frames = made.get("frames", ())
     for part in (*made["data"], *(part for frame in frames for part in frame["data"])):

@@ -26,24 +26,7 @@ _ARROW, _COLOURS = 34, 17
 
 
 def pressure_map(maps: Maps, look: Look = LIGHT, reference: Maps | None = None) -> go.Figure:
-    """Draw the pressure over the surface, with a frame for each instant or speed.
-
-    Parameters
-    ----------
-    maps : Maps
-        Maps of a result.
-    look : Look, optional
-        Colours and units.
-    reference : Maps, optional
-        Maps of another result, whose outline at the nearest instant is dashed; it lies within
-        the map.
-
-    Returns
-    -------
-    plotly.graph_objects.Figure
-        The map at the instant shown first. Frames are named by their numbers: ``"0"``, ``"1"``.
-        The title of an instant and its largest pressure are in ``layout.meta``.
-    """
+    """Draw the pressure over the surface, a frame each instant or speed; outline of a reference."""
     maps = maps.beside(reference)
     (x, y), scale = maps.axes(look.unit), maps.scale(look.unit)
     frames: list[Part] = [

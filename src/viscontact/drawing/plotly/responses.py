@@ -29,38 +29,7 @@ _MARGIN = 0.06
 
 
 def responses(ds: xr.Dataset, look: Look = LIGHT) -> list[go.Figure]:
-    """Draw each chief scalar of a sweep over its varied keys.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        Runs of a sweep, from `viscontact.open_many`.
-    look : Look, optional
-        Colours and units.
-
-    Returns
-    -------
-    list of plotly.graph_objects.Figure
-        The largest value over time or speed of each scalar that differs between the runs: curves
-        over the key with most values, one for each value of a second key; of runs that are no grid
-        of one or two keys, points over each key. Bars are errors, hollow points depend on the
-        mesh, crosses at the lower edge are runs without a result. The dashed line is the allowable
-        value that all runs have; points beyond it with their errors are red.
-
-    Raises
-    ------
-    ValueError
-        If no scalar differs between the finished runs, or no key is varied.
-
-    Examples
-    --------
-    >>> coords = {"load.force": ("load.force", [1.0, 8.0], {"units": "N"}), "time": [0.0]}
-    >>> approach = (("load.force", "time"), [[1e-5], [4e-5]])
-    >>> runs = {"state": ("load.force", ["done", "done"]), "approach": approach}
-    >>> (figure,) = responses(xr.Dataset(runs, coords))
-    >>> figure.layout.xaxis.title.text, figure.layout.meta["title"], figure.data[0].y.tolist()
-    ('Load force [N]', 'Approach [µm]', [10.0, 40.0])
-    """
+    """Draw each chief scalar of a sweep over its varied keys; ValueError if nothing differs."""
     swept, limits = swept_keys(ds, "responses"), limits_of(ds)
     ds, keys = swept.ds, swept.keys
     if not swept.is_grid:

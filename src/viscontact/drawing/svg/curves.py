@@ -33,10 +33,7 @@ _PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
 
 
 def law_drawings(law: Law, part: str = "") -> list[Element]:
-    """Draw creep compliance and relaxation modulus of a law over log time; none if elastic.
-
-    `part` names the part of a body that the law belongs to.
-    """
+    """Draw compliance and relaxation modulus of a law over log time; none if elastic."""
     if isinstance(law, Elastic):
         return []
     span = law_span(law)
@@ -51,14 +48,7 @@ def law_drawings(law: Law, part: str = "") -> list[Element]:
 
 
 def law_span(law: Law) -> tuple[float, float]:
-    """Return the first and the last time worth drawing, whole decades [s].
-
-    Examples
-    --------
-    >>> from viscontact.bodies.laws import Maxwell
-    >>> law_span(Maxwell(1e9, 1e11))
-    (1.0, 10000.0)
-    """
+    """Return the first and the last time worth drawing, whole decades [s]."""
     if isinstance(law, TabulatedCreep | TabulatedRelaxation):
         times = [time for time in law.times if time > 0]
         return min(times), max(times) if len(times) > 1 else 10 * min(times)

@@ -10,8 +10,6 @@ from xml.etree.ElementTree import Element, tostring
 def element(name: str, *content: str | Element | None, **attributes: str) -> Element:
     """Make an element of HTML.
 
-    Examples
-    --------
     >>> written(element("p", "1 < 2 ", element("b", "<script>"), class_="a"))
     '<p class="a">1 &lt; 2 <b>&lt;script&gt;</b></p>'
     """
@@ -33,8 +31,6 @@ def written(made: Element) -> str:
 def as_script(data: Any) -> str:
     r"""Write data as JSON that is safe inside a script of a page: no text can end the script.
 
-    Examples
-    --------
     >>> as_script({"title": "</script>"})
     '{"title":"\\u003c/script>"}'
     """

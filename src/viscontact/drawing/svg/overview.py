@@ -61,8 +61,6 @@ def as_html(overviews: Iterable[Overview]) -> str:
 def as_text(overviews: Iterable[Overview]) -> str:
     """Write the tables of overviews for a terminal.
 
-    Examples
-    --------
     >>> print(as_text([Overview("Roller", [("radius", "5 mm"), ("half length", "9 mm")])]))
     Roller
       radius       5 mm

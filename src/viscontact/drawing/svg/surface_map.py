@@ -27,8 +27,6 @@ _POINTS = 240
 def surface_overview(surface: Surface) -> Overview:
     """Make the overview of a measured surface.
 
-    Examples
-    --------
     >>> print(surface_overview(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
     Surface: mine.npz
       points          2 × 2

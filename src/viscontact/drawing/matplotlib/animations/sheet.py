@@ -30,10 +30,7 @@ class Sheet:
 
 
 def new_sheet(window: Window, width: float, histories: int, along: str) -> Sheet:
-    """Lay out the panels on a page of this width [inch]: map, section, and histories below.
-
-    A section along x below the map shares its axis.
-    """
+    """Page of some width [inch]: map, section along x that shares its axis, and histories below."""
     is_long = window.height_to_width < 0.6
     width = STEP * round(width / STEP)
     room = width - _LEFT - _BAR - (0.0 if is_long else _LEFT + 0.1)

@@ -56,7 +56,7 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
 
 
 def _quantity(load: LoadHistory) -> str:
-    """What the curve shows."""
+    """Quantity and unit of the curve."""
     if load.control == "mixed":
         return "Share of the largest load"
     return load.control.capitalize()

@@ -38,11 +38,9 @@ class ExactHistory:
 
 
 def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
-    """Hertz's, Lee and Radok's or Ting's solution of the case of a result.
-
-    Lee and Radok's for a step or a ramp that is held; for other piecewise linear loads Ting's
-    equations as solved by `viscontact.reference`, for an elastic half-space Hertz's solution.
-    """
+    """Hertz's, Lee and Radok's or Ting's solution of the case of a result."""
+    # Lee and Radok's for a step or a ramp that is held; for other piecewise linear loads Ting's
+    # equations as solved by `viscontact.reference`, for an elastic half-space Hertz's solution.
     indenter, load = (recorded_object(results, part, figure) for part in ("indenter", "load"))
     radius = sphere_radius(indenter)
     _require_known(results, indenter, radius, load, figure)

@@ -24,11 +24,9 @@ def label_contours(
     texts: Mapping[float, str],
     fits: Callable[[Floats], bool] = lambda corners: True,
 ) -> None:
-    """Label contours with texts by level, once the figure is laid out.
-
-    A label must lie wholly in the axes, on no other label, and within `fits`, if given: a test of
-    its corners, shape (4, 2), in the units of the axes.
-    """
+    """Label contours with texts by level, once the figure is laid out."""
+    # A label must lie wholly in the axes, on no other label, and within `fits`: a test of its
+    # corners, shape (4, 2), in the units of the axes.
     if not texts:
         return
     how: dict[str, Any] = {"fmt": dict(texts), "fontsize": _LABEL_SIZE}

@@ -33,10 +33,7 @@ def rim_path(polygons: Iterable[Floats]) -> Path:
 
 
 def mark_body(axes: Axes, body: BodyPlace | None, window: Window) -> list[Artist]:
-    """Draw a cross at the axis of a moving body, and from there an arrow along its motion.
-
-    There is no arrow at rest, and nothing for a standing contact.
-    """
+    """Cross at the axis of a moving body, and an arrow along its motion; nothing if it stands."""
     if body is None:
         return []
     x, y = window.unit(body.axis).tolist()

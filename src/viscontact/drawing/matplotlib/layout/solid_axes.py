@@ -42,11 +42,9 @@ _LETTER = 0.062
 def solid_panels(
     count: int, window: Window, heights: tuple[float, float], labels: Sequence[str], width: float
 ) -> tuple[Figure, list[Axes3D]]:
-    """Figure with three-dimensional panels and room for a colour bar; width [inch].
-
-    Two panels are side by side where the page is wide enough; `heights` are the limits of the third
-    axis, as drawn.
-    """
+    """Figure with three-dimensional panels and room for a colour bar; width [inch]."""
+    # `heights` are the limits of the third axis, as drawn. Two panels are side by side where the
+    # page is wide enough.
     columns = 1 if width <= NARROW else min(count, 2)
     rows = -(-count // columns)
     across = (width - _BAR) / columns

@@ -190,10 +190,8 @@ def draw_contours(axes: Axes, shown: Map, window: Window, scale: Scale) -> QuadC
 
 
 def _heights(scale: Scale) -> Floats:
-    """Levels of what is contoured: the square of a pressure without tension.
-
-    Its contours are the same lines, and smooth up to the rim.
-    """
+    """Levels of what is contoured: the square of a pressure without tension."""
+    # Contours of the square are the same lines, and smooth up to the rim.
     return scale.levels if scale.diverges else scale.levels**2
 
 
