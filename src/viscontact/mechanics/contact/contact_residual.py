@@ -20,7 +20,7 @@ class ContactResidual:
     in_contact: Bools  # cells under pressure
     inverse_gram: Floats  # inverse Gram matrix of the planes over these cells
     motion: Floats  # rigid motion that fits best: approach [m], tilts [rad]
-    gap: Numbers  # gap with that motion, in the unit asked for
+    gap: Numbers  # gap with that motion, in the requested unit
     error: float  # largest gap in contact or penetration over the largest displacement [-]
 
 

@@ -23,17 +23,7 @@ from viscontact.mechanics.halfspace.elastic_stack import ElasticBase, ElasticLay
 
 
 class CreepingStack:
-    """Compliance C(q, s) of a body of layers whose laws are Prony series.
-
-    A rubber layer on a rigid base under waves much shorter than it is thick, at first and late:
-
-    >>> from viscontact.bodies.laws import Zener
-    >>> from viscontact.bodies.materials.layers import Layer
-    >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
-    >>> stack = CreepingStack(Layered([Layer(1e-3, rubber)], base="rigid"))
-    >>> (stack.compliance(np.array([1e5]), np.array([1e9, 1e-9])) * 1e6).round(9).tolist()
-    [[0.25], [0.5]]
-    """
+    """Compliance C(q, s) of a body of layers whose laws are Prony series."""
 
     def __init__(self, body: Layered) -> None:
         self._body = body
@@ -41,12 +31,10 @@ class CreepingStack:
 
     @property
     def rates(self) -> tuple[float, float]:
-        """Bounds of the rates of creep of all wave numbers [1/s].
-
-        Between the slowest and the fastest rate of creep or relaxation of a material: outside, all
-        moduli G~(s) are positive at negative s, and the elastic stack has no pole. Layers on a
-        fluid sink into it ever more slowly, the longer the wave.
-        """
+        """Bounds of the rates of creep of all wave numbers [1/s]."""
+        # Outside the rates of the materials, all moduli G~(s) are positive at negative s, and the
+        # elastic stack has no pole. Layers on a fluid sink into it ever more slowly, the longer the
+        # wave.
         bounds = [_rates_of(creep) for creep in self._creep if not creep.is_elastic]
         if not bounds:
             return 1.0, 1.0

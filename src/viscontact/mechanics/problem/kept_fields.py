@@ -17,8 +17,6 @@ from viscontact.units.formatting import format_quantity
 class KeptFields:
     """Fields that a result keeps, as requested: "all", "none", or instants [s] or speeds [m/s].
 
-    Examples
-    --------
     >>> KeptFields([0.0, 2.0]).among(np.array([0.0, 1.0, 2.0])).tolist()
     [0.0, 2.0]
     >>> KeptFields("all").axis(), KeptFields([0.0, 2.0]).axis()

@@ -36,31 +36,9 @@ MEASURED = (20, 24)
 
 
 def passive_share(harmonic: Numbers, weights: Numbers, at_points: Numbers) -> Numbers:
-    """What is to be added to the weights of C(q, s_j) in the L_m so that the sum is passive.
-
-    Parameters
-    ----------
-    harmonic : array
-        b_m(i ω), shape (ω, m) [1/Pa].
-    weights : array
-        Weights of the C(q, s_j) in the L_m, shape (m, j) [Pa].
-    at_points : array
-        C(q, s_j), shape (j, q) [1/Pa].
-
-    Returns
-    -------
-    array
-        Shares to be added to the weights [Pa], zero where the sum is passive.
-
-    Examples
-    --------
-    A term of negative sign gains energy; a share of the other is added:
-
-    >>> s, q = np.array([1.0]), np.ones(1)
-    >>> creep = np.array([[1.0 - 1.0j]])
-    >>> passive_share(creep, np.array([[-2.0]]), np.ones((1, 1))).round(6).tolist()
-    [[2.0]]
-    """
+    """Shares to add to the weights (m, j) [Pa] of the C(q, s_j) so that the sum is passive."""
+    # `harmonic` are b_m(i ω), shape (ω, m) [1/Pa]; `at_points` are C(q, s_j), shape (j, q) [1/Pa].
+    # A term of negative sign gains energy.
     found = harmonic @ (weights @ at_points)
     gain = scipy.ndimage.maximum_filter(found.imag / np.abs(found), 5)  # also between the points
     wanted = np.where(gain > ROUNDING, gain, 0.0)
@@ -75,11 +53,9 @@ def passive_share(harmonic: Numbers, weights: Numbers, at_points: Numbers) -> Nu
 
 
 def _least_share(harmonic: Numbers, at_points: Numbers, wanted: Numbers, found: Numbers) -> Numbers:
-    """Share of the least change relative to |found|, by a linear program over some points.
-
-    C decreases in s: the b_m times the differences of neighbouring C(q, s_j), and times the last
-    one, are passive, and so is any sum of them with factors >= 0.
-    """
+    """Share of the least change relative to |found|, by a linear program over some points."""
+    # C decreases in s: the b_m times the differences of neighbouring C(q, s_j), and times the last
+    # one, are passive, and so is any sum of them with factors >= 0.
     order = np.argsort(-at_points[:, 0])
     steps = np.eye(order.size)[order]
     steps[:-1] -= steps[1:].copy()

@@ -58,43 +58,17 @@ def _hint(name: str, given: object) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Contact problem in the terms of the user; derived quantities are computed once.
+    """Contact problem in the terms of the user; derived quantities are computed once."""
 
-    Attributes
-    ----------
-    indenter : Indenter
-        Shape of the pressed body; a measured `Surface`, or a map of SurfaceTopography, becomes a
-        `HeightMap`, as it is.
-    material : Material or Layered
-        Material of the half-space, or a body of layers.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time; a `LoadProgram` becomes a
-        `MixedHistory` that awaits its events.
-    grid : Grid, AutomaticGrid or None
-        Cells that carry the pressure, or requirements on a grid that the run chooses.
-    times : array_like, AdaptiveTimes or None
-        Times of the states [s], or requirements on steps that the run chooses.
-    indenter_material : Material, Layered or None
-        Material of the pressed body; None for a rigid one.
-    tolerance : float
-        Relative error of gap and balances at every step [-].
-    kept : KeptFields
-        Times whose fields are kept [s].
-    step_ratio : float
-        Longest step between given times, relative to the longest one that the load allows [-].
-    motion : Motion
-        Motion of the body over the surface.
-    """
-
-    indenter: Indenter
-    material: Material | Layered
-    load: LoadHistory
+    indenter: Indenter  # shape of the pressed body; a measured one becomes a `HeightMap`
+    material: Material | Layered  # of the half-space, or layers
+    load: LoadHistory  # a `LoadProgram` becomes a `MixedHistory` that awaits its events
     grid: Grid | AutomaticGrid | None = None
-    times: ArrayLike | AdaptiveTimes | CellTimes | None = None
-    indenter_material: Material | Layered | None = None
-    tolerance: float = 1e-6
+    times: ArrayLike | AdaptiveTimes | CellTimes | None = None  # of the states [s]
+    indenter_material: Material | Layered | None = None  # None for a rigid body
+    tolerance: float = 1e-6  # relative error of gap and balances at every step [-]
     kept: KeptFields = ALL_FIELDS
-    step_ratio: float = 1.0
+    step_ratio: float = 1.0  # longest step, relative to the longest one that the load allows [-]
     motion: Motion = STANDING
 
     def __post_init__(self) -> None:

@@ -41,34 +41,9 @@ def series_of_transform(
     *,
     flows: bool,
 ) -> SeriesCompliance:
-    """Prony series of the transform f = s L[J] given at real s and at i ω.
-
-    Parameters
-    ----------
-    s : array
-        Real s > 0 [1/s], ascending.
-    omega : array
-        Angular frequencies > 0 over the same range [rad/s], ascending.
-    at_s, at_omega : array
-        f(s), positive, and f(i ω), complex [1/Pa].
-    rates : tuple of float
-        Bounds of the rates 1/τ of creep [1/s].
-    flows : bool
-        True if the body may flow without end, and creep ever more slowly before.
-
-    Returns
-    -------
-    SeriesCompliance
-        Series with amplitudes >= 0.
-
-    Examples
-    --------
-    >>> s = np.geomspace(1e-3, 1e3, 30)
-    >>> f = lambda s: 1.0 + 2.0 / (1 + 0.5 * s) + 3.0 / (1 + 4.0 * s)
-    >>> found = series_of_transform(s, s, f(s), f(1j * s), (0.2, 3.0), flows=False)
-    >>> found.times.round(6).tolist(), found.amplitudes.round(6).tolist()
-    ([0.5, 4.0], [2.0, 3.0])
-    """
+    """Prony series, with amplitudes >= 0, of f = s L[J] at s [1/s] and i ω [rad/s], ascending."""
+    # f(s) is positive, f(i ω) complex [1/Pa]; `rates` bound the rates 1/τ of creep [1/s]. A body
+    # that `flows` without end may creep ever more slowly before.
     poles = _poles(s, at_s)
     real = poles.real[np.abs(poles.imag) < REAL * np.abs(poles)]
     slow, fast = rates[0] / (SLOWER if flows else BEYOND), rates[1] * BEYOND

@@ -93,26 +93,13 @@ class Separation:
 
 @lru_cache(maxsize=16)
 def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
-    """Separate the response of layers that creep differently.
-
-    The terms are found for Prony series (`series_body`), which follow other laws within a span of
-    times [s]. Creep functions of materials are then those of the laws themselves, as the responses
-    depend little on the law. ValueError if no sum comes close.
-
-    Rubber on steel needs two terms, that of the cover and that of the core:
-
-    >>> from viscontact.bodies.laws import Elastic, Zener
-    >>> from viscontact.bodies.materials.layers import Layer
-    >>> rubber = Material(Zener(2e6, 1e6, 1e6), poisson_ratio=0.49)
-    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
-    >>> found = separate(Layered([Layer(5e-3, rubber)], base=steel))
-    >>> len(found.compliances), found.error < 1e-6
-    (2, True)
-    """
+    """Terms of the response of layers over times of interest [s]; ValueError if none come close."""
     series, deviation = series_body(body, span)
     found = _Search(series).best()
     if series is body:
         return found
+    # Creep functions of materials are those of the laws themselves, as the responses depend little
+    # on the law.
     compliances = tuple(_of_law(each, body, series) for each in found.compliances)
     kept = any(
         each is old and not each.is_elastic

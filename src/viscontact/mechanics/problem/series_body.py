@@ -57,20 +57,7 @@ def span_of(instants: ArrayLike) -> Span:
 
 
 def series_body(body: Layered, span: Span = ANY_TIMES) -> tuple[Layered, float]:
-    """Replace laws that are no Prony series by series; return the largest deviation, too.
-
-    The deviation is that of the creep compliance over its value, within the span. A series without
-    an instant compliance, which is stiffer at first than whatever lies beneath, is taken a little
-    ahead in time, where it has one. Where nothing is replaced, the body itself is returned.
-
-    Examples
-    --------
-    >>> from viscontact.bodies.laws import PowerLaw
-    >>> rubber = Material(PowerLaw(1e-7, 0.3, 1.0, instant=1e-7), poisson_ratio=0.49)
-    >>> found, deviation = series_body(Layered([Layer(1e-3, rubber)], base="rigid"))
-    >>> type(found.layers[0].material.law).__name__, deviation < 1e-6
-    ('CreepSeries', True)
-    """
+    """Replace laws that are no Prony series; return the largest relative deviation, too."""
     if all(is_series(material.law) for material in body.materials):
         return body, 0.0
     known: dict[Material, tuple[Material, float]] = {}

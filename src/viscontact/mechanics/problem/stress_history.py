@@ -52,31 +52,17 @@ BEYOND, BEYOND_FLUID = 1e6, 1e2
 
 @dataclass(frozen=True, eq=False)
 class StressHistory:
-    """Elastic stacks whose stresses add up to those of creeping layers.
+    """Elastic stacks whose stresses add up to those of creeping layers."""
 
-    Attributes
-    ----------
-    stacks : tuple of ElasticStack
-        The stacks at the s_j.
-    times : ndarray, shape (m,)
-        Times τ_m of the exponentials [s]; none where the present pressure is enough.
-    weights : ndarray, shape (stacks, 1 + m)
-        B^-1, transposed [-].
-    error : float
-        Bound of the error, over the largest stress under any wave at the same depth [-].
-    """
-
-    stacks: tuple[ElasticStack, ...]
-    times: Numbers
-    weights: Numbers
-    error: float
+    stacks: tuple[ElasticStack, ...]  # at the s_j
+    times: Numbers  # τ_m [s]; none where the present pressure is enough
+    weights: Numbers  # B^-1, transposed, shape (stacks, 1 + m) [-]
+    error: float  # bound, over the largest stress under any wave at the same depth [-]
 
     def pressures(self, instants: Numbers, pressure: Numbers, jumps: Numbers) -> Numbers:
-        """Pressures of the stacks [Pa], shape (stacks, instants, ...).
-
-        The pressure, of shape (instants, ...), is linear between the instants [s], and jumps to its
-        first value at the first one. At a jump of the load it jumps to its next value.
-        """
+        """Pressures of the stacks [Pa], (stacks, instants, ...), by that at the instants [s]."""
+        # The pressure is linear between the instants, and jumps to its first value at the first
+        # one. At a jump of the load it jumps to its next value.
         found = np.empty((len(self.stacks), *pressure.shape))
         faded = np.repeat(pressure[None, 0], self.times.size, axis=0)
         times = self.times.reshape(-1, *[1] * (pressure.ndim - 1))
@@ -96,20 +82,7 @@ class StressHistory:
 
 @lru_cache(maxsize=16)
 def stress_history(body: Layered, span: Span = ANY_TIMES) -> StressHistory:
-    """Separate the stresses of layers, for times of interest within a span [s].
-
-    Laws that are not Prony series are approximated by series (`series_body`).
-
-    A rubber cover on steel is stressed by the present pressure, as its creep does not matter there:
-
-    >>> from viscontact.bodies.laws import Elastic, Zener
-    >>> from viscontact.bodies.materials.layers import Layer
-    >>> rubber = Material(Zener(2e6, 1e6, 1e6), poisson_ratio=0.49)
-    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
-    >>> found = stress_history(Layered([Layer(5e-3, rubber)], base=steel))
-    >>> len(found.stacks), found.error < 1e-3
-    (1, True)
-    """
+    """Separate the stresses of layers, for times of interest within a span [s]."""
     body, deviation = series_body(body, span)
     slow, fast, fluid = _rates(body)
     far = BEYOND_FLUID if fluid else BEYOND

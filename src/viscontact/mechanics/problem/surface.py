@@ -67,18 +67,10 @@ class SurfaceTerm:
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Terms of the surfaces of both bodies together.
+    """Terms of the surfaces of both bodies together."""
 
-    Attributes
-    ----------
-    terms : tuple of SurfaceTerm
-        The first is one that short waves see.
-    splitting_error : float
-        Bound of the relative error of their sum [-]; 0 if exact.
-    """
-
-    terms: tuple[SurfaceTerm, ...]
-    splitting_error: float = 0.0
+    terms: tuple[SurfaceTerm, ...]  # the first is one that short waves see
+    splitting_error: float = 0.0  # bound of the relative error of the sum [-]; 0 if exact
 
     @cached_property
     def compliance(self) -> ContactCompliance:
@@ -114,20 +106,7 @@ class Surface:
 
 
 def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> Surface:
-    """Terms of the bodies that deform; `span` is that of the times of interest [s].
-
-    Examples
-    --------
-    >>> from viscontact.bodies.laws import Elastic, Zener
-    >>> from viscontact.bodies.materials.layers import Layer
-    >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
-    >>> steel = Material(Elastic(80e9), poisson_ratio=0.3)
-    >>> len(surface_of([rubber, steel]).terms)
-    1
-    >>> layer = Layered([Layer(1e-3, rubber)], base="rigid")
-    >>> len(surface_of([layer]).terms), len(surface_of([layer, steel]).terms)
-    (1, 2)
-    """
+    """Terms of the bodies that deform; `span` is that of the times of interest [s]."""
     terms: list[SurfaceTerm] = []
     for body in bodies:
         for new in terms_of(body, span):

@@ -19,11 +19,9 @@ STRAIGHT_WITHIN = 1e-6
 
 
 def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid:
-    """Grid of cells larger by factors along x and y over the same region; a period keeps its size.
-
-    With `parity` even numbers of cells stay even; otherwise they become odd. It extends at least
-    one cell further, so that the contact does not touch its rim.
-    """
+    """Grid of cells larger by factors along x and y over the same region; a period stays."""
+    # With `parity` even numbers of cells stay even; otherwise they become odd. The grid extends at
+    # least one cell further, so that the contact does not touch its rim.
     shape, size = [], []
     for axis, (count, by) in enumerate(zip(grid.shape, spacing, strict=True)):
         if grid.periodic[axis]:

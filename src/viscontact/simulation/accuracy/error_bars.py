@@ -83,11 +83,7 @@ def error_bars(
     *,
     issued: Sequence[str] = (),
 ) -> ErrorBars:
-    """Estimate the errors of a finished run's scalars from coarser runs, which are marched.
-
-    95 of 100 true errors are smaller. `on_step` is called after each step of a coarser run; an
-    exception from it ends the estimate. `issued` are the warnings of the run so far.
-    """
+    """Errors of a run's scalars from coarser runs, with 95 %; `issued` are its warnings so far."""
     results = [
         result
         for each in plan_coarser_runs(run, history)
@@ -236,7 +232,7 @@ def _before_first_cell(history: History, touching: Bools) -> Bools:
 
 
 def _bound_by_first_contact(values: dict[str, Floats], history: History, touching: Bools) -> None:
-    """Where the contact is smaller than a cell, take the scalars of the first cells as errors."""
+    """Take the scalars of the first cells as errors of a contact smaller than a cell."""
     early = _before_first_cell(history, touching)
     if not early.any() or not (history["peak_pressure"] > 0).any():
         return

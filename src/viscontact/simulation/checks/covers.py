@@ -45,12 +45,7 @@ def cover_warnings(
     cell_size: tuple[float, ...],
     verb: str = "is",
 ) -> dict[str, str]:
-    """Warn of covers under a contact of a half width, with an approach (NaN if unknown) [m].
-
-    The shear strain at the bond of a thin incompressible layer follows from its pressure, as
-    γ = h p'/G: with the pressure of thin layers (Jaffar 1989) its largest value is 0.58 w a/h²
-    under a sphere and 1.15 w a/h² under a cylinder.
-    """
+    """Warn of covers under a contact of a half width, with an approach (NaN if unknown) [m]."""
     warnings: dict[str, str] = {}
     for cover in covers:
         depth, strain = format_quantity(cover.depth, "m", 3), approach / cover.depth
@@ -59,6 +54,9 @@ def cover_warnings(
                 f"the approach {verb} {strain:.2g} of the thickness of the layers, {depth}; "
                 f"small-strain theory is meant for less than {DEEP_COVER:g}"
             )
+        # The shear strain at the bond of a thin incompressible layer is γ = h p'/G: with the
+        # pressure of thin layers (Jaffar 1989) its largest value is 0.58 w a/h² under a sphere,
+        # 1.15 w a/h² under a cylinder.
         shear = strain * half_width / cover.depth
         if cover.squeezed and half_width > cover.depth and shear > SHEARED_COVER:
             warnings["squeeze"] = (

@@ -36,13 +36,7 @@ def check_period(
     *,
     supported: bool = False,
 ) -> None:
-    """Refuse a shape or a load that does not fit into the period of a periodic grid.
-
-    Along a periodic axis a load must be centred and level, and waves, dimples and height maps must
-    fit into the period. An approach must not close the gap everywhere; along one periodic axis only
-    it has no datum, but on layers that are `supported` by a rigid base. `open_gap` is that on the
-    grid [m].
-    """
+    """Refuse a shape or a load that does not fit into a period; `open_gap` is on the grid [m]."""
     if not any(grid.periodic):
         return
     for name in TAIL:
@@ -54,6 +48,8 @@ def check_period(
     for part in _parts(indenter):
         _refuse_misfit(part, grid)
     _refuse_variation(indenter, grid)
+    # An approach must not close the gap everywhere. Along one periodic axis it has no datum, but on
+    # layers that a rigid base supports.
     if supported:
         return
     if not grid.has_datum:

@@ -68,12 +68,10 @@ def is_sharp(
     cell: tuple[float, float],
     strain: float,
 ) -> bool:
-    """True if a body has a point, ridge or corner within `reach` of `place` along x and y [m].
-
-    A rounding within a quarter of a cell counts as sharp; angles are compared with `strain` [-].
-    Under a wedge or a cone of slope s the pressure goes as E* s log(a/r) (Johnson 1985, Contact
-    Mechanics, sections 5.2 and 5.3).
-    """
+    """True if a body has a point, ridge or corner within `reach` of `place` along x and y [m]."""
+    # Under a wedge or a cone of slope s the pressure goes as E* s log(a/r) (Johnson 1985, Contact
+    # Mechanics, sections 5.2 and 5.3). A rounding within a quarter of a cell counts as sharp.
+    # Angles are compared with the strain [-].
     return sharpest_angle(indenter, place, reach, cell) > MIN_ANGLE * strain
 
 

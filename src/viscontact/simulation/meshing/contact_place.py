@@ -27,10 +27,7 @@ def locate_contact(
     *,
     response: SurfaceResponse = HALF_SPACE,
 ) -> ContactEstimate:
-    """Estimate a contact at one compliance [1/Pa], on a grid around the origin or around itself.
-
-    Raises ValueError if no grid fits.
-    """
+    """Estimate a contact at one compliance [1/Pa]; ValueError if no grid fits."""
     found, refusals = None, []
     far_compliance = response.long_waves * compliance
     try:

@@ -31,12 +31,10 @@ class RingResolution:
 def resolve_ring(
     growth: ContactGrowth, across: Floats, tolerance: float, most: Floats
 ) -> RingResolution:
-    """Fewest additional cells for which the peak pressure of a history meets a tolerance.
-
-    `across`: cells across the largest contact; `most`: largest factors of the cells along x, y, in
-    all, the result if the tolerance is out of reach, or 1 where these would hardly reduce the
-    error.
-    """
+    """Fewest additional cells for which the peak pressure of a history meets a tolerance."""
+    # `across` are the cells across the largest contact, `most` the largest factors of the cells
+    # along x and y. These are the result if the tolerance is out of reach, and 1 where they would
+    # hardly reduce the error.
     errors = _errors(growth, across, np.minimum(most[:2], most[2]))
     steps = [_fewest(each, tolerance) for each in errors]
     while STEP ** sum(steps) > most[2]:

@@ -170,10 +170,8 @@ def estimate_contact(
     *,
     response: SurfaceResponse = HALF_SPACE,
 ) -> ContactEstimate:
-    """Solve an elastic contact to a few per cent, on a grid at the origin or `around` [m].
-
-    Raises ValueError if no grid fits, for example because the force acts outside the body.
-    """
+    """Solve an elastic contact to a few per cent, at the origin or `around` [m]."""
+    # ValueError if no grid fits, for example because the force acts outside the body.
     scale, centre = _first_scale(indenter, contact_compliance, point), around or (0.0, 0.0)
     lever = max(abs(point.eccentricity_x), abs(point.eccentricity_y)) if around is None else 0.0
     size = np.full(2, 4 * max(scale, lever))

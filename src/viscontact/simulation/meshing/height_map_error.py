@@ -13,13 +13,7 @@ from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
 
 
 def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -> float:
-    """Relative error of the peak pressure from the facets of a height map; 0 without a map [-].
-
-    The height of a point over the mean of its neighbours counts as a wave of two steps and of half
-    that amplitude, which takes a pressure of pi h / (l J) to flatten (Johnson 1985, Contact
-    Mechanics, eq. 13.7); waves along x and along y add. Points that the undeformed body would press
-    in count.
-    """
+    """Relative error of the peak pressure from the facets of a height map; 0 without a map [-]."""
     steps = indenter.sample_spacing
     if min(steps) <= 0:
         return 0.0
@@ -29,6 +23,10 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
     )
     gap = indenter.gap(x[:, None], y[None, :])
     motion = found.motion
+    # The height of a point over the mean of its neighbours counts as a wave of two steps and of
+    # half that amplitude, which takes a pressure of pi h / (l J) to flatten (Johnson 1985, Contact
+    # Mechanics, eq. 13.7); waves along x and along y add. Points that the undeformed body would
+    # press in count.
     pressed = gap < motion[0] + motion[1] * x[:, None] + motion[2] * y[None, :]
     slopes = sum(height_over_neighbours(gap, axis) / steps[axis] for axis in (0, 1))
     steepest = float(np.where(pressed, slopes, 0.0).max(initial=0.0))

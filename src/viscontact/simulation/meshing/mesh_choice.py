@@ -80,10 +80,7 @@ class Mesh:
 
 
 def choose_mesh(problem: Problem, end: float | None) -> Mesh:
-    """Choose the grid of a contact problem, up to `end` [s] or the end of its load and creep.
-
-    ValueError if creep never ends, no grid fits, or the tolerance would need millions of cells.
-    """
+    """Choose the grid of a contact problem, up to `end` [s]; ValueError if none is suitable."""
     indenter, load, compliance = problem.indenter, problem.load, problem.compliance
     request = problem.automatic_grid or AutomaticGrid()
     # Step 1: the contacts of the history, and the size of the grid.

@@ -77,10 +77,7 @@ def refine_mesh(
     finest: ArrayLike = math.inf,
     most_cells: float = math.inf,
 ) -> Resolution:
-    """Refine the mesh of an elastic contact until some `MESH_QUANTITIES` meet a relative tolerance.
-
-    `fewest` cells along x and y to begin with, no more than `finest`, and `most_cells` in all.
-    """
+    """Refine a mesh, from `fewest` cells along x and y, until quantities meet a tolerance [-]."""
     exact = min(MAX_TRIAL_TOLERANCE, TRIAL_TOLERANCE_SHARE * tolerance)
     names, shape = tuple(quantities), good_shape(fewest, finest)
     trials: list[MeshTrial] = []

@@ -107,10 +107,7 @@ class MeshTrial:
 
 
 def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float) -> MeshTrial:
-    """Solve a contact on a mesh, and on cells twice as long along x and along y.
-
-    `shape` holds even numbers of cells; `tolerance` is that of gap and balances.
-    """
+    """Solve a contact on a mesh (even shape), and on cells twice as long along x and along y."""
     (nx, ny), grid = shape, pressing.grid(shape)
     coarser = [
         _found(pressing, replace(grid, shape=coarse), tolerance)

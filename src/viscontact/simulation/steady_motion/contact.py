@@ -49,7 +49,7 @@ class SteadyContact:
 
     @property
     def neighbour(self) -> Neighbour:
-        """What the guess of a similar contact needs."""
+        """Data for the initial guess of a similar contact."""
         return Neighbour(self.speed, self.grid, self.pressure, self.solution.motion)
 
     @property
@@ -119,10 +119,7 @@ def gap_on(problem: SteadyProblem, grid: Grid) -> Floats:
 
 
 def _guess(near: Neighbour, domain: MovingDomain) -> Guess | None:
-    """Pressure of a contact on the cells of a domain, by the nearest cell; None if there is none.
-
-    It is scaled to the same force, and balanced by the search.
-    """
+    """Pressure of a contact by the nearest cell of a domain, scaled to the same force, or None."""
     old, new = near.grid, domain.grid
     rows, columns = (
         np.rint((to - start[0]) / (start[1] - start[0])).astype(int)

@@ -53,23 +53,7 @@ NEAR = 2.5
 
 
 class SteadyCurve:
-    """Loop over the speeds of a run, in their order, which can stop and continue after any of them.
-
-    With the restart data of the same run it continues after that speed, to the same bits.
-
-    Attributes
-    ----------
-    done : int
-        Speeds so far.
-    bars : list
-        Error bars of the scalars at each of them, by name; empty without errors.
-    work : list of float
-        Convolutions of the solver at each of them, in those of its grid; not of an earlier process.
-    warnings : WarningCollector
-        Warnings so far.
-    outcome : Outcome
-        Outcome of the last speed; a curve stops with an error before another one than converged.
-    """
+    """Loop over the speeds of a run, which can continue to the same bits after any of them."""
 
     outcome = Outcome.CONVERGED
 
@@ -79,20 +63,15 @@ class SteadyCurve:
         self._run, self._errors = run, errors
         self.done = 0
         self._before: Neighbour | None = None
-        self.bars: list[Mapping[str, float]] = []
+        self.bars: list[Mapping[str, float]] = []  # at each speed; empty without errors
+        # Convolutions of the solver at each speed, in those of its grid.
         self.work: list[float] = []
         self.warnings = WarningCollector()
         if restart_data is not None:
             self._restore(restart_data)
 
     def __iter__(self) -> Iterator[ContactState]:
-        """Solve at the remaining speeds; yield each state, with the warnings that are new.
-
-        Raises
-        ------
-        ConvergenceError, DomainError, ValueError
-            As in `steady`.
-        """
+        """Solve at the remaining speeds; yield each state, with the warnings that are new."""
         speeds = self._run.problem.speeds.tolist()
         for speed, grid in list(zip(speeds, self._run.grids, strict=True))[self.done :]:
             fresh = self.warnings.new(run_warnings(self._run)) if not self.done else ()

@@ -72,12 +72,9 @@ class Measured:
 def error_bars(
     problem: SteadyProblem, fine: Measured, coarse: Measured, *, singular: bool = False
 ) -> dict[str, float]:
-    """Half widths of the error bars of a contact, from one in cells twice as large.
-
-    The difference of both grids counts, and at least an error by the rim's place in its cells and
-    by the solver. Of a resistance by the slope, the difference of both forms counts as well. A
-    `singular` peak pressure has no limit.
-    """
+    """Half widths of the error bars of a contact, from one in cells twice as large."""
+    # The difference of both grids counts, and at least an error by the rim's place in its cells and
+    # by the solver; of a resistance by the slope also the difference of both forms.
     state, least = fine.state, _least_bars(problem, fine)
     bars = {}
     at_once = problem.contact.compliance.instant > 0
@@ -166,10 +163,8 @@ def _entry_excess(problem: SteadyProblem, fine: Measured) -> float:
 
 
 def entry_is_singular(compliance: ContactCompliance, passed: float) -> bool:
-    """Test whether the pressure has no limit at the leading edge, by the time to pass a cell [s].
-
-    At a distance d from it the pressure goes as d^(1/2 - α) on a law that creeps as t^α at first.
-    """
+    """True if pressure has no limit at the leading edge, by the time to pass a cell [s]."""
+    # At a distance d from the edge the pressure goes as d^(1/2 - α) on a law that creeps as t^α.
     if compliance.instant > 0:
         return False
     early, late = compliance(passed * np.array([0.01, 0.1])).tolist()

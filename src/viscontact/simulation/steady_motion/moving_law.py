@@ -110,10 +110,7 @@ class MovingLaws:
 
 
 def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLaws:
-    """Laws of the bodies of a problem.
-
-    `extents` are the contact's lengths along the motion at the fastest and slowest speed [m].
-    """
+    """Laws of the bodies, for lengths of the contact at the fastest and slowest speed [m]."""
     speeds = problem.speeds
     first = SHORTEST * extents[0] / float(speeds.max())
     grid = problem.contact.grid
@@ -188,13 +185,11 @@ def flows(compliance: ContactCompliance, late: float) -> bool:
 def _series(
     compliance: ContactCompliance, first: float, last: float
 ) -> tuple[SeriesCompliance, float, float]:
-    """Series between two times [s], its relative error, and the creep beyond, ∫ J'(t) dt/t.
-
-    Only a fluid's series has a fluidity.
-    """
+    """Series between two times [s], its relative error, and the creep beyond, ∫ J'(t) dt/t."""
     if isinstance(compliance, SeriesCompliance):
         return compliance, 0.0, 0.0
     series, error = as_exponentials(compliance, first, last)
+    # Only a fluid's series has a fluidity.
     if flows(compliance, last):
         return series, error, 0.0
     slow = SLOW * last
@@ -204,11 +199,9 @@ def _series(
 
 
 def _late_creep(compliance: ContactCompliance, series: SeriesCompliance, last: float) -> float:
-    """∫ J'(t) dt/t beyond the last time of a series, less that of the series [1/(Pa s)].
-
-    J is continued as a power of time, J(last) + B ((t/last)^β - 1), through two later values, the
-    flow of the series as a slow retardation, which is slower than flow before the last time, too.
-    """
+    """∫ J'(t) dt/t beyond the last time of a series, less that of the series [1/(Pa s)]."""
+    # J is continued as a power of time, J(last) + B ((t/last)^β - 1), through two later values, the
+    # flow of the series as a slow retardation.
     at = compliance(last * np.array([1.0, 10.0, 100.0]))
     first, second = np.diff(at).tolist()
     if first <= SATURATED * at[0]:

@@ -17,18 +17,13 @@ from viscontact.mechanics.problem.surface import creeps
 
 @dataclass(frozen=True, eq=False)
 class SteadyProblem:
-    """Contact problem of a body in steady motion, checked.
+    """Contact problem of a body in steady motion, checked."""
 
-    `contact` has bodies, grid and tolerance; its load is the constant `point`. The body moves
-    towards + along `axis` (0: x, 1: y) at the `speeds` [m/s]. `rolling` tells whether material of
-    the body flows through the contact.
-    """
-
-    contact: Problem
+    contact: Problem  # under the constant load `point`
     point: LoadPoint
-    speeds: Floats
-    axis: int
-    rolling: bool | None
+    speeds: Floats  # towards + [m/s]
+    axis: int  # of the motion; 0: x, 1: y
+    rolling: bool | None  # True if material of the body flows through the contact
 
     @property
     def kept(self) -> Floats:

@@ -111,10 +111,7 @@ def common_grid(grids: Sequence[Grid]) -> Grid:
 def find_region(
     solver: SteadySolver, speed: float, start: Region, *, centred: tuple[bool, bool]
 ) -> tuple[Region, float]:
-    """Region of the contact at a speed, and the convolutions of the search, in those of its grid.
-
-    `start` is a region of a similar contact. Raises ValueError if no region is found.
-    """
+    """Region of the contact at a speed, near `start`, and the convolutions of the search."""
     box = start.widened(MARGIN)
     work = 0.0
     for _ in range(MAX_SEARCHES):
@@ -135,10 +132,7 @@ def find_region(
 def _measured(
     contact: SteadyContact,
 ) -> tuple[Region, Integers, Bools]:
-    """Region under pressure, cells across it, and the sides of the grid that it reaches.
-
-    Sides are (low, high) of both axes, shape (2, 2).
-    """
+    """Region under pressure, cells across it, and sides of the grid that it reaches, (2, 2)."""
     grid, in_contact = contact.grid, contact.in_contact
     low, high, across, touched = [], [], [], []
     for axis in (0, 1):
@@ -152,11 +146,9 @@ def _measured(
 
 
 def _next(box: Region, region: Region, touched: Bools, across: Integers) -> Region:
-    """Box of the next search, after a contact in a box.
-
-    Where the contact reaches the box, the box grows along that axis and does not shrink: the
-    contact may have been pushed against its rim.
-    """
+    """Box of the next search, after a contact in a box."""
+    # Where the contact reaches the box, the box grows along that axis and does not shrink: the
+    # contact may have been pushed against its rim.
     room = MARGIN * region.extents + (FREE + 1) * region.extents / across
     cut = touched.any(axis=1)
     growth = GROWTH * box.extents[:, None] * touched

@@ -52,10 +52,7 @@ def resistance(
     tilts: tuple[float, float],
     half_length: float,
 ) -> Resistance:
-    """Resistance along the motion, of a pressure on the domain's cells [Pa].
-
-    `tilts` are those of the body along x and y, `half_length` is half the length of its spots [m].
-    """
+    """Resistance along the motion; pressure [Pa], tilts along x and y, half length of spots [m]."""
     whole = domain.expand_by_symmetry(pressure)
     by_slope = resistance_by_slope(whole, domain.grid, indenter, tilts)[domain.axis]
     lost = float((pressure * domain.loss.apply(pressure)).sum())

@@ -58,10 +58,7 @@ def _eccentricities(contact: SteadyContact, force: float) -> tuple[float, float]
 def state_of(
     problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
 ) -> ContactState:
-    """State of a contact; its time and what is cumulative are NaN.
-
-    Without a `datum` the approach is NaN.
-    """
+    """State of a contact; time and cumulative values are NaN, without `datum` also the approach."""
     grid, solution, axis = contact.grid, contact.solution, problem.axis
     pressure, motion = contact.pressure, solution.motion
     force, peak = float((pressure * grid.cell_area).sum()), float(pressure.max())

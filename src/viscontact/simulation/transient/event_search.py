@@ -58,15 +58,7 @@ class _SolvedStep:
 
 
 class EventSearch:
-    """March over a load program, one segment after the other, up to the events that end them.
-
-    Attributes
-    ----------
-    states : list of ContactState
-        States at the ends of the steps, without fields.
-    reach : tuple of float
-        Largest distances of the contact from the middle of the grid along x and y so far [m].
-    """
+    """March over a load program, one segment after the other, up to the events that end them."""
 
     def __init__(
         self,
@@ -78,11 +70,7 @@ class EventSearch:
         event_tolerance: float = EVENT_TOLERANCE,
         on_state: Callable[[ContactState], None] | None = None,
     ) -> None:
-        """Take the steps of a function, or without one as the problem's adaptive times ask.
-
-        `event_tolerance` is the error of the instants of events, as a part of the step; `on_state`
-        is called with the state at the end of each step, with its fields.
-        """
+        """Take given steps or adaptive ones; events are found to a part of a step."""
         self._course, self._step_ends = course, step_ends
         self._event_tolerance, self._on_state = event_tolerance, on_state
         self._stops = problem.instants
@@ -93,8 +81,8 @@ class EventSearch:
         self._domain: ContactDomain = domain_of(self._run)
         self._stepper = Stepper(self._run, self._domain)
         self._observer = Observer(self._run, warns=False)
-        self.states: list[ContactState] = []
-        self.reach = (0.0, 0.0)
+        self.states: list[ContactState] = []  # at the ends of the steps, without fields
+        self.reach = (0.0, 0.0)  # of the contact from the middle of the grid, along x and y [m]
         self._accept(self._solved(Step(0.0, 0.0, 0.0, smooth=False)))
 
     def carry_out(self) -> MixedHistory:
@@ -213,12 +201,10 @@ def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:
 
 
 def _excess(condition: Condition, state: ContactState) -> float:
-    """How far a condition's scalar is above its value; of a lost contact the clearance, negative.
-
-    Force and clearance have different units; only the sign counts, and zero is between them.
-    """
+    """Scalar of a condition less its value; of a lost contact the clearance, negative."""
     if condition.scalar != "contact":
         return float(getattr(state, condition.scalar)) - condition.value
+    # Force and clearance have different units; only the sign counts, and zero is between them.
     if state.outcome is Outcome.NO_CONTACT:
         return -max(float(state.gap.min()), 0.0) - math.ulp(0.0)  # below 0 by rounding
     return state.force

@@ -40,30 +40,7 @@ WELL_FILLED, MARGIN = 0.3, 1.5
 
 
 def carried_out(problem: Problem, threads: int = 1, *, roughly: bool = False) -> Problem:
-    """Return a problem under the history that its load program comes to.
-
-    Parameters
-    ----------
-    problem : Problem
-        A problem; one whose load awaits no events is returned as it is.
-    threads : int
-        Threads of one Fourier transform.
-    roughly : bool
-        True: march on few cells and steps, for a forecast.
-
-    Returns
-    -------
-    Problem
-        With the history, its events among the given times, a given grid, and those of the fields'
-        instants that the run reaches.
-
-    Raises
-    ------
-    ValueError
-        If a condition is never met, or the input is invalid.
-    ConvergenceError, DomainError
-        As in `march`.
-    """
+    """Problem under the history that its load program comes to, by a coarse march if `roughly`."""
     load = problem.load
     if not (isinstance(load, MixedHistory) and load.awaits_events):
         return problem

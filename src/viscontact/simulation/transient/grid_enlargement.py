@@ -24,28 +24,14 @@ FREE = MARGIN
 
 
 def overrun(pressure: Floats, free: int = 1) -> tuple[bool, bool]:
-    """True for x and for y if pressure has reached the `free` outermost cells of a side.
-
-    Examples
-    --------
-    >>> overrun(np.eye(5)[:, 1:4])
-    (False, True)
-    """
+    """True for x and for y if pressure has reached the `free` outermost cells of a side."""
     both = (slice(0, free), slice(-free, None))
     along = any(bool(pressure[ends, :].any()) for ends in both)
     return along, any(bool(pressure[:, ends].any()) for ends in both)
 
 
 def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:
-    """Return a grid of the same cells, half as long again along x, along y, or both.
-
-    None where it would have more cells than an automatic grid may have.
-
-    Examples
-    --------
-    >>> next_grid(Grid((32, 16), (2.0, 1.0)), True, False).shape
-    (48, 16)
-    """
+    """Grid of the same cells, half as long again along x, y or both; None if too large."""
     shape = (
         _longer(grid.shape[0], grid.cell_size[0]) if along else grid.shape[0],
         _longer(grid.shape[1], grid.cell_size[1]) if across else grid.shape[1],
@@ -66,13 +52,8 @@ def _longer(cells: int, size: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class GridEnlargement:
-    """Map of fields from a domain to the same one under a larger grid.
+    """Map of pressures and their unit displacements from a domain to a larger one.
 
-    The history of the surface is pressures and the unit displacements that they cause. Beyond the
-    smaller grid the pressure was zero, and the unit displacement follows from it.
-
-    Examples
-    --------
     >>> small = ContactDomain(Grid((4, 4), (1.0, 1.0)))
     >>> large = ContactDomain(small.grid.widened((8, 8)))
     >>> pressure = np.ones((4, 4))
@@ -91,10 +72,7 @@ class GridEnlargement:
         return self.large.reduce_by_symmetry(self.small.grid.embed(whole, self.large.grid))
 
     def pairs(self, fields: Floats, response: SurfaceResponse | None = None) -> Floats:
-        """Map pressures and their unit displacements, shape (..., 2, nx, ny).
-
-        Under the surface of the larger domain, or a part of its response.
-        """
+        """Map pressures and unit displacements, (..., 2, nx, ny), of the surface or a response."""
         is_part = response is not None and response != self.large.response
         grown = np.empty((*fields.shape[:-2], *self.large.shape))
         for index in np.ndindex(fields.shape[:-3]):

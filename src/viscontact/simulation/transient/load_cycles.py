@@ -13,8 +13,6 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 class LoadCycleWork:
     """Work of the load over its last whole cycle, from the cycles (begin, end) in order.
 
-    Examples
-    --------
     >>> cycles = LoadCycleWork([((0.0, "left"), (2.0, "right"))])
     >>> cycles.last_loss
     nan

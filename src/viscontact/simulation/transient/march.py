@@ -29,33 +29,7 @@ _LOG = logging.getLogger("viscontact")
 
 
 class March:
-    """Loop over the steps of a run: iterate, stop after any step, and continue later.
-
-    It yields the state at the end of each step, None for an inner one, at whose end no state was
-    requested. With the restart data of the same run it continues after that step, to the same bits.
-
-    Attributes
-    ----------
-    done : int
-        Requested states so far.
-    outcome : Outcome
-        Outcome of the last step.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> from viscontact.mechanics.problem.problem import Problem
-    >>> from viscontact.simulation.transient.setup import prepare_run
-    >>> rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
-    >>> grid = vc.Grid((32, 32), (2.4e-3, 2.4e-3))
-    >>> run = prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 0.5, 1.0]))
-    >>> begun = March(run)
-    >>> steps = iter(begun)
-    >>> first = next(steps)
-    >>> resumed = March(run, begun.restart_data())
-    >>> [state.approach for state in resumed] == [state.approach for state in steps]
-    True
-    """
+    """Loop over the steps of a run, which can continue to the same bits after any step."""
 
     def __init__(
         self, run: RunSetup, restart_data: RestartData | None = None, *, warns: bool = True
@@ -73,13 +47,7 @@ class March:
             self._restore(restart_data)
 
     def __iter__(self) -> Iterator[ContactState | None]:
-        """Solve the remaining steps.
-
-        Raises
-        ------
-        ConvergenceError, DomainError
-            As in `march`.
-        """
+        """Solve the remaining steps; yield each requested state, None for inner steps."""
         while self._steps.next_step() is not None:
             yield self._solved_step()
             if self._failure is not None:

@@ -1,4 +1,4 @@
-"""From an equilibrium to a state: resultants, sub-cell rim, work, and warnings."""
+"""State after a step: resultants, sub-cell rim, work, and warnings."""
 
 from __future__ import annotations
 
@@ -105,10 +105,7 @@ class Observer:
         return state
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
-        """Add the warnings since the last requested state, each kind once a run.
-
-        At the last state the mesh is judged by the largest contact of the run.
-        """
+        """Add the new warnings; at the last state, the mesh is judged by the largest contact."""
         self._peak_reported = max(self._peak_reported, state.peak_pressure)
         mesh, unreported, moving = {}, {}, {}
         if last and self._largest_area:
@@ -204,14 +201,7 @@ class Observer:
         return corner_warnings(self._geometry, place, strain)
 
     def _work_of(self, point: LoadPoint, solution: StepSolution) -> float:
-        """Work over a step: exact while the load is held, and for all that is elastic.
-
-        Under a held load the force is constant, or nothing travels: force times approach is exact.
-        Where the load moves it is not, as an elastic contact's force is no straight function of
-        its approach; a cycle in long steps would gain energy. Mean pressure times change of
-        displacement, which moves with the body wherever there is pressure, is exact there by
-        reciprocity, however far the step goes.
-        """
+        """Work over a step: exact while the load is held, and for all that is elastic."""
         before, point_before = self._before, self._point
         self._point, self._held = point, False
         if before is None:  # every run starts with a jump
@@ -220,6 +210,10 @@ class Observer:
             self._held = True
             travel = solution.motion - before.motion
             return float((before.resultants + solution.resultants) @ travel / 2)
+        # Where the load moves, force times approach is not exact, as an elastic contact's force is
+        # no straight function of its approach; a cycle in long steps would gain energy. Mean
+        # pressure times change of displacement, which moves with the body wherever there is
+        # pressure, is exact by reciprocity, however far the step goes.
         mean = (before.pressure + solution.pressure) / 2
         moved = solution.displacement - before.displacement
         return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area

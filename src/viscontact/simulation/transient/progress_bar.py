@@ -15,27 +15,9 @@ _PAUSE, _WIDTH = 0.1, 20
 
 
 class ProgressBar:
-    """Bar on stderr, called with (state or number of a run, done, total) as parts are done.
+    """Bar on stderr, called with (any, done, total), for a `unit`; `then` follows the last."""
 
-    One line of text that is written over, so that terminals and notebooks show it alike.
-
-    Parameters
-    ----------
-    unit : str
-        What is counted, such as ``"step"``.
-    then : str, optional
-        What follows after the last part, without a bar.
-
-    Examples
-    --------
-    >>> import contextlib, io
-    >>> said = io.StringIO()
-    >>> with contextlib.redirect_stderr(said):
-    ...     ProgressBar("step")(None, 4, 4)
-    >>> said.getvalue().split(",")[0].strip()
-    'step 4/4 [####################]'
-    """
-
+    # One line that is written over, so that terminals and notebooks show it alike.
     def __init__(self, unit: str, then: str = "") -> None:
         self._unit, self._then = unit, then
         self._started, self._said_at, self._length = clock.perf_counter(), -_PAUSE, 0

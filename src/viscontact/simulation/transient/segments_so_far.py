@@ -20,18 +20,9 @@ class EventError(ValueError):
 
 
 class ProgramCourse:
-    """The part of a program that has been carried out, and the segment that follows.
+    """Part of a program that has been carried out, up to the `latest` end [s], and what follows."""
 
-    Parameters
-    ----------
-    program : LoadProgram
-        The program.
-    latest : float
-        Latest end of the last segment [s].
-    lengths : sequence of float, optional
-        Longest durations of the segments in place of those of the program [s].
-    """
-
+    # `lengths` are longest durations of the segments in place of those of the program [s].
     def __init__(
         self, program: LoadProgram, latest: float, lengths: Sequence[float] | None = None
     ) -> None:
@@ -146,7 +137,7 @@ def never_happens(course: ProgramCourse, states: Sequence[ContactState]) -> str:
 
 
 def _nearest(condition: Condition, states: Sequence[ContactState]) -> str:
-    """How close the states come to a condition, in words."""
+    """Text on the closest approach of the states to a condition."""
     if condition.scalar == "contact":
         nearest = min(states, key=lambda state: state.force)
         now, name, unit = nearest.force, "force", "N"

@@ -38,37 +38,16 @@ ADAPTIVE_STEPS, STEP_COUNT_SAFETY = 500, 3.0
 
 @dataclass(frozen=True, eq=False)
 class RunSetup:
-    """Checked and complete setup of a run.
-
-    Attributes
-    ----------
-    problem : Problem
-        The contact problem.
-    grid : Grid
-        The cells.
-    open_gap : ndarray, shape (nx, ny)
-        The indenter's gap on the grid [m], +inf outside its outline; that at time 0 if it moves.
-    hereditary : HereditaryPlan
-        Method of the hereditary integral, of the first term of the surface.
-    mesh : Mesh or None
-        Chosen grid with its expected errors; None for a given grid.
-    threads : int
-        Threads of one Fourier transform.
-    transforms : str
-        Library of the transforms. Libraries differ in rounding, so a run keeps the one it began
-        with.
-    other_terms : tuple of HereditaryPlan
-        Methods of the hereditary integrals of further terms, of layers that creep differently.
-    """
+    """Checked and complete setup of a run."""
 
     problem: Problem
     grid: Grid
-    open_gap: Floats
-    hereditary: HereditaryPlan
-    mesh: Mesh | None
+    open_gap: Floats  # on the grid [m], at time 0; +inf outside the body
+    hereditary: HereditaryPlan  # of the first term of the surface
+    mesh: Mesh | None  # None for a given grid
     threads: int
-    transforms: str
-    other_terms: tuple[HereditaryPlan, ...] = ()
+    transforms: str  # library, which a run keeps, as rounding differs
+    other_terms: tuple[HereditaryPlan, ...] = ()  # of layers that creep differently
 
     @property
     def plans(self) -> tuple[HereditaryPlan, ...]:
@@ -110,25 +89,7 @@ class RunSetup:
 
 
 def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
-    """Check a contact problem and complete it to a run.
-
-    Parameters
-    ----------
-    problem : Problem
-        The contact problem.
-    threads : int
-        Threads of one Fourier transform.
-
-    Returns
-    -------
-    RunSetup
-        Ready for its first step.
-
-    Raises
-    ------
-    ValueError
-        If any input is invalid; the message says what to change.
-    """
+    """Check a contact problem and complete it to a run; ValueError for invalid input."""
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
     check_motion(problem)
@@ -211,10 +172,7 @@ def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, boo
 
 
 def plan_history(problem: Problem, open_gap: Floats, grid: Grid) -> list[HereditaryPlan]:
-    """Plan the hereditary integrals of a problem on a grid, whose open gap is given [m].
-
-    One for each term of the surface.
-    """
+    """Hereditary integrals for the terms of a problem's surface on a grid; open gap [m]."""
     if problem.adaptive is None:
         ends = step_ends(problem.planned_steps)
     else:

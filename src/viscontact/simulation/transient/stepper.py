@@ -54,29 +54,23 @@ TOUCH_SAMPLES = 16
 
 @dataclass(frozen=True, eq=False)
 class StepProblem:
-    """The contact problem of a step, and the guess of its solution if there is one.
-
-    `drive` is the force [N] or approach [m] that the elastic reference is extrapolated over.
-    """
+    """The contact problem of a step, and the guess of its solution if there is one."""
 
     point: LoadPoint
     response: SurfaceStep
-    drive: float
+    drive: float  # force [N] or approach [m] over which references are extrapolated
     problem: ContactProblem
     guess: Guess | None
 
 
 @dataclass(frozen=True, eq=False)
 class TrialStep:
-    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds.
-
-    `pairs` are pressure and unit displacement of each term of the surface.
-    """
+    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds."""
 
     point: LoadPoint
     solution: ContactSolution
     response: SurfaceStep
-    pairs: tuple[Floats, ...]
+    pairs: tuple[Floats, ...]  # pressure and unit displacement of each term
     reference: ElasticReference
     outcome: Outcome
     error: StepError
@@ -190,20 +184,17 @@ class Stepper:
         return _on_full_grid(self._domain, trial, time_error, loss)
 
     def _known_from(self, trial: TrialStep) -> ElasticReference:
-        """What the next guess is extrapolated from: of a moving body pressures, over the load.
-
-        Its elastic reference has a trace of where it was, which pressures have not.
-        """
+        """Reference that the next guess is extrapolated from."""
         if self._run.problem.motion.stands:
             return trial.reference
+        # The elastic reference of a moving body has a trace of where it was, which pressures have
+        # not.
         return replace(trial.reference, drive=trial.point.level, fields=trial.solution.values)
 
     def _loss(self, pairs: tuple[Floats, ...]) -> tuple[float, float]:
-        """Heat [J] of a step and power [W] lost at its end.
-
-        NaN without internal variables, and without a datum: part of it is lost by the approach.
-        """
+        """Heat [J] of a step and power [W] lost at its end; NaN if unknown."""
         run = self._run
+        # Without a datum, part of it is lost by the approach.
         if run.problem.motion.stands or not run.problem.has_datum(run.grid):
             return math.nan, math.nan
         lost = self._history.loss(pairs)
@@ -232,10 +223,7 @@ class Stepper:
         response: SurfaceStep,
         history: Floats,
     ) -> Guess | None:
-        """Pressure and unit displacement that a predicted elastic reference belongs to.
-
-        `history` is that of the first term.
-        """
+        """Pressure and unit displacement of a reference; `history` is that of the first term."""
         if reference is None or response.first.compliance == 0:
             return None
         values = reference.fields  # made by `predict` for this use, so it may be overwritten

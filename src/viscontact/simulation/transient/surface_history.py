@@ -40,11 +40,7 @@ class SurfaceStep:
         return self.terms[0]
 
     def past(self) -> tuple[Floats, Floats]:
-        """Contribution of earlier steps to the displacement, computed anew.
-
-        ∫ J_1 dp [-] and ∫ J_1 dq_1 [m] of the first term, shape (2, nx, ny), and the displacement
-        of all terms [m].
-        """
+        """∫ J_1 dp [-] and ∫ J_1 dq_1 [m] so far (2, nx, ny), and displacement by all terms [m]."""
         first = self.first.history
         displacement: Floats = first[1]
         for term in self.terms[1:]:
@@ -85,10 +81,7 @@ class SurfaceHistory:
         ]
 
     def loss(self, pairs: tuple[Floats, ...]) -> tuple[float, float] | None:
-        """Heat of the step to new pairs, and power lost at its end, as of `InternalVariables`.
-
-        Those of all terms; None if one of them is not kept as internal variables.
-        """
+        """Heat of the step to new pairs, and power lost at its end; None without variables."""
         heat = power = 0.0
         for integral, pair in zip(self._integrals, pairs, strict=True):
             if not isinstance(integral, InternalVariables):
@@ -107,10 +100,7 @@ class SurfaceHistory:
         return found
 
     def pairs(self, step: SurfaceStep, values: Floats) -> tuple[Floats, ...]:
-        """Pressure and unit displacement of each term, of those of the whole surface.
-
-        `values` are the pressure [Pa] and its unit displacement over `step.compliance` [Pa m].
-        """
+        """Pair of each term, of pressure [Pa] and unit displacement [Pa m] of the whole surface."""
         values.flags.writeable = False  # the hereditary integrals keep it without a copy
         if len(self._responses) == 1 or not values.any():  # without pressure all are zero
             return (values,) * len(self._responses)

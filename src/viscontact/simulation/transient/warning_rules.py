@@ -64,10 +64,7 @@ def geometry_of(
     predicted: bool = False,
     indenter: Indenter | None = None,
 ) -> Geometry:
-    """Return what the warnings about a contact's geometry need to know of the bodies.
-
-    `indenter` is the indenter at its position, if it moves.
-    """
+    """Geometry for warnings about a contact; `indenter` is a moving one at its position."""
     return Geometry(
         indenter or problem.indenter,
         open_gap,
