@@ -22,23 +22,18 @@ _LARGEST_FILE = 1_000_000
 
 @dataclass(frozen=True)
 class Document:
-    """Content of a case file before it is validated; numbers are nominal, keys canonical.
-
-    The `data` contain the values given by ``--set``, which are not in the `source` text; a
-    `confined` case names files in its folder only. `aliases` are keys that were typed in place of
-    canonical ones, `misused` those that cannot be resolved; `tolerances` are those that were
-    written.
-    """
+    """Content of a case file before it is validated; numbers are nominal, keys canonical."""
 
     path: Path
-    source: str
+    source: str  # without the values given by ``--set``
     data: dict[str, Any]
     lines: dict[KeyPath, int]
     overrides: Mapping[KeyPath, Any] = field(default_factory=dict)
-    confined: bool = False
+    confined: bool = False  # names files in its folder only
+    # Keys typed in place of canonical ones.
     aliases: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
     of_aliases: Mapping[KeyPath, Any] = field(default_factory=dict)  # values, as typed
-    misused: tuple[tuple[KeyPath, str], ...] = ()
+    misused: tuple[tuple[KeyPath, str], ...] = ()  # typed keys that cannot be resolved
     tolerances: Mapping[KeyPath, str] = field(default_factory=dict)  # texts, under keys as typed
 
     @cached_property

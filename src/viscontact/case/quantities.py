@@ -43,8 +43,6 @@ ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 class Quantity:
     """Annotation of a float that is written with a unit and converted to SI.
 
-    Examples
-    --------
     >>> Quantity("length", POSITIVE).read("5 mm")
     0.005
     """

@@ -11,9 +11,6 @@ from contextlib import contextmanager
 def quick_imports() -> Iterator[None]:
     """Import without collections, which find no garbage in modules and take a tenth of the time.
 
-    Later collections, and the last one of the process, leave out what there is then: modules stay
-    to the end. `gc.unfreeze` undoes this.
-
     >>> with quick_imports():
     ...     gc.isenabled()
     False
@@ -27,5 +24,6 @@ def quick_imports() -> Iterator[None]:
         yield
     finally:
         if was_enabled:
+            # Later collections, and the last one of the process, leave out what there is then.
             gc.freeze()
             gc.enable()

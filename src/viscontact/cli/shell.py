@@ -93,14 +93,8 @@ app = _application(_COMMANDS)
 
 
 def command_for(words: Sequence[str] | None) -> Any:
-    """Click command that runs some words, by default those of the process.
-
-    If they begin with the name of a command, it has that command only: to build the options of all
-    of them takes a tenth of a second.
-
-    >>> list(command_for(["show", "run"]).commands)
-    ['show']
-    """
+    """Click command that runs some words, by default those of the process."""
+    # To build the options of all commands takes a tenth of a second.
     first, *_ = [*(sys.argv[1:] if words is None else words), ""]
     return _built(first if first in _NAMES else None)
 

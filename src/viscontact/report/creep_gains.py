@@ -29,11 +29,9 @@ def gains_over_a_year(
     years: Mapping[str, xr.Dataset | str] | None,
     goals: Sequence[str],
 ) -> list[Element]:
-    """Table of the goals of a design over a year, and remarks on its runs; empty without years.
-
-    `years` are the results of two designs up to a year, the first one before, or why there is none,
-    `runs` those up to the end of the case; notes of the table are not repeated.
-    """
+    """Table of the goals of a design over a year, and remarks; empty without years."""
+    # `years` are the results of two designs up to a year, the first one before, or why there is
+    # none, `runs` those up to the end of the case; notes of the table are not repeated.
     found = {name: run for name, run in (years or {}).items() if isinstance(run, xr.Dataset)}
     parts = [
         remark(f"The run of the {name} stopped: {why}")

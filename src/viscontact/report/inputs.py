@@ -42,14 +42,7 @@ class Input:
 
 
 def inputs(ds: xr.Dataset) -> list[Input]:
-    """List the inputs of a run.
-
-    Examples
-    --------
-    >>> case = '{"indenter": {"type": "Sphere", "radius": 0.01}, "times": [0.0, 2.0]}'
-    >>> [f"{each.name}: {each.value}" for each in inputs(xr.Dataset(attrs={"case": case}))]
-    ['shape: sphere', 'radius: 10 mm', 'law: rigid', 'steps: 2, from 0 s to 2 s']
-    """
+    """List the inputs of a run."""
     case = case_of(ds)
     found = [
         Input(title, name, value)

@@ -65,10 +65,7 @@ def stacked_table(
     judged: bool = False,
     kind: str = "",
 ) -> Element:
-    """Table whose rows become lists on a narrow page; `numbers` are the columns of numbers.
-
-    `judged`: the last column are verdicts, each with its colour.
-    """
+    """Table whose rows become lists on a narrow page; `numbers` are the columns of numbers."""
     last = len(head) - 1 if judged else len(head)
 
     def cell(column: int, text: str) -> Element:

@@ -39,24 +39,7 @@ from viscontact.results.shown_scalars import is_long
 
 
 def write_pdf(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
-    """Write a run as a PDF of A4 pages.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        Result of `viscontact.simulate` or `viscontact.open_results`.
-    path : path-like
-        The file, by custom ending in ``.pdf``; an existing one is replaced.
-    label : str, optional
-        Name of the run among others whose cases have the same title.
-
-    Raises
-    ------
-    ValueError
-        If the result holds no instant.
-    OSError
-        If the file cannot be written.
-    """
+    """Write a run as a PDF of A4 pages, with a label if given; ValueError without an instant."""
     axis = run_axis(ds)
     if not ds.sizes.get(axis.name):
         raise ValueError(

@@ -17,17 +17,8 @@ _SVG = "data:image/svg+xml;base64,"
 
 
 def blocks(part: Element) -> Iterator[dict[str, Any]]:
-    """Yield the blocks of an element, plain data in the order of the page.
-
-    Interactive figures and links are left out. Texts are data: nothing in them is markup.
-
-    Examples
-    --------
-    >>> from viscontact.drawing.svg.html import element
-    >>> list(blocks(element("section", element("h2", "Load"), element("p", "#sum [1 N]"))))
-    [{'kind': 'heading', 'level': 2, 'text': 'Load'}, \
-{'kind': 'text', 'faint': False, 'text': '#sum [1 N]'}]
-    """
+    """Yield the blocks of an element, plain data in the order of the page."""
+    # Texts are data: nothing in them is markup.
     tag, classes = part.tag, part.get("class", "").split()
     if tag in _LEFT_OUT or any(each in _LEFT_OUT_CLASSES for each in classes):
         return

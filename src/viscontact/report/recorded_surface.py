@@ -17,20 +17,16 @@ def is_left_out(described: Any) -> bool:
 
 
 def recorded_surface(ds: xr.Dataset) -> HeightMap:
-    """Return the indenter on the grid of a run, from the fields that are stored.
-
-    Notes
-    -----
-    From gap = initial gap + displacement - approach - tilt_x x - tilt_y y (eq. 1), at the last
-    stored instant: the grid is the whole one by then. The level of a map does not matter, so that a
-    line contact, whose approach has no datum, counts from 0.
-    """
+    """Return the indenter on the grid of a run, from the fields that are stored."""
     missing = {"gap", "displacement"} - set(ds.variables)
     if missing or not ds["gap"].size:
         raise ValueError(
             "the surface is measured, results do not store it, and there are no fields to "
             "compute it from; store some (output.fields)"
         )
+    # From gap = initial gap + displacement - approach - tilt_x x - tilt_y y (eq. 1), at the last
+    # stored instant: the grid is the whole one by then. The level of a map does not matter, so that
+    # a line contact, whose approach has no datum, counts from 0.
     over = str(ds["gap"].dims[0])
     last = ds[["gap", "displacement"]].isel({over: -1}).transpose("x", "y")
     motion = ds[["approach", "tilt_x", "tilt_y"]].sel(time=float(ds[over][-1]), method="nearest")

@@ -45,8 +45,6 @@ def title_of(ds: xr.Dataset) -> str:
 def heading_of(ds: xr.Dataset, label: str) -> str:
     """Heading of a run: its title, with a label if several runs have that title.
 
-    Examples
-    --------
     >>> ball = xr.Dataset(attrs={"title": "Ball"})
     >>> [heading_of(ball, label) for label in ("", "run-2", "Ball, force 2 N")]
     ['Ball', 'Ball (run-2)', 'Ball, force 2 N']

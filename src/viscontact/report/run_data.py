@@ -1,4 +1,4 @@
-"""Plain data of a run: its scalars, and what is said of them."""
+"""Plain data of a run: scalars, summary, warnings and accuracy."""
 
 from __future__ import annotations
 
@@ -21,19 +21,9 @@ from viscontact.results.variables import SCALARS, Place
 
 
 def run_data(ds: xr.Dataset) -> dict[str, Any]:
-    """Return the numbers of a run, and what is said of them; ValueError without a row.
-
-    Plain data without NaN and inf, which JSON cannot hold: instants, or speeds from the slowest to
-    the fastest, and scalars with their errors in SI units, the listed scalars, warnings and the
-    account of accuracy. Null where there is no value or an error is unknown; `mesh` marks places at
-    which a scalar depends on the mesh.
-
-    >>> import viscontact as vc
-    >>> pmma = vc.Material(vc.Elastic(1e9), 0.4)
-    >>> ds = vc.simulate(vc.Sphere(0.01), pmma, vc.step(100.0), times=[1.0], errors=False)
-    >>> run_data(ds)["scalars"]["force"]["value"]
-    [100.0]
-    """
+    """Return the numbers and texts of a run for JSON [SI]; ValueError without a row."""
+    # JSON has no NaN and inf: null where there is no value or an error is unknown; `mesh` marks
+    # places at which a scalar depends on the mesh.
     axis = run_axis(ds)
     if not ds.sizes.get(axis.name):
         raise ValueError(f"a page needs one {axis.row} at least, got a result without any; run it")

@@ -149,7 +149,7 @@ class StressSource:
     @cached_property
     def _of_history(self) -> Floats:
         """Pressures of the responses at all stored instants."""
-        assert self.history is not None  # asked for of creeping layers only
+        assert self.history is not None  # used for creeping layers only
         load = recorded_object(self.results, "load", "stresses")
         jumps = np.zeros(0) if load is None else load.jumps
         pressure = np.asarray(self.results["pressure"].values, dtype=np.float64)

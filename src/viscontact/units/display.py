@@ -12,19 +12,13 @@ else:
 
 
 class Displayable:
-    """Base class of objects with a display in readable units, in notebooks and when printed.
-
-    ``repr`` stays that of the dataclass, which can be evaluated again.
-
-    Notes
-    -----
-    Drawings and tables are made by `viscontact.notebook`, a layer above the classes that derive
-    from this one. It is accessed through the package's lazy names, so that it is imported only when
-    an object is displayed; no other module does so.
-    """
+    """Base class of objects with a display in readable units, in notebooks and when printed."""
 
     __slots__ = ()
 
+    # Drawings and tables are made by `viscontact.notebook`, a layer above the classes that derive
+    # from this one. It is accessed through the package's lazy names, so that it is imported only
+    # when an object is displayed; no other module does so. `repr` stays that of the dataclass.
     def _repr_html_(self) -> str:
         return str(viscontact.notebook.display_html(self))
 

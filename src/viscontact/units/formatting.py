@@ -151,11 +151,9 @@ def time_labels(times: Iterable[float], si: str = "s") -> tuple[str, ...]:
 def clock_ticks(
     unit: ReadableUnit, first: float, last: float, *, close: float = 1e5
 ) -> dict[float, str]:
-    """Ticks of a log axis from `first` to `last` [`unit`] in hours or days, with their labels.
-
-    Labels, of 1 s, 1 min, 1 h, 1 d, are empty where they would be too close, from a ratio of the
-    ends `close` on; an axis in seconds has no ticks.
-    """
+    """Ticks of a log axis from `first` to `last` [`unit`] in hours or days, with their labels."""
+    # Labels, of 1 s, 1 min, 1 h, 1 d, are empty where they would be too close, from a ratio of the
+    # ends `close` on; an axis in seconds has no ticks.
     if not _is_long(unit):
         return {}
     below = range(-9, 0)

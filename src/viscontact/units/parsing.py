@@ -70,10 +70,7 @@ class Scale:
 
 
 def parse_quantity(text: str, dimension: str) -> float:
-    """Parse a quantity such as ``"5 mm"``, of a key of `DIMENSIONS`, to its SI number.
-
-    ValueError if its unit is missing, unknown or of another dimension, or it is not finite.
-    """
+    """Parse ``"5 mm"``, of a dimension of `DIMENSIONS`, to SI; ValueError for another text."""
     wanted = DIMENSIONS[dimension]
     number, unit = _split(text, wanted)
     value = _scale(unit, text, dimension).si(number)
@@ -83,10 +80,7 @@ def parse_quantity(text: str, dimension: str) -> float:
 
 
 def parse_any_quantity(text: str) -> tuple[float, str]:
-    """Parse a quantity of any dimension of `DIMENSIONS`, or a ratio, to its SI number and unit.
-
-    ValueError for any other text. A temperature in degrees is an absolute one.
-    """
+    """Parse a quantity of any dimension, or a ratio, to SI number and unit; ValueError else."""
     match = _QUANTITY.fullmatch(text.strip())
     if match is None:
         raise ValueError(f"cannot read {quoted(text)} as a number with a unit")
@@ -106,10 +100,7 @@ def _any_scale(unit: str) -> tuple[Scale, str]:
 
 
 def split_quantity(text: str) -> tuple[str, str]:
-    """Return the number and the unit of a quantity as texts; the unit is empty for a plain number.
-
-    ValueError if there is no decimal number in front. The unit is not checked.
-    """
+    """Number and unit (may be empty) of a quantity; ValueError without a number in front."""
     match = _QUANTITY.fullmatch(text.strip())
     if match is None or match["unit"].startswith(","):
         raise ValueError(f"{quoted(text)} is not a number with a unit; write e.g. '5.5 kN'")

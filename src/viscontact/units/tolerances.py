@@ -25,10 +25,7 @@ class Toleranced:
 
 
 def read_toleranced(text: str) -> Toleranced | None:
-    """Read a number with a tolerance, in any unit or percent, as drawings have it; None for others.
-
-    ValueError names the fault. Without a nominal value it is zero.
-    """
+    """Read a number with a tolerance, as on drawings; None for others, ValueError if faulty."""
     match = _TOLERANCED.fullmatch(text)
     if match is None:
         return None

@@ -1,4 +1,4 @@
-"""First use of what an answer of the page needs, before anyone waits for one."""
+"""First use of the libraries of the page, at its start."""
 
 from __future__ import annotations
 
@@ -19,10 +19,7 @@ from viscontact.web.runs.run_figures import look_of, run_figures
 
 
 def use_first() -> None:
-    """Compute and draw a small contact: what is imported or made at the first use takes a second.
-
-    >>> use_first()
-    """
+    """Compute and draw a small contact, as what the first use imports or makes takes a second."""
     material = Material(Zener(1e9, 1e9, 1e9), poisson_ratio=0.4)
     grid = Grid((48, 48), (0.6e-3, 0.6e-3))
     ds = simulate(Sphere(0.01), material, step(5.0), grid, [0.0, 0.05, 0.1], errors=False)

@@ -136,8 +136,6 @@ class FitArguments:
 def read_weight(text: str) -> tuple[str, float]:
     """Return the column and the weight given behind ``--weight``.
 
-    Examples
-    --------
     >>> read_weight("storage=2")
     ('storage', 2.0)
     """
@@ -151,8 +149,6 @@ def read_weight(text: str) -> tuple[str, float]:
 def read_stress(text: str | None) -> float | None:
     """Return the stress given behind ``--stress`` [Pa], None where it is not.
 
-    Examples
-    --------
     >>> read_stress("5 MPa")
     5000000.0
     """
@@ -162,8 +158,6 @@ def read_stress(text: str | None) -> float | None:
 def read_kelvin(option: str, text: str) -> float:
     """Return the temperature given behind an option [K].
 
-    Examples
-    --------
     >>> read_kelvin("--reference", "20 degC")
     293.15
     """
@@ -180,8 +174,6 @@ def _read_option(option: str, text: str, dimension: str) -> float:
 def read_indenter(text: str) -> Indenter:
     """Return the indenter given behind ``--indenter``.
 
-    Examples
-    --------
     >>> read_indenter("sphere 5 mm")
     Sphere(radius=0.005)
     """

@@ -19,17 +19,14 @@ _ANY_TIMES = (1e-3, 1e6)
 
 @dataclass(frozen=True)
 class MaterialDisplay:
-    """Material to show or to write, with its library entry or its data from a card.
+    """Material to show or to write, with its library entry or its data from a card."""
 
-    `name` is a shipped name or a file; `notes` list the contents of the file that are not used.
-    """
-
-    name: str
+    name: str  # shipped name or file
     material: Material
     entry: Entry | None = None
     card_name: str = ""
     shift: Shift | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()  # contents of the file that are not used
 
     @property
     def measured(self) -> tuple[float, float] | None:

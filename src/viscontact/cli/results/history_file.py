@@ -16,10 +16,7 @@ from viscontact.units.parsing import parse_quantity
 
 
 def write_table(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ()) -> None:
-    """Write all scalars in SI units, one row per instant or speed, and the pressure at points.
-
-    As CSV, or as a workbook where the name of the file ends in ``.xlsx``.
-    """
+    """Write all scalars [SI] as CSV or, for ``.xlsx``, as a workbook, and pressure at points."""
     written = io.StringIO()
     try:
         write_history(ds, written, [_point(text) for text in points])

@@ -18,10 +18,7 @@ def draw_body(
     picture: Path | None,
     width: str | float | None = None,
 ) -> None:
-    """Draw the indenter on the grid and around it, with the expected contact shaded.
-
-    The spectrum of a measured surface is drawn in a second figure.
-    """
+    """Draw the indenter with the expected contact, and the spectrum of a measured surface."""
     plot, found = plot_package(), expected.estimate
     contact = found and (found.centre_x, found.centre_y, found.length, found.width)
     path = prepared.case.document.path

@@ -67,10 +67,8 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
 
 
 def _warnings(lines: Path, axis: RunAxis, of_result: str) -> Iterator[str]:
-    """Warnings of each instant or speed with its value, then those of the whole run.
-
-    Those of the first state have no value: what holds for the whole run is warned of there, too.
-    """
+    """Warnings of each instant or speed with its value, then those of the whole run."""
+    # Those of the first state have no value: what holds for the whole run is warned of there, too.
     printed: set[str] = set()
     with lines.open(encoding="utf-8") as file:
         for number, line in enumerate(file):

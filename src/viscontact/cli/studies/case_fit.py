@@ -33,10 +33,7 @@ _OF_RUNS = (
 
 
 def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> None:
-    """Fit the values of a case; print them, and draw and write them where files are named.
-
-    `typed` are the options by name, `width` is that of the figure.
-    """
+    """Fit values of a case by options of the command; print, draw and write them."""
     if idle := _given(typed, _OF_TABLES):
         refuse(
             f"{', '.join(idle)} does not go with --case, whose file has body and law; leave it out"

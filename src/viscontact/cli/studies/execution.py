@@ -59,11 +59,7 @@ class Records:
 def performed(
     study: Callable[..., T], records: Records, typed: Mapping[str, Any], *, line: str = AT_MOST
 ) -> T:
-    """Result of a study; its failures end the command.
-
-    The study takes the arguments `progress`, and `workers` or `client`; `typed` are the options of
-    the command by name.
-    """
+    """Result of a study with the typed options; its failures end the command."""
     quiet: bool = typed["quiet"]
     records.refuse_begun(resume=typed["resume"], quiet=quiet)
     try:

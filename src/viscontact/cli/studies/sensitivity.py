@@ -23,10 +23,7 @@ _SCATTER = "KEY=VALUE, with the unit, e.g. 'indenter.radius=4.98 mm:5.02 mm'"
 
 
 def execute_sensitivity(typed: Mapping[str, Any]) -> None:
-    """Compute the runs, write the table and the report, and print them.
-
-    `typed` are the options by name.
-    """
+    """Compute the runs, write the table and the report, and print them."""
     arguments, output = _arguments(typed), typed["output"]
 
     def study(**how: Any) -> SensitivityResult:

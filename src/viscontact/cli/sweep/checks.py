@@ -38,10 +38,7 @@ def checked_jobs(
     runs: Sequence[RunRequest],
     memory: float | None = None,
 ) -> list[Job]:
-    """Check the runs of a command; the problems of all of them are reported together.
-
-    Each may need some memory [bytes]; by default what is free.
-    """
+    """Check the runs of a command within a memory [bytes]; report all problems together."""
     jobs: dict[int, Job] = {}
     problems: dict[str, list[PlannedRun]] = {}
     first = _to_prepare(planned)

@@ -40,10 +40,7 @@ def cluster_tasks(
 
 @contextmanager
 def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
-    """Connect to a scheduler with a worker, by its address or its file; `local` starts some here.
-
-    `count` is the number of workers that are started.
-    """
+    """Connect to a scheduler by its address or file; `local` starts `count` workers here."""
     with _client(scheduler, count) as client:
         if scheduler != "local":
             if not quiet and not client.scheduler_info()["workers"]:

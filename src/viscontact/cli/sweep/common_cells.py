@@ -30,13 +30,10 @@ def with_common_cells(
     earlier: Sequence[SweepRun] = (),
     memory: float | None = None,
 ) -> list[RunRequest]:
-    """Add the common cells to the settings of runs that differ in the values of some keys.
-
-    Runs keep their own cells where the keys concern the grid, where the grid or its largest cell
-    is given, or where the common cells would be too many. The cells of a sweep that is resumed
-    are those of its earlier runs in the manifest. Each run may need some memory [bytes]; by default
-    what is free.
-    """
+    """Add the common cells to the settings of runs, each within a memory [bytes]."""
+    # Runs keep their own cells where the keys concern the grid, where the grid or its largest cell
+    # is given, or where the common cells would be too many. A resumed sweep has those of its
+    # manifest.
     sweeps: dict[Path, list[PlannedRun]] = {}
     for each in planned:
         sweeps.setdefault(each.request.case, []).append(each)

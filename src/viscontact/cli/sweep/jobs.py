@@ -47,10 +47,7 @@ class CheckedSweep:
 
 
 def checked_sweep(request: ManyRequest, *, elsewhere: bool) -> CheckedSweep:
-    """Check all runs of a request; nothing is created.
-
-    The memory of this machine limits the runs, unless they are computed `elsewhere`.
-    """
+    """Check all runs of a request; memory of this machine limits them, unless `elsewhere`."""
     memory = math.inf if elsewhere else None
     common, planned = request.common, request.planned()
     earlier = recorded_runs(common.output)

@@ -81,8 +81,6 @@ class PlanOptions:
     def as_typed(self, line: str, keys: Sequence[str]) -> str:
         """Name the option or table in a message about a value of some varied keys.
 
-        Examples
-        --------
         >>> options = PlanOptions(varied=("load.force=2,3",))
         >>> options.as_typed("--set load.force: cannot read '2'", ["load.force"])
         "--vary load.force: cannot read '2'"

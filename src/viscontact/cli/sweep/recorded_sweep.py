@@ -22,20 +22,14 @@ from viscontact.studies.sweep.varied_runs import case_name
 
 @dataclass(frozen=True)
 class RecordedSweep:
-    """Runs of a command and those in the manifest of their directory.
+    """Runs of a command and those in the manifest of their directory."""
 
-    Without a directory, the runs lie next to their case files and have no manifest.
-    """
-
-    directory: Path | None
+    directory: Path | None  # None: next to the case files, without manifest
     runs: list[SweepRun]
     earlier: list[SweepRun]
 
     def continued(self, *, resume: bool) -> RecordedSweep:
-        """Return the sweep with the directories and settings that equal runs have already.
-
-        A resumed sweep may have more runs; other runs than those with results are refused.
-        """
+        """Sweep with the directories and settings of equal earlier runs; refuse other ones."""
         if self.directory is None or not self.earlier:
             return self
         try:
@@ -55,10 +49,8 @@ class RecordedSweep:
         return found
 
     def with_digests(self, *, mixed: bool) -> RecordedSweep:
-        """Return the sweep with digests of its cases; refuse changed ones unless runs may be mixed.
-
-        Cases may change as long as no run has results.
-        """
+        """Sweep with digests of its cases; refuse changed ones unless runs may be mixed."""
+        # Cases may change as long as no run has results.
         if self.directory is None:
             return self
         if not mixed and any_begun(self.directory, self.earlier):

@@ -24,13 +24,10 @@ class PlannedRun:
 
 @dataclass(frozen=True)
 class ManyRequest:
-    """Arguments of ``viscontact run`` with several cases or varied values.
-
-    The case of `common` is ignored; its output is the directory of the run directories.
-    """
+    """Arguments of ``viscontact run`` with several cases or varied values."""
 
     cases: tuple[Path, ...]
-    common: RunRequest
+    common: RunRequest  # its case is ignored, its output holds the run directories
     options: PlanOptions = field(default_factory=PlanOptions)
     jobs: int = 1
     scheduler: str = ""  # of a cluster: address, file, or local
@@ -62,8 +59,6 @@ class ManyRequest:
     def resuming(self) -> str:
         """Command that resumes all of them, quoted for a shell.
 
-        Examples
-        --------
         >>> common = RunRequest(Path("a.yaml"), output=Path("all"))
         >>> ManyRequest((Path("a.yaml"), Path("b.yaml")), common, jobs=2).resuming
         'viscontact run a.yaml b.yaml -o all -j 2 --resume'

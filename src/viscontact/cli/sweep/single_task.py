@@ -36,11 +36,7 @@ _OWN_GRID, _CELLS = {"grid", "grid.shape", "grid.size"}, f"grid.{KEY}"
 
 
 def execute_task(request: ManyRequest, array: Path | None, number: int) -> None:
-    """Compute the run of a manifest that has a number, or what is left of it.
-
-    The manifest is in the place of a case file. Settings replace those of the run there. A failure
-    is written to the run's directory.
-    """
+    """Compute the run with a number in a manifest, or the rest of it, with other settings."""
     common = request.common
     if common.overwrite and common.resume:
         refuse("--resume continues a run and --overwrite starts it again: give one of them")
@@ -81,10 +77,7 @@ def _recorded_failure(directory: Path) -> Iterator[None]:
 
 
 def _execute(request: RunRequest, file: Path, again: str) -> None:
-    """Compute a run, which a file in the directory of the sweep may stop.
-
-    Messages name the command of the task, `again`, in place of that of the run alone.
-    """
+    """Compute a run, which a file may stop; messages name the command of the task, `again`."""
     if file.exists():
         stop(f"{file} asks the runs of this sweep to stop; remove it first", code=INTERRUPTED)
     with watched_interruption() as interruption:
@@ -157,11 +150,7 @@ def _numbered(path: Path, number: int) -> SweepRun:
 def changed_run(
     run: SweepRun, settings: Sequence[str], directory: Path, *, overwrite: bool
 ) -> SweepRun:
-    """Return a run with other settings, each KEY=VALUE; one with results is refused.
-
-    `directory` is that of the run, whose results may be overwritten. The run itself is returned if
-    nothing differs.
-    """
+    """Run with other settings, each KEY=VALUE; one with results in its directory is refused."""
     given = {key_of(text): text.partition("=")[2].strip() for text in settings}
     for key in given:
         if any(share_a_branch(key, varied) for varied in run.varied):

@@ -32,16 +32,12 @@ _NAMED = 3
 
 @dataclass(frozen=True)
 class _Found:
-    """Results of a run: largest values [SI], their error, computing time [s] and warnings.
-
-    The error is the largest relative one of these values [-], nan if none is known and inf if a
-    value depends on the mesh.
-    """
+    """Results of a run: largest values [SI], their error, computing time [s] and warnings."""
 
     over: str  # axis of the result
     largest: dict[str, float]
     marked: frozenset[str]  # scalars that depend on the mesh at any instant
-    error: float
+    error: float  # largest relative one [-], nan if unknown, inf if it depends on the mesh
     seconds: float
     warnings: tuple[str, ...]
     verdict: str  # the worst on the allowable values, and on what; empty without any
@@ -57,10 +53,7 @@ class _Column:
 
 
 def print_table(runs: Sequence[Ended]) -> None:
-    """Print the largest values over time or speed of several runs, and their warnings.
-
-    Where they do not fit in the width of the terminal, the values are a table of their own.
-    """
+    """Print the largest values over time or speed of several runs, and their warnings."""
     found = [_found(each) for each in runs]
     console = Console()
     over = " or ".join(sorted({each.over for each in found if each})) or "time"

@@ -17,10 +17,7 @@ LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
 class Pace:
-    """Intervals between plain lines of progress, and the time left.
-
-    The first line is due after `first` of the work of this process, 0 to 1.
-    """
+    """Intervals between plain lines of progress, from a part of the work on, and the time left."""
 
     def __init__(self, first: float = LINE_PART) -> None:
         self._started = self._line_at = clock.perf_counter()
@@ -64,11 +61,7 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
 def counted(
     unit: str, *, quiet: bool = False, line: str = ""
 ) -> Iterator[Callable[[int, int], None]]:
-    """Display how many frames, runs or other units of some work are done.
-
-    Elsewhere than on a terminal, lines are printed if a template of `done`, `total` and seconds
-    `left` is given.
-    """
+    """Display how many units of some work are done; `line` is a template for plain lines."""
     if quiet or not sys.stderr.isatty():
         yield (lambda done, total: None) if quiet or not line else _lines(line)
         return

@@ -30,11 +30,9 @@ class CaseReader:
     _last: dict[str, tuple[PreparedRun, Forecast]] = field(default_factory=dict, repr=False)
 
     def forecast(self, text: str) -> tuple[PreparedRun, Forecast]:
-        """Read and check a case, and predict its run.
-
-        The last result is kept: a check, a drawing and a run of one case follow each other, and an
-        automatic grid is then computed once.
-        """
+        """Read and check a case, and predict its run."""
+        # A check, a drawing and a run of one case follow each other, and an automatic grid is then
+        # computed once.
         if text in self._last:
             whole, expected = self._last[text]
             return whole, replace(expected, available=available_memory())
@@ -159,8 +157,6 @@ def form_values(text: str, path: Path) -> dict[str, Any]:
 def filled(value: Any) -> Any:
     """Return values without empty ones.
 
-    Examples
-    --------
     >>> filled({"title": "", "load": {"force": "1 N", "tilt_x": None}, "grid": {}})
     {'load': {'force': '1 N'}}
     """

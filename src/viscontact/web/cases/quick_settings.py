@@ -38,7 +38,7 @@ def without_cells(settings: tuple[str, ...]) -> tuple[str, ...]:
 def _steps(case: Case) -> Iterator[str]:
     if case.steady is not None:
         speed, given = case.document.data["motion"]["speed"], case.document.data.get("output") or {}
-        # Fields that are asked for at some of the speeds need these.
+        # Fields requested at some of the speeds need these.
         if isinstance(speed, dict) and speed["count"] > STEPS and "fields" not in given:
             yield f"motion.speed.count={STEPS}"
         return

@@ -55,14 +55,11 @@ class CaseText(BaseModel):
 
 
 class CaseValues(BaseModel):
-    """Values of a case, and the text whose layout is kept when they are written.
-
-    Without `titled`, a title is derived from the values.
-    """
+    """Values of a case, and the text whose layout is kept when they are written."""
 
     case: dict[str, Any]
     yaml: str = ""
-    titled: bool = True
+    titled: bool = True  # without it, a title is derived from the values
 
 
 class DrawingRequest(BaseModel):

@@ -26,12 +26,10 @@ _MOST = 1_000_000
 
 
 def grown(directory: Path, after: int) -> dict[str, Any]:
-    """Return times [s] or speeds [m/s] and scalars [SI] after a position in the lines [bytes].
-
-    Values that are not finite are None. `begun` is the position of the first line returned: 0 means
-    that earlier values are replaced; `after` is the position for the next call. `reached` and
-    `texts` are the place and the scalars of the last line, in words; empty without a line.
-    """
+    """Times [s] or speeds [m/s] and scalars [SI] after a position in the lines [bytes]."""
+    # `begun` is the position of the first line returned: 0 means that earlier values are replaced;
+    # `after` is the position for the next call. `reached` and `texts` are the place and the scalars
+    # of the last line, in words. Values that are not finite are None.
     begun, lines = _lines(directory / PROGRESS_NAME, after)
     labels = labels_in(Place.LIVE)
     places: list[float] = []

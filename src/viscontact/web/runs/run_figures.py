@@ -31,11 +31,7 @@ def look_of(units: str, *, dark: bool) -> Look:
 
 
 def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None) -> dict[str, Any]:
-    """Return the figures of a run beside those of a reference over the same quantity.
-
-    Plain data for JSON: map and sections, with the instant that is shown first; friction over
-    speed; histories, with the scale that is shown first; loops.
-    """
+    """Figures of a run beside those of a reference, for JSON, with what is shown first."""
     ds = in_order(ds)
     other = None if reference is None else in_order(reference)
     if other is not None and run_axis(other) is not run_axis(ds):

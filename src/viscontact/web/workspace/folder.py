@@ -32,25 +32,19 @@ _SHIPPED = (".npz", ".csv")
 
 @dataclass(frozen=True)
 class RunEntry:
-    """Entry of a run, stored in its directory: its request, its size and its state.
-
-    `over` is the quantity in which its states differ, `begin` and `end` their first and last
-    instant [s], or the least and the largest speed [m/s], `instants` their number (None for
-    adaptive steps), `work` its cells times steps [-], `memory` its need [bytes], `errors` tells if
-    errors are estimated after the last step, and `said` are the messages of its process.
-    """
+    """Entry of a run, stored in its directory: its request, its size and its state."""
 
     title: str
     quality: str
     created: str
     settings: tuple[str, ...]
-    instants: int | None
-    end: float
-    work: float
-    memory: float
-    errors: bool
+    instants: int | None  # None for adaptive steps
+    end: float  # last instant [s] or largest speed [m/s]
+    work: float  # cells times steps [-]
+    memory: float  # needed [bytes]
+    errors: bool  # True if errors are estimated after the last step
     state: str = "waiting"
-    said: tuple[str, ...] = ()
+    said: tuple[str, ...] = ()  # messages of its process
     label: str = ""
     over: Literal["time", "speed"] = "time"
     begin: float = 0.0

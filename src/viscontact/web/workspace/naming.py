@@ -23,16 +23,7 @@ _LONGEST, _MOST = 24, 2
 
 
 def suggested_title(case: Mapping[str, Any]) -> str:
-    """Return a title for a case without one.
-
-    Examples
-    --------
-    >>> suggested_title({
-    ...     "indenter": {"shape": "sphere", "radius": "20 mm"},
-    ...     "material": {"law": "zener", "shear_modulus": "1 GPa"},
-    ...     "load": {"kind": "ramp", "force": "1 kN", "duration": "2 s"}})
-    'Sphere, radius 20 mm, on Zener 1 GPa, ramp to 1 kN in 2 s'
-    """
+    """Return a title for a case without one."""
     given = case.get("indenter")
     shapes = given if isinstance(given, list) else [given]
     body = ", with ".join(_shape(each) for each in shapes)
@@ -45,8 +36,6 @@ def suggested_title(case: Mapping[str, Any]) -> str:
 def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
     """Return a label for a run among others whose cases have the same title.
 
-    Examples
-    --------
     >>> first = {"load": {"force": "1 N"}, "grid": {"shape": [8, 8]}}
     >>> label_of("Ball", {"load": {"force": "2 N"}}, first, {"Ball"})
     'Ball, force 2 N, without grid'
@@ -67,8 +56,6 @@ def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
 def file_stem(label: str, quality: str) -> str:
     """Return a name for downloaded files.
 
-    Examples
-    --------
     >>> file_stem("Ball, force 2.5 N", "coarse")
     'ball-force-2-5-n-coarse'
     """

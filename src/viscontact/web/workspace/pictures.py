@@ -76,8 +76,6 @@ def picture(figure: Figure, choice: PictureChoice) -> bytes:
 def on_dark(drawing: bytes) -> bytes:
     """Return a drawing in colours for a dark page: lightness inverted, hue unchanged.
 
-    Examples
-    --------
     >>> on_dark(b'<svg ><path style="fill: #ffffff; stroke: #000000"/></svg>')
     b'<svg fill="#ffffff" ><path style="fill: #1f1f1f; stroke: #ffffff"/></svg>'
     """

@@ -41,8 +41,6 @@ def case_problems(error: CaseError, path: Path) -> RequestError:
 def problem_of(line: str, path: Path) -> Problem:
     """Split a message of the command line into message, key and line.
 
-    Examples
-    --------
     >>> problem_of("a/case.yaml:6: load.force: cannot read it", Path("a/case.yaml"))
     Problem(message='cannot read it', path='load.force', line=6)
     >>> problem_of("a/case.yaml:6: motion: motion.rolling: give it", Path("a/case.yaml")).path
