@@ -70,11 +70,7 @@ TABLE = (
 
 
 def names_of(*of: str) -> list[str]:
-    """Names of the figures of some kinds of runs, without animations.
-
-    >>> names_of("speed"), names_of("sweep")
-    (['friction', 'motion-profile'], ['response'])
-    """
+    """Names of the figures of some kinds of runs, without animations."""
     return [each.name for each in TABLE if each.of in of and not each.is_animation]
 
 

@@ -42,12 +42,7 @@ def measured_lines(ds: xr.Dataset, body: str) -> Iterator[Element]:
 
 
 def measured_text(record: Mapping[str, Any]) -> str:
-    """Describe a table of measured values in a sentence.
-
-    >>> columns = [{"heading": "time [s]", "values": [1.0]}, {"heading": "D [1/GPa]"}]
-    >>> measured_text({"file": "pom.csv", "rows": 1, "columns": columns, "data": "uniaxial"})
-    'As measured: 1 row of pom.csv, columns “time [s]” and “D [1/GPa]” (uniaxial test).'
-    """
+    """Describe a table of measured values in a sentence."""
     columns, rows = record["columns"], record["rows"]
     names = " and ".join(f"“{each['heading']}”" for each in columns)
     shown = len(columns[0]["values"])

@@ -43,12 +43,7 @@ def title_of(ds: xr.Dataset) -> str:
 
 
 def heading_of(ds: xr.Dataset, label: str) -> str:
-    """Heading of a run: its title, with a label if several runs have that title.
-
-    >>> ball = xr.Dataset(attrs={"title": "Ball"})
-    >>> [heading_of(ball, label) for label in ("", "run-2", "Ball, force 2 N")]
-    ['Ball', 'Ball (run-2)', 'Ball, force 2 N']
-    """
+    """Heading of a run: its title, with a label if several runs have that title."""
     title = title_of(ds)
     if not label:
         return title

@@ -13,11 +13,7 @@ from viscontact.results.filed_case import FiledCase, started_at
 
 
 def title_entries(ds: xr.Dataset, start: str = "Run started") -> list[tuple[str, str]]:
-    """Entries of the title block, and date and time of the start, those that are known.
-
-    >>> title_entries(xr.Dataset(attrs={"title_block": '{"project": "P-7", "revision": "B"}'}))
-    [('Project', 'P-7'), ('Revision', 'B')]
-    """
+    """Entries of the title block, and date and time of the start, those that are known."""
     entries = [
         (name.capitalize(), value) for name, value in FiledCase.of(ds.attrs).title_block.items()
     ]

@@ -11,15 +11,7 @@ from viscontact.units.display import Displayable, result_explorer, result_plots
 
 @xr.register_dataset_accessor("viscontact")
 class ResultAccessor(Displayable):
-    """A result in a few lines and small drawings, as ``ds.viscontact``.
-
-    >>> import viscontact as vc
-    >>> material = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> grid = vc.Grid((32, 32), (4e-3, 4e-3))
-    >>> ds = vc.simulate(vc.Sphere(0.01), material, vc.step(force=0.1), grid, [0.0, 1.0])
-    >>> print(str(ds.viscontact).splitlines()[3].split()[:3])
-    ['force', '100', 'mN']
-    """
+    """A result in a few lines and small drawings, as ``ds.viscontact``."""
 
     # Available after ``import viscontact`` and the first of its names that makes or opens results.
 

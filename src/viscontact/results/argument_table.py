@@ -39,12 +39,7 @@ _MAX_LISTED = 8
 
 
 def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[tuple[str, str]]:
-    """Yield names and values of an object's arguments, with those of the objects within it.
-
-    >>> sphere = {"type": "Sphere", "radius": 0.01}
-    >>> list(argument_rows(sphere))
-    [('shape', 'sphere'), ('radius', '10 mm')]
-    """
+    """Yield names and values of an object's arguments, with those of the objects within it."""
     kind = str(description.get("type", ""))
     if kind and kind not in _PLAIN:
         # A class of the user's own may be a shape, a law or a load.
@@ -165,11 +160,7 @@ def _format(value: float, unit: str, digits: int = _DIGITS) -> str:
 
 
 def in_plain_words(kind: str) -> str:
-    """Name of a type in words, such as "creep series" for ``"CreepSeries"``.
-
-    >>> in_plain_words("CreepSeries"), in_plain_words("FractionalMaxwell")
-    ('creep series', 'fractional Maxwell')
-    """
+    """Name of a type in words, such as "creep series" for ``"CreepSeries"``."""
     parts = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", kind).split()
     kept = (part.isupper() or part in PEOPLE for part in parts)
     return " ".join(p if keep else p.lower() for p, keep in zip(parts, kept, strict=True))

@@ -27,18 +27,10 @@ _BIBTEX = """\
 
 
 def citations(version: str) -> tuple[str, str]:
-    """Return the citations of a version of the program and of the paper, as sentences.
-
-    >>> citations("0.1.0")[0]
-    'The viscontact developers: viscontact: contact of creeping bodies. Version 0.1.0, MIT.'
-    """
+    """Return the citations of a version of the program and of the paper, as sentences."""
     return _PROGRAM.format(version=version), _PAPER
 
 
 def bibtex(version: str) -> str:
-    """Return both citations as BibTeX.
-
-    >>> bibtex("0.1.0").splitlines()[0]
-    '@software{viscontact,'
-    """
+    """Return both citations as BibTeX."""
     return _BIBTEX.format(version=version)

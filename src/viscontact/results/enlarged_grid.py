@@ -14,12 +14,7 @@ from viscontact.units.formatting import format_quantity
 
 
 def on_wider(name: str, field: Field, grid: Grid, wider: Grid) -> Field:
-    """A field (..., nx, ny) on the widest grid of a result, from the grid of its instant.
-
-    >>> small = Grid((4, 4), (1.0, 1.0))
-    >>> on_wider("gap", np.ones((4, 4)), small, small.widened((6, 4)))[:, 0].tolist()
-    [nan, 1.0, 1.0, 1.0, 1.0, nan]
-    """
+    """A field (..., nx, ny) on the widest grid of a result, from the grid of its instant."""
     # Beyond its grid pressure is 0, gap and displacement are NaN, and no cell is in contact.
     if grid == wider:
         return field
@@ -27,12 +22,7 @@ def on_wider(name: str, field: Field, grid: Grid, wider: Grid) -> Field:
 
 
 def line_on_wider(line: Floats, grid: Grid, wider: Grid) -> Floats:
-    """A field along x, shape (..., nx), on the widest grid of a result; 0 beyond its own.
-
-    >>> small = Grid((4, 4), (1.0, 1.0))
-    >>> line_on_wider(np.ones(4), small, small.widened((6, 4))).tolist()
-    [0.0, 1.0, 1.0, 1.0, 1.0, 0.0]
-    """
+    """A field along x, shape (..., nx), on the widest grid of a result; 0 beyond its own."""
     more = (wider.shape[0] - grid.shape[0]) // 2
     return np.pad(line, [(0, 0)] * (line.ndim - 1) + [(more, more)])
 

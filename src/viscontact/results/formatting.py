@@ -24,11 +24,7 @@ MESH_MARK = "mesh"
 
 
 def format_with_error(value: float, error: float, units: str) -> str:
-    """Format a value with its error, both in SI, and its unit; NaN unknown, inf mesh-dependent.
-
-    >>> format_with_error(57.634e-6, 0.149e-6, "m2"), format_with_error(152.2e6, math.inf, "Pa")
-    ('57.63 ± 0.15 mm²', '>152.2 MPa (depends on the mesh)')
-    """
+    """Format a value with its error, both in SI, and its unit; NaN unknown, inf mesh-dependent."""
     if math.isinf(error):
         return f"{format_bounded(value, error, units)} ({MESH_DEPENDENT})"
     if not error > NEGLIGIBLE * abs(value):
@@ -38,22 +34,13 @@ def format_with_error(value: float, error: float, units: str) -> str:
 
 
 def format_bounded(value: float, error: float, units: str) -> str:
-    """Format a value without its error, with ``>`` in front if it depends on the mesh; all in SI.
-
-    >>> [format_bounded(152.2e6, error, "Pa") for error in (5e6, math.nan, math.inf)]
-    ['152.2 MPa', '152.2 MPa', '>152.2 MPa']
-    """
+    """Format a value without its error, with ``>`` in front if it depends on the mesh; in SI."""
     number = format_quantity(value, units)
     return f">{number}" if math.isinf(error) else number
 
 
 def format_with_error_in(unit: ReadableUnit, value: float, error: float) -> str:
-    """Format a value with its error, both in SI, in the unit of a table.
-
-    >>> table = readable_unit("m", 0.08)
-    >>> [format_with_error_in(table, 0.0576344, error) for error in (0.000149, 0.0, math.inf)]
-    ['57.63 ± 0.15', '57.63', '>57.63']
-    """
+    """Format a value with its error, both in SI, in the unit of a table."""
     number, half_width = value / unit.factor, error / unit.factor
     if math.isinf(error):
         return format_supported(number, half_width)
@@ -100,11 +87,7 @@ def format_percent(part: float) -> str:
 
 
 def format_bound(part: float) -> str:
-    """Format an upper bound on a part of a whole [-] in per cent.
-
-    >>> format_bound(0.0031), format_bound(1e-9)
-    ('at most 0.31 %', 'below 0.01 %')
-    """
+    """Format an upper bound on a part of a whole [-] in per cent."""
     percent = format_percent(part)
     return f"below {percent[1:]}" if percent.startswith("<") else f"at most {percent}"
 

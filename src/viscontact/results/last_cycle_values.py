@@ -24,21 +24,12 @@ _EQUAL = 1e-5
 
 
 def first_largest(sizes: Floats) -> int:
-    """Index of the first of the largest values, which may differ by rounding.
-
-    >>> first_largest(np.array([1.0, 3.0, 3.000001, 2.0]))
-    1
-    """
+    """Index of the first of the largest values, which may differ by rounding."""
     return int(np.flatnonzero(sizes >= sizes.max() - _EQUAL * abs(sizes.max()))[0])
 
 
 def notable_largest(ds: xr.Dataset, name: str, shown: int) -> int | None:
-    """Index of the largest magnitude of a scalar; None if it hardly exceeds the one at `shown`.
-
-    >>> ds = xr.Dataset({"peak_pressure": ("time", [3.0, 2.0])}, {"time": [0.0, 1.0]})
-    >>> notable_largest(ds, "peak_pressure", shown=-1), notable_largest(ds, "peak_pressure", 0)
-    (0, None)
-    """
+    """Index of the largest magnitude of a scalar; None if it hardly exceeds the one at `shown`."""
     sizes = np.nan_to_num(np.abs(ds[name].values))
     largest = first_largest(sizes)
     return largest if sizes[largest] > (1 + _NOTABLE) * sizes[shown] else None

@@ -28,15 +28,7 @@ def is_layered(results: Result, part: str = "material") -> bool:
 
 
 def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float:
-    """Poisson's ratio [-] of a half-space that a result belongs to.
-
-    >>> import xarray as xr
-    >>> ball = {"case": '{"indenter_material": null}'}
-    >>> recorded_poisson_ratio(xr.Dataset(attrs=ball), "indenter_material")
-    Traceback (most recent call last):
-    ...
-    ValueError: stresses: the indenter of this result is rigid
-    """
+    """Poisson's ratio [-] of a half-space that a result belongs to."""
     if part == "indenter_material" and case_of(results).get(part) is None:
         raise ValueError("stresses: the indenter of this result is rigid")
     material = case_of(results).get(part) or {}
@@ -66,12 +58,7 @@ def recorded_grid(results: Result) -> Grid:
 
 
 def across_period(results: Result) -> Literal["x", "y"] | None:
-    """Axis across the only one along which a result's grid is periodic, None if there is no such.
-
-    >>> import xarray as xr
-    >>> across_period(xr.Dataset(attrs={"case": '{"grid": {"periodic": [true, false]}}'}))
-    'y'
-    """
+    """Axis across the only one along which a result's grid is periodic; None without such."""
     periodic = AxisFlags((case_of(results).get("grid") or {}).get("periodic", False))
     return None if periodic[0] == periodic[1] else "y" if periodic[0] else "x"
 
@@ -91,14 +78,7 @@ def has_mixed_control(ds: Result) -> bool:
 
 
 def is_prescribed(ds: Result, name: str) -> bool:
-    """True if the load of a run prescribes a scalar, so that it has no error.
-
-    >>> import xarray as xr
-    >>> case = '{"load": {"type": "ForceHistory", "tilt_x": [0.0], "tilt_y": null}}'
-    >>> ds = xr.Dataset(attrs={"case": case})
-    >>> [is_prescribed(ds, name) for name in ("force", "approach", "tilt_x", "tilt_y")]
-    [True, False, True, False]
-    """
+    """True if the load of a run prescribes a scalar, so that it has no error."""
     load = case_of(ds).get("load")
     if not load:
         return False

@@ -18,13 +18,7 @@ class RecordedEvent(NamedTuple):
 
 
 def recorded_events(ds: Result) -> list[RecordedEvent]:
-    """Return the events of a result in their order; none for other loads than programs.
-
-    >>> import xarray as xr
-    >>> about = {"events": "218 ms: force reaches 50 mN", "event_times": 0.218}
-    >>> recorded_events(xr.Dataset(attrs=about))
-    [RecordedEvent(time=0.218, text='218 ms: force reaches 50 mN')]
-    """
+    """Return the events of a result in their order; none for other loads than programs."""
     lines = str(ds.attrs.get("events", "")).splitlines()
     times = np.atleast_1d(ds.attrs.get("event_times", [])).tolist()  # netCDF has no list of one
     return [RecordedEvent(float(time), line) for time, line in zip(times, lines, strict=False)]

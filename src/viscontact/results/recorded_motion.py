@@ -13,12 +13,7 @@ from viscontact.results.run_axis import run_axis
 
 
 def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
-    """Axis along which the body of a result moves farther, None for a standing contact.
-
-    >>> moved = xr.Dataset({"position_x": ("time", [0.0, 0.0]), "position_y": ("time", [0.0, 1.0])})
-    >>> motion_axis(moved), motion_axis(xr.Dataset())
-    ('y', None)
-    """
+    """Axis along which the body of a result moves farther, None for a standing contact."""
     if not run_axis(results).is_history:
         return "x" if results.attrs.get("along") == "x" else "y"
     if "position_x" not in results or "time" not in results["position_x"].dims:
@@ -30,15 +25,7 @@ def motion_axis(results: xr.Dataset) -> Literal["x", "y"] | None:
 
 
 def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None:
-    """Direction (x, y) in which the body arrives at an instant [s], of length 1; None at rest.
-
-    >>> moved = xr.Dataset(
-    ...     {"position_x": ("time", [0.0, 0.0, 0.0]), "position_y": ("time", [0.0, -2.0, -2.0])},
-    ...     {"time": [0.0, 1.0, 2.0]},
-    ... )
-    >>> [direction_at(moved, time) for time in (0.0, 1.0, 2.0)]
-    [(0.0, -1.0), (0.0, -1.0), None]
-    """
+    """Direction (x, y) in which the body arrives at an instant [s], of length 1; None at rest."""
     # At the first instant it is that in which it leaves; in steady motion that of the motion.
     axis = motion_axis(results)
     if axis is None:
@@ -52,12 +39,7 @@ def direction_at(results: xr.Dataset, time: float) -> tuple[float, float] | None
 
 
 def body_axis_at(results: xr.Dataset, time: float) -> tuple[float, float]:
-    """Position (x, y) of the body's axis at an instant [m]; the origin of a standing contact.
-
-    >>> moved = xr.Dataset({f"position_{axis}": ("time", [0.0, 2.0]) for axis in "xy"})
-    >>> body_axis_at(moved.assign_coords(time=[0.0, 1.0]), 0.9), body_axis_at(xr.Dataset(), 0.9)
-    ((2.0, 2.0), (0.0, 0.0))
-    """
+    """Position (x, y) of the body's axis at an instant [m]; the origin of a standing contact."""
     if "position_x" not in results:
         return 0.0, 0.0
     index = int(np.abs(results["time"].values - time).argmin())
@@ -69,10 +51,6 @@ def contact_edges(positions: Floats, touched: Bools, way: float) -> tuple[float,
     """Leading and trailing edge of a contact [m] on a line through it; None without.
 
     The sign of `way` is that of the velocity along the line; there are no edges if it is 0.
-
-    >>> at = np.array([0.0, 1.0, 2.0, 3.0])
-    >>> contact_edges(at, np.array([False, True, True, False]), -0.1)
-    (0.5, 2.5)
     """
     inside = np.flatnonzero(touched)
     if way == 0 or inside.size == 0:

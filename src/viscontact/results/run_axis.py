@@ -18,11 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunAxis:
-    """Quantity in which the states of a run differ.
-
-    >>> TIME.place(2.0), SPEED.place(0.5)
-    ('t = 2 s', '500 mm/s')
-    """
+    """Quantity in which the states of a run differ."""
 
     name: Literal["time", "speed"]  # dimension of the scalars, and label of the axis
     unit: str  # SI
@@ -57,23 +53,12 @@ RUN_AXES: dict[str, RunAxis] = {axis.name: axis for axis in (TIME, SPEED)}
 
 
 def run_axis(results: Result) -> RunAxis:
-    """Return the axis of a result.
-
-    >>> import xarray as xr
-    >>> run_axis(xr.Dataset({"force": ("speed", [1.0])})).row
-    'speed'
-    """
+    """Return the axis of a result."""
     return SPEED if "speed" in results.dims else TIME
 
 
 def in_order(results: xr.Dataset) -> xr.Dataset:
-    """Return a result over speed from the slowest to the fastest; others unchanged.
-
-    >>> import xarray as xr
-    >>> fast_first = xr.Dataset({"force": ("speed", [1.0, 2.0])}, {"speed": [3.0, 0.5]})
-    >>> in_order(fast_first)["force"].values.tolist()
-    [2.0, 1.0]
-    """
+    """Return a result over speed from the slowest to the fastest; others unchanged."""
     if run_axis(results).is_history:
         return results
     ordered = results.sortby([name for name in ("speed", "field_speed") if name in results.dims])
@@ -82,15 +67,7 @@ def in_order(results: xr.Dataset) -> xr.Dataset:
 
 
 def require_time(results: xr.Dataset, figure: str) -> None:
-    """Raise ValueError for a result of steady motion, which has nothing over time.
-
-    >>> import xarray as xr
-    >>> require_time(xr.Dataset({"force": ("speed", [1.0])}), "history")
-    Traceback (most recent call last):
-    ...
-    ValueError: history: shows a run over time, and this result is of steady motion, over speed; \
-draw friction, motion-profile, pressure-map or pressure-profile
-    """
+    """Raise ValueError for a result of steady motion, which has nothing over time."""
     if not run_axis(results).is_history:
         raise ValueError(
             f"{figure}: shows a run over time, and this result is of steady motion, over speed; "
@@ -99,13 +76,7 @@ draw friction, motion-profile, pressure-map or pressure-profile
 
 
 def law_times(results: xr.Dataset) -> Floats:
-    """Times at which a run's law matters [s]: of its states, or of the passage in steady motion.
-
-    >>> import xarray as xr
-    >>> passed = {"contact_width": ("speed", [0.02, 0.01])}
-    >>> law_times(xr.Dataset(passed, {"speed": [1.0, 2.0]}, {"along": "y"})).tolist()
-    [0.005, 0.02]
-    """
+    """Times at which a run's law matters [s]: of its states, or of the passage in steady motion."""
     return np.sort(creep_times(results))
 
 

@@ -23,14 +23,7 @@ WITH_DATUM = ("approach", "work", "loss_per_cycle", "dissipation", "heat")
 
 
 def is_long(ds: Result) -> bool:
-    """Test for a contact that is at least three widths long along x when it is largest.
-
-    >>> import xarray as xr
-    >>> sizes = {"contact_area": [0.0, 5.0], "contact_length": [0.0, 6.0]}
-    >>> run = xr.Dataset({name: ("time", each) for name, each in sizes.items()})
-    >>> [is_long(run.assign(contact_width=("time", [0.0, width]))) for width in (1.0, 3.0)]
-    [True, False]
-    """
+    """Test for a contact that is at least three widths long along x when it is largest."""
     # One that continues through the only period of a grid has no end.
     largest = int(np.nan_to_num(ds["contact_area"].values).argmax())
     length, width = (float(ds[f"contact_{name}"][largest]) for name in ("length", "width"))
@@ -47,12 +40,7 @@ def is_shown(ds: Result, name: str) -> bool:
 
 
 def lacks_datum(ds: Result) -> bool:
-    """Test for a line contact, whose approach has no datum.
-
-    >>> import xarray as xr
-    >>> [lacks_datum(xr.Dataset({"approach": ("time", [one])})) for one in (np.nan, 1e-6)]
-    [True, False]
-    """
+    """Test for a line contact, whose approach has no datum."""
     approach = ds["approach"].values
     return bool(approach.size and np.isnan(approach).all())
 

@@ -67,14 +67,7 @@ class Snapshot:
         )
 
     def with_border(self, cells: int) -> Snapshot:
-        """The same fields with more cells at each border: next periods, or open cells.
-
-        >>> at = np.array([-1.5, -0.5, 0.5, 1.5])
-        >>> pressure = np.arange(16.0).reshape(4, 4)
-        >>> period = Snapshot(0.0, at, at, pressure, 0 * pressure, pressure != 0, periodic=True)
-        >>> period.with_border(1).pressure[0].tolist()  # the last row again
-        [15.0, 12.0, 13.0, 14.0, 15.0, 12.0]
-        """
+        """The same fields with more cells at each border: next periods, or open cells."""
         beyond = np.arange(1, cells + 1)[:, None] * self.cell_size
         x, y = (
             np.concatenate([at[0] - step[::-1], at, at[-1] + step])

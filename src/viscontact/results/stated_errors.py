@@ -31,13 +31,7 @@ _USUAL_STRAIN = 1e-3
 
 
 def stated_error(results: Result, name: str) -> Floats | None:
-    """Half widths of a scalar's error bars over time; None if not stated, NaN unknown, inf mesh.
-
-    >>> import xarray as xr
-    >>> run = xr.Dataset({"approach": ("time", [1e-5]), "approach_error": ("time", [1e-7])})
-    >>> stated_error(run, "approach"), stated_error(run, "force")
-    (array([1.e-07]), None)
-    """
+    """Half widths of a scalar's error bars over time; None if not stated, NaN unknown, inf mesh."""
     error = error_name(name)
     return np.asarray(results[error].values, dtype=np.float64) if error in results else None
 
@@ -49,13 +43,7 @@ def errors_of(ds: Result, name: str) -> Floats:
 
 
 def mesh_dependent(results: Result, name: str) -> Bools:
-    """Instants at which a scalar depends on the mesh, as booleans.
-
-    >>> import xarray as xr
-    >>> run = xr.Dataset({"force": ("time", [1.0, 2.0]), "force_error": ("time", [0.0, np.inf])})
-    >>> mesh_dependent(run, "force").tolist()
-    [False, True]
-    """
+    """Instants at which a scalar depends on the mesh, as booleans."""
     error = stated_error(results, name)
     return (
         np.zeros(results.sizes[run_axis(results).name], dtype=np.bool_)
@@ -65,13 +53,7 @@ def mesh_dependent(results: Result, name: str) -> Bools:
 
 
 def drawn_values(results: Result, name: str) -> Floats:
-    """Values of a scalar for a curve over time: NaN where it depends on the mesh.
-
-    >>> import xarray as xr
-    >>> peak = {"p": ("time", [0.0, 2.0, 3.0]), "p_error": ("time", [0.0, np.inf, 0.1])}
-    >>> drawn_values(xr.Dataset(peak), "p"), drawn_values(xr.Dataset(peak).isel(time=[0, 1]), "p")
-    (array([ 0., nan,  3.]), array([nan, nan]))
-    """
+    """Values of a scalar for a curve over time: NaN where it depends on the mesh."""
     # All are NaN if only zeros, as without contact, would remain.
     values = np.asarray(results[name].values, dtype=np.float64)
     marked = mesh_dependent(results, name)
@@ -96,13 +78,7 @@ class LargestError:
 
 
 def largest_error(ds: Result, name: str) -> LargestError | None:
-    """Return the largest error bar of a scalar.
-
-    >>> import xarray as xr
-    >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
-    >>> largest_error(xr.Dataset(force, {"time": [0.0, 1.0]}), "force")
-    LargestError(half_width=0.1, part=0.025, unknown=1, place=0.0)
-    """
+    """Return the largest error bar of a scalar."""
     error, values = stated_error(ds, name), np.asarray(ds[name].values, dtype=np.float64)
     given = ~np.isnan(values)
     if error is None or not given.any():

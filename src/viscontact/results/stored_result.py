@@ -39,15 +39,7 @@ class StoredVariable:
 
 
 class StoredResult:
-    """Result file, with the attributes of an xarray.Dataset that tables use.
-
-    >>> import tempfile, xarray
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     xarray.Dataset({"force": ("time", [1.0, 2.0])}).to_netcdf(Path(folder) / "result.nc")
-    ...     with stored_result(folder) as found:
-    ...         found.sizes, found["force"].values.tolist()
-    ({'time': 2}, [1.0, 2.0])
-    """
+    """Result file, with the attributes of an xarray.Dataset that tables use."""
 
     def __init__(self, file: Path) -> None:
         self._file = netCDF4.Dataset(file)

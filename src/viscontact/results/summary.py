@@ -35,11 +35,7 @@ _LEGEND = (
 
 
 def legend(ds: xr.Dataset) -> str:
-    """Legend of the columns.
-
-    >>> legend(xr.Dataset({"force": ("speed", [1.0])}))[:41]
-    '±: the error of each value at that speed '
-    """
+    """Legend of the columns."""
     return _LEGEND.format(row=run_axis(ds).row)
 
 

@@ -18,11 +18,7 @@ def run_dims(ds: xr.Dataset) -> tuple[Hashable, ...]:
 
 
 def over_of(ds: xr.Dataset) -> str:
-    """Quantity over which the runs of a sweep go, ``"time"`` or ``"speed"``.
-
-    >>> over_of(xr.Dataset({"speed": (("run", "step"), [[1.0]])}))
-    'speed'
-    """
+    """Quantity over which the runs of a sweep go, ``"time"`` or ``"speed"``."""
     return "speed" if "speed" in ds.variables else "time"
 
 
@@ -34,10 +30,6 @@ def varied_keys(ds: xr.Dataset) -> list[str]:
 
 
 def key_label(key: str) -> str:
-    """Key in words, for axes and headings of tables.
-
-    >>> key_label("material.delayed_modulus"), key_label("indenter[2].radius")
-    ('Material delayed modulus', 'Indenter 2 radius')
-    """
+    """Key in words, for axes and headings of tables."""
     words = " ".join(re.findall(r"[^\W_]+", key))
     return words[:1].upper() + words[1:]

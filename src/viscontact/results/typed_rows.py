@@ -12,12 +12,7 @@ _MOST_LISTED = 8
 
 
 def typed_rows(section: Any, owner: str = "") -> Iterator[tuple[str, str]]:
-    """Yield names, as those of `argument_rows`, and texts of the values of a nested section.
-
-    >>> crown = {"kind": "johns-gohar", "force": "500 N"}
-    >>> list(typed_rows({"half_length": "8 mm", "profile": crown}))
-    [('half length', '8 mm'), ('profile', 'johns-gohar'), ('profile force', '500 N')]
-    """
+    """Yield names, as those of `argument_rows`, and texts of the values of a nested section."""
     if isinstance(section, str):  # the name of a material in the library
         yield owner or "name", section
     elif isinstance(section, list):

@@ -236,11 +236,7 @@ REQUIRED = (
 
 
 def shown_in(place: Place, stored: Container[Hashable] | None = None) -> list[str]:
-    """Names of the scalars shown in a place, in its order; of those of a result, if given.
-
-    >>> shown_in(Place.LIVE), shown_in(Place.LIVE, {"approach"})
-    (['contact_area', 'approach', 'peak_pressure', 'friction_coefficient'], ['approach'])
-    """
+    """Names of the scalars shown in a place, in its order; of those of a result, if given."""
     names = [name for name, variable in SCALARS.items() if place & variable.places]
     in_table = place in Place.TABLE | Place.KEY
     names = names if in_table else sorted(names, key=lambda name: SCALARS[name].rank)
@@ -286,11 +282,7 @@ ERRORS = {
 
 
 def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
-    """Attributes of a scalar, with CF's pointer to its error if the result has errors.
-
-    >>> scalar_attributes("force", errors=True)["ancillary_variables"]
-    'force_error'
-    """
+    """Attributes of a scalar, with CF's pointer to its error if the result has errors."""
     attributes = SCALARS[name].attributes
     if errors and SCALARS[name].has_error:
         attributes["ancillary_variables"] = error_name(name)

@@ -51,11 +51,7 @@ class Verdict:
 
     @property
     def margin(self) -> float:
-        """Part of the limit left by value and error, (a - v - e) / a; NaN unknown, -inf mesh.
-
-        >>> Verdict("force", 10.0, "passed", 7.0, 1.0).margin
-        0.2
-        """
+        """Part of the limit left by value and error, (a - v - e) / a; NaN unknown, -inf mesh."""
         return (self.limit - self.value - self.error) / self.limit
 
     @property
@@ -86,20 +82,12 @@ def verdicts(ds: xr.Dataset) -> list[Verdict]:
 
 
 def limits_of(ds: xr.Dataset) -> dict[str, float]:
-    """Return the limits of the quantities in SI units, by name.
-
-    >>> limits_of(xr.Dataset(attrs={"allowable": '{"peak_pressure": {"limit": 65e6}}'}))
-    {'peak_pressure': 65000000.0}
-    """
+    """Return the limits of the quantities in SI units, by name."""
     return {name: float(each["limit"]) for name, each in _given(ds).items()}
 
 
 def stated_limits(ds: xr.Dataset) -> list[tuple[str, str]]:
-    """Return names of the limited quantities and the limits with their units.
-
-    >>> stated_limits(xr.Dataset(attrs={"allowable": '{"peak_pressure": {"limit": 65e6}}'}))
-    [('Peak pressure', '65 MPa')]
-    """
+    """Return names of the limited quantities and the limits with their units."""
     limits = (Verdict(name, each["limit"], "undecided") for name, each in _given(ds).items())
     return [(each.label, each.allowed) for each in limits]
 
@@ -134,11 +122,7 @@ def overall(found: Sequence[Verdict]) -> Outcome | None:
 
 
 def deciding(found: Sequence[Verdict]) -> str:
-    """Return the names of the quantities with the worst verdict; empty if all have passed.
-
-    >>> deciding([Verdict("force", 1.0, "passed"), Verdict("work", 1.0, "undecided")])
-    'work'
-    """
+    """Return the names of the quantities with the worst verdict; empty if all have passed."""
     worst = overall(found)
     names = [each.name for each in found if each.verdict == worst]
     return "" if worst == "passed" else ", ".join(names)

@@ -10,11 +10,7 @@ from viscontact.units.formatting import format_quantity
 def progress_made(
     done: int, reached: float | None, times: Sequence[float], adaptive: object
 ) -> str:
-    """Describe the progress of a run, with times in seconds.
-
-    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
-    '2 of 3 instants'
-    """
+    """Describe the progress of a run, with times in seconds."""
     if adaptive is None:
         return f"{done} of {len(times)} instants"
     if reached is None:

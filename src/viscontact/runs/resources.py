@@ -73,11 +73,6 @@ def needed_memory(
 
     `fields_kept` counts the stored fields of pressure, and as many of displacement: one for each
     exponential term of the contact compliance, or one for each step; `further` other arrays.
-
-    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
-    390
-    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), 2, mirrored=(True, True)) / 1e6)
-    284
     """
     # A body that is even across x = 0, or y = 0 (`mirrored`), needs less.
     share = 0.5 ** sum(mirrored)
@@ -94,24 +89,13 @@ def needed_memory(
 def least_memory(
     grid: Grid, compliance: ContactCompliance, mirrored: tuple[bool, bool] = (False, False)
 ) -> float:
-    """Lower bound of the memory of a run [bytes], known before it is set up.
-
-    >>> from viscontact.bodies.laws import Zener
-    >>> from viscontact.bodies.materials.material import Material
-    >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
-    >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber.contact_compliance()) / 1e6)
-    374
-    """
+    """Lower bound of the memory of a run [bytes], known before it is set up."""
     # The fields that other laws store depend on the steps, which are not known yet.
     terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
     return needed_memory(grid, terms, mirrored=mirrored)
 
 
 def fitting(needs: Iterable[float], available: float) -> int:
-    """Number of runs that fit into memory [bytes] in any choice; 0 if the largest does not.
-
-    >>> fitting([1e8, 2e8, 1.5e8], available=4e8)
-    2
-    """
+    """Number of runs that fit into memory [bytes] in any choice; 0 if the largest does not."""
     largest_first = sorted(needs, reverse=True)
     return sum(together <= available for together in accumulate(largest_first))

@@ -79,12 +79,7 @@ def fingerprint(case: Case) -> str:
 
 
 def refuse_repeated(**groups: Sequence[str]) -> None:
-    """Raise ValueError if a key is given twice, in one argument or in several.
-
-    >>> refuse_repeated(change=["load.force"], settings=["load.force"])
-    Traceback (most recent call last):
-    ValueError: load.force: is given twice, in change or settings; give it once
-    """
+    """Raise ValueError if a key is given twice, in one argument or in several."""
     *others, last = groups
     where = f", in {', '.join(others)} or {last}" if others else ""
     keys = [key for group in groups.values() for key in group]

@@ -26,13 +26,7 @@ BETWEEN = 0.95
 
 @dataclass(frozen=True)
 class Range:
-    """Range of a key: two numbers in one unit, and the scale on which points are even.
-
-    >>> Range("load.force", 1.0, 100.0, "kN", logarithmic=True).value(0.5)
-    '10 kN'
-    >>> Range("indenter.crown_radius", 20.0, 2000.0, "mm", logarithmic=True, digits=5).value(0.4)
-    '126.19 mm'
-    """
+    """Range of a key: two numbers in one unit, and the scale on which points are even."""
 
     key: str
     low: float
@@ -55,11 +49,7 @@ class Range:
 
 @dataclass(frozen=True)
 class Choice:
-    """Named values of a key, or single quantities, in place of a range.
-
-    >>> Choice("material", ("pmma-paper", "epdm-70-25c")).value(0.5)
-    'epdm-70-25c'
-    """
+    """Named values of a key, or single quantities, in place of a range."""
 
     key: str
     values: tuple[str, ...]
@@ -71,14 +61,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Scatter:
-    """Values of a key that scatter: uniform between two bounds, also of the logarithm, or normal.
-
-    >>> middle = Scatter(Range("load.force", 1.0, 4.0, "kN"), "uniform")
-    >>> middle.value(0.5), replace(middle, shape="log").value(0.5)
-    ('2.5 kN', '2 kN')
-    >>> replace(middle, shape="normal").value(0.025)  # 95 % lie between the bounds
-    '1 kN'
-    """
+    """Scatter of a key: uniform between two bounds, also of the logarithm, or normal."""
 
     bounds: Range
     shape: Scale
@@ -105,12 +88,7 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Space:
-    """Space of some ranges and choices; a point has a coordinate from 0 to 1 for each of them.
-
-    >>> space = Space((Range("indenter.radius", 1.0, 4.0, "mm", logarithmic=True),))
-    >>> space.settings([0.5])
-    {'indenter.radius': '2 mm'}
-    """
+    """Space of some ranges and choices; a point has a coordinate from 0 to 1 for each of them."""
 
     parameters: tuple[Range | Choice, ...]
 
@@ -157,11 +135,7 @@ def given_range(argument: str, key: str, given: Any) -> Range:
 
 
 def given_scatter(argument: str, key: str, given: Any, *, is_sampled: bool) -> Scatter:
-    """Scatter of two bounds, or of a number with its tolerance; ValueError names the argument.
-
-    >>> str(given_scatter("scatter", "indenter.radius", "12 mm ± 0.02 mm", is_sampled=False))
-    '11.98 mm to 12.02 mm'
-    """
+    """Scatter of two bounds, or of a number with its tolerance; ValueError names the argument."""
     shapes = ("log", "normal") if is_sampled else ()
     return Scatter(*_given(argument, key, given, shapes, takes_tolerance=True))
 

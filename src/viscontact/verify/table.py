@@ -23,12 +23,7 @@ SUFFIXES = (".md", ".csv")
 
 
 def row_of_words(result: Result) -> tuple[str, ...]:
-    """Result as formatted cells, one for each of `HEADINGS`, in a readable unit.
-
-    >>> result = Result("cone", "Love 1939", "approach", "m", 2e-5, 2.001e-5, 5e-4, 1e-3, 1.98, 0.1)
-    >>> row_of_words(result)[3:]
-    ('20.0000 µm', '20.0100', '5.0e-04', '1e-03', '2.0', 'ok')
-    """
+    """Result as formatted cells, one for each of `HEADINGS`, in a readable unit."""
     unit = readable_unit(result.unit, result.exact)
     exact, ours = (format_number(value / unit.factor, 6) for value in (result.exact, result.ours))
     return (
@@ -45,13 +40,7 @@ def row_of_words(result: Result) -> tuple[str, ...]:
 
 
 def as_markdown(results: Sequence[Result]) -> str:
-    """Markdown table; case and reference are given in the first row of a case only.
-
-    >>> radius = Result("cone", "Love 1939", "radius", "m", 2e-4, 2e-4, 0.0, 1e-3, 1.4, 0.1)
-    >>> approach = Result("cone", "Love 1939", "approach", "m", 2e-5, 2e-5, 0.0, 1e-3, 1.4, 0.1)
-    >>> [line[:27] for line in as_markdown([radius, approach]).splitlines()[2:]]
-    ['| cone | Love 1939 | radius', '|  |  | approach | 20.0000 ']
-    """
+    """Markdown table; case and reference are given in the first row of a case only."""
     rows = [row_of_words(result) for result in results]
     shown = [
         row if row[:2] != before[:2] else ("", "", *row[2:])

@@ -134,11 +134,7 @@ class FitArguments:
 
 
 def read_weight(text: str) -> tuple[str, float]:
-    """Return the column and the weight given behind ``--weight``.
-
-    >>> read_weight("storage=2")
-    ('storage', 2.0)
-    """
+    """Return the column and the weight given behind ``--weight``."""
     name, _, value = text.partition("=")
     try:
         return name.strip(), float(value)
@@ -147,20 +143,12 @@ def read_weight(text: str) -> tuple[str, float]:
 
 
 def read_stress(text: str | None) -> float | None:
-    """Return the stress given behind ``--stress`` [Pa], None where it is not.
-
-    >>> read_stress("5 MPa")
-    5000000.0
-    """
+    """Return the stress given behind ``--stress`` [Pa], None where it is not."""
     return None if text is None else _read_option("--stress", text, "pressure")
 
 
 def read_kelvin(option: str, text: str) -> float:
-    """Return the temperature given behind an option [K].
-
-    >>> read_kelvin("--reference", "20 degC")
-    293.15
-    """
+    """Return the temperature given behind an option [K]."""
     return _read_option(option, text, "temperature")
 
 
@@ -172,11 +160,7 @@ def _read_option(option: str, text: str, dimension: str) -> float:
 
 
 def read_indenter(text: str) -> Indenter:
-    """Return the indenter given behind ``--indenter``.
-
-    >>> read_indenter("sphere 5 mm")
-    Sphere(radius=0.005)
-    """
+    """Return the indenter given behind ``--indenter``."""
     shape, _, size = text.strip().partition(" ")
     try:
         if shape == "sphere":

@@ -27,11 +27,7 @@ OPTIONS = {
 
 
 def as_typed(message: str) -> str:
-    """Message about an argument of a study, with the option that was typed.
-
-    >>> as_typed("constraints: write SCALAR<=VALUE"), as_typed("runs must be above zero")
-    ('--constraint: write SCALAR<=VALUE', '--runs must be above zero')
-    """
+    """Message about an argument of a study, with the option that was typed."""
     name = re.match(r"\w+(?=: | must)", message)
     option = OPTIONS.get(name.group() if name else "")
     return message if name is None or option is None else option + message[name.end() :]

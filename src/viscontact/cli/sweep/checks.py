@@ -210,11 +210,7 @@ def _attributed(line: str, concerned: Sequence[PlannedRun], common: set[str]) ->
 
 
 def _listed(noun: str, names: Sequence[str], separator: str = ", ") -> str:
-    """Some of the names, behind their noun.
-
-    >>> _listed("line", ["2", "5"])
-    'lines 2, 5'
-    """
+    """Some of the names, behind their noun."""
     more = len(names) - _MOST_PLACES
     shown = separator.join(dict.fromkeys(names[:_MOST_PLACES]))
     plural = f"{noun}{'s' if len(names) > 1 else ''} " if noun else ""

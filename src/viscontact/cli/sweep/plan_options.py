@@ -79,12 +79,7 @@ class PlanOptions:
             yield from ("--method", self.method)
 
     def as_typed(self, line: str, keys: Sequence[str]) -> str:
-        """Name the option or table in a message about a value of some varied keys.
-
-        >>> options = PlanOptions(varied=("load.force=2,3",))
-        >>> options.as_typed("--set load.force: cannot read '2'", ["load.force"])
-        "--vary load.force: cannot read '2'"
-        """
+        """Name the option or table in a message about a value of some varied keys."""
         option, blank, rest = line.partition(" ")
         named = re.split(r"[:=\s]", rest, maxsplit=1)[0]
         if option != "--set" or not any(share_a_branch(named, key) for key in keys):
@@ -176,11 +171,7 @@ def _refuse_repeated(option: str, keys: Sequence[str], once: str) -> None:
 
 
 def share_a_branch(one: str, other: str) -> bool:
-    """Test whether two keys are the same, or one is a part of the other.
-
-    >>> share_a_branch("load", "load.force"), share_a_branch("load.kind", "load.force")
-    (True, False)
-    """
+    """Test whether two keys are the same, or one is a part of the other."""
     steps = zip(re.split(r"[.\[]", one), re.split(r"[.\[]", other), strict=False)
     return all(a == b for a, b in steps)
 
@@ -194,11 +185,7 @@ def _axis(text: str) -> tuple[str, list[str]]:
 
 
 def split_values(text: str) -> list[str]:
-    """Split at commas outside brackets and quotes.
-
-    >>> split_values("[1 mm, 2 mm], 3 mm")
-    ['[1 mm, 2 mm]', '3 mm']
-    """
+    """Split at commas outside brackets and quotes."""
     pieces, depth, quote = [""], 0, ""
     for letter in text:
         if quote:

@@ -57,12 +57,7 @@ class ManyRequest:
 
     @property
     def resuming(self) -> str:
-        """Command that resumes all of them, quoted for a shell.
-
-        >>> common = RunRequest(Path("a.yaml"), output=Path("all"))
-        >>> ManyRequest((Path("a.yaml"), Path("b.yaml")), common, jobs=2).resuming
-        'viscontact run a.yaml b.yaml -o all -j 2 --resume'
-        """
+        """Command that resumes all of them, quoted for a shell."""
         return command(*self._words(), "--resume")
 
     def _words(self) -> Iterator[str]:

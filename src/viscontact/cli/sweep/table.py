@@ -158,10 +158,6 @@ def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str
 
 
 def first_names(names: Sequence[str], most: int) -> str:
-    """List the first of some names, and the number of the others.
-
-    >>> first_names(["a", "b", "c"], 2)
-    'a, b and 1 more'
-    """
+    """List the first of some names, and the number of the others."""
     more = len(names) - most
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

@@ -29,12 +29,7 @@ def along_run(
     units: Units = readable_unit,
     drawn: Iterable[Floats] | None = None,
 ) -> Axis:
-    """Axis of time or speed, log where it suits all runs; `drawn`: shown places [s] or [m/s].
-
-    >>> ramp = {name: ("time", np.arange(5.0)) for name in ("force", "approach")}
-    >>> along_run([xr.Dataset(ramp, {"time": [0.0, 1.0, 2.0, 4.0, 1000.0]})]).scale
-    'linear'
-    """
+    """Axis of time or speed, log where it suits all runs; `drawn`: shown places [s] or [m/s]."""
     runs = list(runs)
     over = run_axis(runs[0])
     shown = [over.values(run) for run in runs] if drawn is None else list(drawn)
@@ -60,12 +55,7 @@ def along_run(
 def within_span(
     run: xr.Dataset, variables: Iterable[str], times: ArrayLike | None, figure: str, name: str
 ) -> xr.Dataset:
-    """Cut variables and errors to a span [s], or the whole; ValueError below two instants.
-
-    >>> run = xr.Dataset({"force": ("time", [0.0, 1.0, 2.0])}, coords={"time": [0.0, 1.0, 2.0]})
-    >>> within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()
-    [0.0, 1.0]
-    """
+    """Cut variables and errors to a span [s], or the whole; ValueError below two instants."""
     require_time(run, figure)
     span = run["time"].values if times is None else np.atleast_1d(np.asarray(times, dtype=float))
     if span.size == 0 or not np.all(np.isfinite(span)):
@@ -84,13 +74,7 @@ def within_span(
 
 
 def suits_log_time(run: xr.Dataset) -> bool:
-    """True for a run with steps over decades whose load is held nearly from the start.
-
-    >>> times = [0.0, 1.0, 2.0, 4.0, 1000.0]
-    >>> held = xr.Dataset({name: ("time", [1.0] * 5) for name in ("force", "approach")})
-    >>> suits_log_time(held.assign_coords(time=times))
-    True
-    """
+    """True for a run with steps over decades whose load is held nearly from the start."""
     return steps_grow(run["time"].values) and _held_from(run)
 
 

@@ -28,11 +28,7 @@ BLUE, ORANGE = "#2f80c3", "#d9661f"
 
 
 def shades(scale: str, count: int, begin: float = 0.0, end: float = 1.0) -> list[str]:
-    """Colours at equal steps between two places on a scale, from 0 to 1.
-
-    >>> shades("000000 ffffff", 3), shades(PRESSURE, 1)
-    (['#000000', '#808080', '#ffffff'], ['#ffffd9'])
-    """
+    """Colours at equal steps between two places on a scale, from 0 to 1."""
     given = np.array([[*bytes.fromhex(each)] for each in scale.split()])
     at = np.linspace(begin, end, count) * (len(given) - 1)
     mixed = np.rint([np.interp(at, np.arange(len(given)), part) for part in given.T]).astype(int)

@@ -14,13 +14,7 @@ from viscontact.results.variables import MESH_DEPENDENT
 
 
 def peak_note(runs: Iterable[xr.Dataset], times: ArrayLike | None = None) -> str:
-    """Note on peak pressures that depend on the mesh at the drawn instants [s]; empty if none does.
-
-    >>> peak = ("time", [np.inf, 1.0])
-    >>> run = xr.Dataset({"peak_pressure_error": peak}, coords={"time": [0.0, 1.0]})
-    >>> peak_note([run]), peak_note([run], [0.9])
-    ('peak depends on the mesh', '')
-    """
+    """Note on peaks that depend on the mesh at the drawn instants [s]; empty if none does."""
     for run in runs:
         shown = run_axis(run).values(run) if times is None else np.atleast_1d(np.asarray(times))
         if any(depends_on_mesh(run, shown)):

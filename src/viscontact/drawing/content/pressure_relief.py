@@ -94,14 +94,7 @@ def _cells_in_one(snapshot: Snapshot) -> tuple[int, int]:
 
 
 def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
-    """Snapshot of blocks of cells, with the largest pressure and the least gap of each.
-
-    >>> at = np.arange(5.0)
-    >>> pressure = np.arange(25.0).reshape(5, 5)
-    >>> thin = thinned(Snapshot(0.0, at, at, pressure, 0 * pressure, pressure != 0), (2, 1))
-    >>> thin.x.tolist(), thin.pressure[0].tolist()
-    ([0.5, 2.5], [5.0, 6.0, 7.0, 8.0, 9.0])
-    """
+    """Snapshot of blocks of cells, with the largest pressure and the least gap of each."""
     if count == (1, 1):
         return snapshot
     (i, j), (nx, ny) = count, (n // c for n, c in zip(snapshot.pressure.shape, count, strict=True))

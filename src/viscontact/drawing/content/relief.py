@@ -18,13 +18,7 @@ class Relief:
 
 
 def relief(x: Floats, y: Floats, height: Floats, values: Floats, shown: Bools) -> Relief:
-    """Quadrilaterals between the shown points of a mesh, shape (nx, ny), coloured by mean values.
-
-    >>> x, y = np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0], indexing="ij")
-    >>> there = np.array([[True, True], [True, True], [True, False]])
-    >>> relief(x, y, x + y, x + y, there).values.tolist()
-    [1.0]
-    """
+    """Quadrilaterals between the shown points of a mesh (nx, ny), coloured by mean values."""
     points = np.stack([x, y, height, values], axis=-1)
     around = (points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:])
     whole = shown[:-1, :-1] & shown[1:, :-1] & shown[1:, 1:] & shown[:-1, 1:]

@@ -36,11 +36,7 @@ class Scale:
         return self.unit.label(self.quantity)
 
     def colours(self, count: int, begin: float = 0.0, end: float = 1.0) -> list[str]:
-        """Colours from the lower to the upper limit, or of parts of those if none is negative.
-
-        >>> pressure_scale(0.0, 1e6).colours(2), pressure_scale(-1e6, 1e6).colours(3)[1]
-        (['#ffffd9', '#081d58'], '#f7f7f7')
-        """
+        """Colours from the lower to the upper limit, or of parts of those if none is negative."""
         if not self.diverges:
             return shades(PRESSURE, count, begin, end)
         low, high = self.limits
@@ -56,15 +52,7 @@ def pressure_scale(
     most: int = 10,
     units: Units = readable_unit,
 ) -> Scale:
-    """Scale of a pressure or a stress from the least to the largest [Pa], with 0.
-
-    >>> scale = pressure_scale(0.0, 152e6)
-    >>> scale.unit(scale.levels).tolist(), scale.label
-    ([0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0], 'Pressure [MPa]')
-    >>> signed = pressure_scale(-30e3, 90e3)
-    >>> signed.unit(signed.levels)[:4].tolist(), signed.diverges
-    ([-40.0, -20.0, 0.0, 20.0], True)
-    """
+    """Scale of a pressure or a stress from the least to the largest [Pa], with 0."""
     low, unit = min(low, 0.0), units("Pa", low, high)
     # `ordinary` is the largest pressure that does not depend on the mesh [Pa], if others do: levels
     # up to the peak would concentrate at the edge.
@@ -81,10 +69,6 @@ def round_levels(low: float, high: float, most: int) -> Floats:
 
 
 def round_step(least: float) -> float:
-    """Smallest round number that is not below another one.
-
-    >>> round_step(0.021), round_step(7.0)
-    (0.025, 10.0)
-    """
+    """Smallest round number that is not below another one."""
     decade = 10.0 ** math.floor(math.log10(least))
     return next(step * decade for step in _STEPS if step * decade >= least * (1 - 1e-9))

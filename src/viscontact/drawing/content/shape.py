@@ -75,23 +75,14 @@ def shape_of(
 
 
 def stretch_note(what: str, stretch: float) -> str:
-    """Note on the scale of heights or of y over that of lengths.
-
-    >>> stretch_note("heights", 123.4), stretch_note("y", 1.04)
-    ('heights 100×', 'true shape')
-    """
+    """Note on the scale of heights or of y over that of lengths."""
     if abs(math.log(stretch)) < math.log(1 + _TRUE):
         return "true shape"
     return f"{what} {format_compact(stretch, 1 if stretch > 100 else 2)}×"
 
 
 def natural_size(indenter: Indenter) -> tuple[float, float]:
-    """Extents along x and y, around the origin, over which a body is drawn by default [m].
-
-    >>> from viscontact.bodies.indenters import Sphere
-    >>> [round(extent, 3) for extent in natural_size(Sphere(radius=1.0))]
-    [0.968, 0.968]
-    """
+    """Extents along x and y, around the origin, over which a body is drawn by default [m]."""
     found = [_reach(indenter, axis) for axis in (0, 1)]
     own = 0.5 * _PERIODS * indenter.period
     known = [reach for reach in found if math.isfinite(reach)]

@@ -63,11 +63,7 @@ def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAP
 def window_over(
     boxes: Sequence[Box], borders: Box | None = None, *, slender: float = _PANEL_SHAPE
 ) -> Window:
-    """Window around boxes (x_min, x_max, y_min, y_max) [m], with a margin, within the borders [m].
-
-    >>> window_over([(-1.0, 1.0, -0.5, 0.5), (-2.0, 0.0, -0.5, 0.5)]).x
-    (-2.21, 1.21)
-    """
+    """Window around boxes (x_min, x_max, y_min, y_max), with a margin, within the borders [m]."""
     lows = min(box[0] for box in boxes), min(box[2] for box in boxes)
     highs = max(box[1] for box in boxes), max(box[3] for box in boxes)
     x, y = (_widened(low, high) for low, high in zip(lows, highs, strict=True))

@@ -59,13 +59,7 @@ def as_html(overviews: Iterable[Overview]) -> str:
 
 
 def as_text(overviews: Iterable[Overview]) -> str:
-    """Write the tables of overviews for a terminal.
-
-    >>> print(as_text([Overview("Roller", [("radius", "5 mm"), ("half length", "9 mm")])]))
-    Roller
-      radius       5 mm
-      half length  9 mm
-    """
+    """Write the tables of overviews for a terminal."""
     return "\n\n".join(each.text() for each in overviews)
 
 

@@ -25,20 +25,7 @@ _POINTS = 240
 
 
 def surface_overview(surface: Surface) -> Overview:
-    """Make the overview of a measured surface.
-
-    >>> print(surface_overview(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
-    Surface: mine.npz
-      points          2 × 2
-      size            20 µm × 20 µm
-      spacing         10 µm × 10 µm
-      Sa              500 nm
-      Sq, rms height  707.1 nm
-      height range    2 µm
-      rms slope       0.1732
-      skewness        0
-      Sdr             1.5 %
-    """
+    """Make the overview of a measured surface."""
     rows = [
         ("points", " × ".join(map(str, surface.shape))),
         ("size", " × ".join(format_quantity(extent, "m") for extent in surface.size)),

@@ -69,9 +69,5 @@ def replacing(path: Path, check: LockCheck = never_lost) -> Iterator[BinaryIO]:
 
 
 def fresh_name(path: Path) -> Path:
-    """Return the name of a new file until it replaces another one.
-
-    >>> fresh_name(Path("state.npz")).name
-    '.state.npz.new'
-    """
+    """Return the name of a new file until it replaces another one."""
     return path.with_name(f".{path.name}.new")

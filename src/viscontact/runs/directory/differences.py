@@ -18,11 +18,7 @@ NOTHING = _Nothing()
 
 
 class Difference(NamedTuple):
-    """A place where two descriptions differ.
-
-    >>> str(Difference("load.force", "10 kN", "20 kN"))
-    'load.force: was 10 kN, is now 20 kN'
-    """
+    """A place where two descriptions differ."""
 
     where: str  # path of keys
     before: Any  # `NOTHING` where there is no value
@@ -33,12 +29,7 @@ class Difference(NamedTuple):
 
 
 def differences(before: Any, now: Any, where: str = "") -> tuple[Difference, ...]:
-    """Compare dicts, lists, texts and numbers below a path of keys.
-
-    >>> [found] = differences({"load": {"force": [0.0, 4.0]}}, {"load": {"force": [0.0, 5.0]}})
-    >>> str(found)
-    'load.force[2]: was 4.0, is now 5.0'
-    """
+    """Compare dicts, lists, texts and numbers below a path of keys."""
     if isinstance(before, dict) and isinstance(now, dict):
         keys = [*before, *(key for key in now if key not in before)]
         inner = [(f"{where}.{key}".removeprefix("."), key) for key in keys]

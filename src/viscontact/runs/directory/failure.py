@@ -12,14 +12,7 @@ from viscontact.runs.directory.atomic_files import replacing
 
 
 def write_failure(directory: Path, outcome: str, code: int, message: Sequence[str]) -> None:
-    r"""Write how a run has failed, where the disk allows it and the directory above exists.
-
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write_failure(Path(folder), "stopped", 1, ["contact at the edge"])
-    ...     (Path(folder) / FAILURE_NAME).read_text(encoding="utf-8")
-    '{"outcome": "stopped", "code": 1, "message": ["contact at the edge"]}\n'
-    """
+    """Write how a run has failed, where the disk allows it and the directory above exists."""
     entry = {"outcome": outcome, "code": code, "message": list(message)}
     text = json.dumps(entry, ensure_ascii=False) + "\n"
     with suppress(OSError):

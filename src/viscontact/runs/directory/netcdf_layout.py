@@ -110,12 +110,7 @@ class Contents:
         return frozenset(self.fields.among(self.rows, self.over).tolist())
 
     def layout(self, grid: Grid) -> Layout:
-        """Return the layout of the result's file for some grid of the fields.
-
-        >>> grid = Grid((4, 4), (1.0, 1.0))
-        >>> Contents(grid, np.array([0.0, 1.0]), KeptFields([1.0])).layout(grid).axis
-        'field_time'
-        """
+        """Return the layout of the result's file for some grid of the fields."""
         axis = self.fields.axis(self.over) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
         return Layout(grid, axis, self.errors, kind, self.moving, self.over)

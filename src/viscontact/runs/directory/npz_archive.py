@@ -63,14 +63,7 @@ def read_plain(file: BinaryIO) -> RestartData:
 
 
 def outline_of(file: BinaryIO) -> Any:
-    """Read the outline of `write_plain`, without the arrays; ValueError if there is none.
-
-    >>> import io
-    >>> file = io.BytesIO()
-    >>> write_plain(file, {"work": 1.5})
-    >>> outline_of(file)
-    {'work': 1.5}
-    """
+    """Read the outline of `write_plain`, without the arrays; ValueError if there is none."""
     try:
         with zipfile.ZipFile(file) as archive:
             # Behind the header, which is one line.

@@ -29,11 +29,7 @@ class RunRequest:
 
     @property
     def resuming(self) -> str:
-        """Shell command that resumes the run.
-
-        >>> RunRequest(Path("my case.yaml"), settings=("load.force=20 kN",)).resuming
-        "viscontact run 'my case.yaml' --set 'load.force=20 kN' --resume"
-        """
+        """Shell command that resumes the run."""
         return command(*replace(self, resume=False, overwrite=False).words(), "--resume")
 
     @property

@@ -152,11 +152,7 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
 
 
 def unknown_bars(history: History) -> ErrorBars:
-    """Errors of the scalars of a history that are not known.
-
-    >>> unknown_bars({"time": np.zeros(2), "force": np.ones(2)}).values
-    {'force': array([nan, nan])}
-    """
+    """Errors of the scalars of a history that are not known."""
     names = [name for name in scalars_with_error() if name in history]
     return ErrorBars({name: np.full(len(history["time"]), np.nan) for name in names}, ())
 

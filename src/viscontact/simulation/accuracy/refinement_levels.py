@@ -131,20 +131,12 @@ def _windows(values: Numbers, reach: int) -> Floats:
 
 
 def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
-    """Maximum over a window of `reach` times on both sides; NaN where all are NaN.
-
-    >>> moving_maximum(np.array([1.0, np.nan, 5.0, 2.0, 0.0]), reach=1)
-    array([1., 5., 5., 5., 2.])
-    """
+    """Maximum over a window of `reach` times on both sides; NaN where all are NaN."""
     return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
 
 
 def between_known(values: Floats) -> Floats:
-    """Larger one of the nearest known values on both sides; NaN where one of them is unknown.
-
-    >>> between_known(np.array([1.0, np.nan, 5.0, 2.0, np.nan]))
-    array([ 1.,  5.,  5.,  2., nan])
-    """
+    """Larger one of the nearest known values on both sides; NaN where one of them is unknown."""
     places = np.arange(len(values))
     known = ~np.isnan(values)
     before = np.maximum.accumulate(np.where(known, places, 0))
@@ -153,20 +145,12 @@ def between_known(values: Floats) -> Floats:
 
 
 def moving_minimum(values: Numbers) -> Floats:
-    """Minimum over a window of times; NaN where all are NaN.
-
-    >>> moving_minimum(np.array([1.0, np.nan, 5.0]))
-    array([1., 1., 1.])
-    """
+    """Minimum over a window of times; NaN where all are NaN."""
     return np.asarray(np.fmin.reduce(_windows(values, WINDOW_STEPS), axis=1))
 
 
 def moving_mean(values: Floats) -> Floats:
-    """Mean over a window of times without NaN; NaN where all are NaN.
-
-    >>> moving_mean(np.array([1.0, np.nan, 5.0]))
-    array([3., 3., 3.])
-    """
+    """Mean over a window of times without NaN; NaN where all are NaN."""
     windows = _windows(values, WINDOW_STEPS)
     known = np.isfinite(windows)
     count = known.sum(axis=1)

@@ -157,10 +157,6 @@ def _next(box: Region, region: Region, touched: Bools, across: Integers) -> Regi
 
 
 def _divisible(cells: float) -> int:
-    """Number of cells, at least these, that stays even when halved down to the coarsest grid.
-
-    >>> _divisible(79.0), _divisible(130.5)
-    (80, 136)
-    """
+    """Number of cells, at least these, that stays even when halved down to the coarsest grid."""
     factor: int = 2 ** (1 + int(np.log2(max(cells / COARSEST, 1))))
     return int(np.ceil(cells / factor)) * factor

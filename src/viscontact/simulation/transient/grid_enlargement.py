@@ -52,16 +52,7 @@ def _longer(cells: int, size: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class GridEnlargement:
-    """Map of pressures and their unit displacements from a domain to a larger one.
-
-    >>> small = ContactDomain(Grid((4, 4), (1.0, 1.0)))
-    >>> large = ContactDomain(small.grid.widened((8, 8)))
-    >>> pressure = np.ones((4, 4))
-    >>> pair = np.stack([pressure, small.convolution.apply(pressure)])
-    >>> grown = GridEnlargement(small, large).pairs(pair)
-    >>> bool(np.allclose(grown[1, 2:6, 2:6], pair[1], rtol=1e-14))
-    True
-    """
+    """Map of pressures and their unit displacements from a domain to a larger one."""
 
     small: ContactDomain
     large: ContactDomain

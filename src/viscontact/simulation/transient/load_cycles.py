@@ -11,15 +11,7 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 
 
 class LoadCycleWork:
-    """Work of the load over its last whole cycle, from the cycles (begin, end) in order.
-
-    >>> cycles = LoadCycleWork([((0.0, "left"), (2.0, "right"))])
-    >>> cycles.last_loss
-    nan
-    >>> cycles.record_work(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
-    >>> cycles.last_loss
-    3.0
-    """
+    """Work of the load over its last whole cycle, from the cycles (begin, end) in order."""
 
     def __init__(self, cycles: Sequence[Cycle]) -> None:
         self._cycles = list(cycles)

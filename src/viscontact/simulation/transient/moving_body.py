@@ -16,13 +16,7 @@ from viscontact.bodies.loads.motion import Motion
 
 @dataclass(frozen=True)
 class PeriodicBody(Indenter):
-    """A body that repeats itself along the periodic axes of a grid.
-
-    >>> from viscontact.bodies.indenters import Paraboloid
-    >>> period = Grid((4, 4), (2.0, 2.0), periodic=True)
-    >>> PeriodicBody(Paraboloid(0.5, 0.5), period).gap([-0.5, 1.5], 0.0).tolist()
-    [0.25, 0.25]
-    """
+    """A body that repeats itself along the periodic axes of a grid."""
 
     body: Indenter
     grid: Grid
@@ -55,13 +49,7 @@ def _wrapped(positions: ArrayLike, middle: float, period: float) -> Floats:
 
 
 def cells_seen(grid: Grid, motion: Motion) -> tuple[Floats, Floats]:
-    """Positions in the body's frame that cells of the grid have during a motion, along x and y [m].
-
-    >>> from viscontact.bodies.loads import Travel
-    >>> path = Travel([0.0, 1.0], y=[0.0, 0.5])
-    >>> cells_seen(Grid((4, 4), (1.0, 1.0)), path)[1].tolist()
-    [-0.875, -0.625, -0.375, -0.125, 0.125, 0.375]
-    """
+    """Positions of cells of the grid in the body's frame during a motion, along x and y [m]."""
     along_x, along_y = (
         centres - low
         if low == high

@@ -41,11 +41,7 @@ class ProgressBar:
 
 
 def reported(progress: _Report | bool | None, bar: ProgressBar) -> _Report | ProgressBar | None:
-    """Return what the progress of a run is given to: the function, the bar for True, or None.
-
-    >>> reported(False, ProgressBar("step")) is None
-    True
-    """
+    """Return what the progress of a run is given to: the function, the bar for True, or None."""
     if progress is None or progress is False:
         return None
     if progress is True:

@@ -24,12 +24,7 @@ _MIDDLE = 0.5
 
 @dataclass(frozen=True)
 class Unknown:
-    """Unknown value: its range, and the part of the range, 0 to 1, where the search begins.
-
-    >>> modulus = Unknown(Range("material.shear_modulus", 1.0, 100.0, "MPa", logarithmic=True), 0.5)
-    >>> modulus.text(0.5), modulus.si(0.5)
-    ('10 MPa', 10000000.0)
-    """
+    """Unknown value: its range, and the part of the range, 0 to 1, where the search begins."""
 
     bounds: Range
     start: float

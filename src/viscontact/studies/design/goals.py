@@ -73,11 +73,7 @@ class Constraint:
         return magnitude(results, self.scalar, "worst", largest=self.upper)
 
     def violation(self, value: float) -> float:
-        """Excess over the bound, relative to it; below zero if the bound is kept.
-
-        >>> Constraint("force", True, 10.0).violation(12.0)
-        0.2
-        """
+        """Excess over the bound, relative to it; below zero if the bound is kept."""
         scale = abs(self.bound) or 1.0
         excess = (value - self.bound) / scale
         return math.inf if math.isnan(value) else excess if self.upper else -excess
@@ -137,11 +133,7 @@ def _names(given: Names) -> list[str]:
 
 
 def constraints_of(texts: Sequence[str]) -> tuple[Constraint, ...]:
-    """Read constraints, as ``contact_length<=18mm``; ValueError names the fault.
-
-    >>> str(constraints_of(["contact_length<=18mm"])[0])
-    'contact_length <= 18 mm'
-    """
+    """Read constraints, as ``contact_length<=18mm``; ValueError names the fault."""
     if isinstance(texts, str):
         raise ValueError(f"constraints: must be a list, as [{texts!r}]")
     found = tuple(map(_constraint, texts))

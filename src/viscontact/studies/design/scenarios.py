@@ -18,11 +18,7 @@ MOST_SCATTERED = 3
 
 @dataclass(frozen=True)
 class Deviation:
-    """Deviation of a parameter from the value that is tried.
-
-    >>> Deviation("-0.5 mm", "").added_to("12 mm")
-    '0.0115 m'
-    """
+    """Deviation of a parameter from the value that is tried."""
 
     text: str
     own: str  # value of the case, for the trial without others
@@ -43,12 +39,7 @@ class Scenario:
     deviations: Mapping[str, Deviation] = field(default_factory=dict)
 
     def settings(self, trial: Mapping[str, str]) -> dict[str, str]:
-        """Values of the run of a trial.
-
-        >>> wide = Scenario("wide", {"load.force": "1 N"}, {"load.x": Deviation("2 mm", "5 mm")})
-        >>> wide.settings({"load.x": "3 mm"})
-        {'load.force': '1 N', 'load.x': '0.005 m'}
-        """
+        """Values of the run of a trial."""
         changed = {key: each.added_to(trial.get(key, "")) for key, each in self.deviations.items()}
         return {**self.values, **trial, **changed}
 

@@ -18,11 +18,7 @@ _PARTS = 4
 
 
 def compromises(count: int) -> list[tuple[float, ...]]:
-    """Weights of the goals in the compromises, all above zero; equal ones are the last.
-
-    >>> compromises(2)
-    [(0.25, 0.75), (0.75, 0.25), (0.5, 0.5)]
-    """
+    """Weights of the goals in the compromises, all above zero; equal ones are the last."""
     equal = (1 / count,) * count
     lattice = (row for row in product(range(1, _PARTS), repeat=count) if sum(row) == _PARTS)
     found = [tuple(each / _PARTS for each in row) for row in lattice]

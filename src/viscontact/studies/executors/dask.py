@@ -34,10 +34,6 @@ def dask_executor(client: Any) -> Callable[[float], Executor]:
 
 
 def _rounded_up(memory: float) -> float:
-    """Memory with two digits, so that few executors are made.
-
-    >>> _rounded_up(2.213e8)
-    230000000.0
-    """
+    """Memory with two digits, so that few executors are made."""
     step = 10.0 ** (math.floor(math.log10(memory)) - 1)
     return math.ceil(memory / step) * step

@@ -84,11 +84,7 @@ class OutputScalars:
 
 
 def checked_outputs(of: Sequence[str] | str) -> tuple[str, ...]:
-    """Return the names of scalars with an error bar; ValueError for any other.
-
-    >>> checked_outputs("peak_pressure, approach")
-    ('peak_pressure', 'approach')
-    """
+    """Return the names of scalars with an error bar; ValueError for any other."""
     texts = of.split(",") if isinstance(of, str) else list(of)
     found = tuple(dict.fromkeys(str(each).strip() for each in texts if str(each).strip()))
     if not found:

@@ -74,13 +74,7 @@ def _grid_axes(columns: dict[str, list[str]]) -> dict[str, list[str]]:
 
 
 def coordinate(key: str, dim: str, texts: Sequence[str]) -> xr.Variable:
-    """Coordinate of a key: numbers in SI with their unit, or text if a value is no quantity.
-
-    >>> coordinate("grid.tolerance", "run", ["1 %", "5 %"]).values.tolist()
-    [0.01, 0.05]
-    >>> coordinate("material", "run", ["pmma", "1 %"]).values.tolist()
-    ['pmma', '1 %']
-    """
+    """Coordinate of a key: numbers in SI with their unit, or text if a value is no quantity."""
     attributes: dict[str, Any] = {"long_name": key}
     with suppress(ValueError):
         numbers, units = _numbers(key, texts)

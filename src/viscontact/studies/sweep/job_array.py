@@ -130,20 +130,12 @@ def pbs_script(array: JobArray) -> str:
 
 
 def _ranges(numbers: Sequence[int]) -> str:
-    """Numbers in rising order, as SLURM takes them.
-
-    >>> _ranges([0, 1, 2, 5, 7, 8])
-    '0-2,5,7-8'
-    """
+    """Numbers in rising order, as SLURM takes them."""
     return ",".join(f"{a}-{b}" if b > a else f"{a}" for a, b in _intervals(numbers))
 
 
 def _numbers(numbers: Sequence[int]) -> str:
-    """Numbers in rising order, as Bash expands them.
-
-    >>> _numbers([0, 1, 2, 5, 7, 8])
-    '{0..2} 5 {7..8}'
-    """
+    """Numbers in rising order, as Bash expands them."""
     return " ".join(f"{{{a}..{b}}}" if b > a else f"{a}" for a, b in _intervals(numbers))
 
 

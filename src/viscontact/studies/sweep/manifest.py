@@ -41,13 +41,7 @@ class SweepRun:
 
     @property
     def own_settings(self) -> str:
-        """Settings that were given, or left out, for this run alone; empty without any.
-
-        >>> settings = {"load.force": "5 kN", "grid.size": "[9 mm, 9 mm]"}
-        >>> changed = ("grid.size", "grid.largest_cell")
-        >>> SweepRun(0, "", "a", settings, (), "a.yaml", "grid", changed).own_settings
-        'grid.size=[9 mm, 9 mm], without grid.largest_cell'
-        """
+        """Settings that were given, or left out, for this run alone; empty without any."""
         return ", ".join(
             f"{key}={self.settings[key]}" if key in self.settings else f"without {key}"
             for key in self.changed

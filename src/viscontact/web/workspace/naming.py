@@ -34,14 +34,7 @@ def suggested_title(case: Mapping[str, Any]) -> str:
 
 
 def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
-    """Return a label for a run among others whose cases have the same title.
-
-    >>> first = {"load": {"force": "1 N"}, "grid": {"shape": [8, 8]}}
-    >>> label_of("Ball", {"load": {"force": "2 N"}}, first, {"Ball"})
-    'Ball, force 2 N, without grid'
-    >>> label_of("Ball", first, first, {"Ball"})
-    'Ball (2)'
-    """
+    """Return a label for a run among others whose cases have the same title."""
     changes = () if first is None else differences(first, case)
     # A list is one value; the physical sections come before the numerical ones.
     places = dict.fromkeys(each.where.partition("[")[0] for each in changes)
@@ -54,11 +47,7 @@ def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
 
 
 def file_stem(label: str, quality: str) -> str:
-    """Return a name for downloaded files.
-
-    >>> file_stem("Ball, force 2.5 N", "coarse")
-    'ball-force-2-5-n-coarse'
-    """
+    """Return a name for downloaded files."""
     words = re.findall(r"\w+", label.lower())
     stem = "-".join(words) or "case"
     if len(stem) > 80:  # the end distinguishes it from others
@@ -89,11 +78,7 @@ def _material(given: Any) -> str:
 
 
 def _layers(given: Sequence[Any]) -> str:
-    """The uppermost layer, and how many there are.
-
-    >>> _layers([{"thickness": "8 mm", "material": "epdm-70-25c"}])
-    '8 mm epdm-70-25c'
-    """
+    """The uppermost layer, and how many there are."""
     first = given[0] if given and isinstance(given[0], Mapping) else {}
     of = f"{_text(first.get('thickness'))} {_material(first.get('material', first))}".strip()
     return f"{len(given)} layers, {of}" if len(given) > 1 else of

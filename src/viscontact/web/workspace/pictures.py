@@ -74,11 +74,7 @@ def picture(figure: Figure, choice: PictureChoice) -> bytes:
 
 
 def on_dark(drawing: bytes) -> bytes:
-    """Return a drawing in colours for a dark page: lightness inverted, hue unchanged.
-
-    >>> on_dark(b'<svg ><path style="fill: #ffffff; stroke: #000000"/></svg>')
-    b'<svg fill="#ffffff" ><path style="fill: #1f1f1f; stroke: #ffffff"/></svg>'
-    """
+    """Return a drawing in colours for a dark page: lightness inverted, hue unchanged."""
     recoloured = _COLOUR.sub(lambda found: _opposite(found[1].decode()).encode(), drawing)
     # Parts without a colour are black by default.
     return recoloured.replace(b"<svg ", f'<svg fill="{_opposite("000000")}" '.encode(), 1)

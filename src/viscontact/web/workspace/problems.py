@@ -39,15 +39,7 @@ def case_problems(error: CaseError, path: Path) -> RequestError:
 
 
 def problem_of(line: str, path: Path) -> Problem:
-    """Split a message of the command line into message, key and line.
-
-    >>> problem_of("a/case.yaml:6: load.force: cannot read it", Path("a/case.yaml"))
-    Problem(message='cannot read it', path='load.force', line=6)
-    >>> problem_of("a/case.yaml:6: motion: motion.rolling: give it", Path("a/case.yaml")).path
-    'motion.rolling'
-    >>> problem_of("a/case.yaml: a/pmma.csv: no such file", Path("a/case.yaml"))
-    Problem(message='pmma.csv: no such file', path='', line=None)
-    """
+    """Split a message of the command line into message, key and line."""
     number: int | None = None
     if found := re.match(rf"{re.escape(str(path))}:(\d*):? ", line):
         line, number = line[found.end() :], int(found[1]) if found[1] else None

@@ -60,14 +60,7 @@ def draw_band(
     *,
     sideways: bool = False,
 ) -> Band | None:
-    """Shade the error of a curve where it is known and finite; None for no band.
-
-    >>> axes = style.new_figure(4.0, 3.0).subplots()
-    >>> draw_band(axes, np.arange(2.0), np.ones(2), np.array([0.1, 0.2]), "black").seen
-    True
-    >>> axes.collections[0].get_datalim(axes.transData).intervaly.round(12).tolist()
-    [0.8, 1.2]
-    """
+    """Shade the error of a curve where it is known and finite; None for no band."""
     known = np.zeros(x.shape, dtype=np.bool_) if error is None else np.isfinite(error) & (error > 0)
     if error is None or not known.any():
         return None
@@ -82,16 +75,7 @@ def draw_band(
 
 
 def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
-    """Legend entries of error bands, or of bands too narrow to be seen; empty without bands.
-
-    >>> axes = style.new_figure(4.0, 3.0).subplots()
-    >>> wide, narrow = (
-    ...     draw_band(axes, np.arange(2.0), np.arange(2.0), np.full(2, each), "black")
-    ...     for each in (0.1, 1e-9)
-    ... )
-    >>> [band_key(each, "black")[0][1] for each in ([wide], [wide, narrow], [narrow])]
-    ['band: error estimate', 'band: error estimate', "error estimate within the line's width"]
-    """
+    """Legend entries of error bands, or of bands too narrow to be seen; empty without bands."""
     if not bands:
         return []
     style.figure_of(bands[0].axes).draw_without_rendering()

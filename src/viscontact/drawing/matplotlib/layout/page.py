@@ -18,11 +18,7 @@ NARROW = 4.3
 
 
 def page_width(width: Width | None, usual: float) -> float:
-    """Width of a figure [inch] from "single", "double" or a width [m]; `usual` [inch] if None.
-
-    >>> round(page_width("single", 7.2), 3)
-    3.504
-    """
+    """Width of a figure [inch] from "single", "double" or a width [m]; `usual` [inch] if None."""
     if width is None:
         return usual
     metres = COLUMNS.get(width, math.nan) if isinstance(width, str) else float(width)

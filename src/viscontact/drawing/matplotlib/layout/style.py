@@ -99,11 +99,7 @@ def add_legend_below(
 
 
 def by_rows(entries: Sequence[_Entry], columns: int) -> list[_Entry]:
-    """Entries of a legend of some columns, which is filled by columns, so that rows are read.
-
-    >>> by_rows(["a", "b", "c", "d", "e"], columns=4)
-    ['a', 'e', 'b', 'c', 'd']
-    """
+    """Entries of a legend of some columns, which is filled by columns, so that rows are read."""
     return [entry for column in range(columns) for entry in entries[column::columns]]
 
 
@@ -130,17 +126,7 @@ def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
 
 
 def arrange_headings(figure: Figure) -> None:
-    """Move notes above headings that leave no room for them, once the layout is known.
-
-    >>> figure = new_figure(2.0, 2.0)
-    >>> axes = figure.subplots()
-    >>> add_heading(axes, "t = 1000 s")
-    >>> add_heading(axes, "peak depends on the mesh", aside=True)
-    >>> figure.draw_without_rendering()
-    >>> arrange_headings(figure)
-    >>> axes.get_title(loc="left").splitlines(), axes.get_title(loc="right")
-    (['peak depends on the mesh', 't = 1000 s'], '')
-    """
+    """Move notes above headings that leave no room for them, once the layout is known."""
     for axes in figure.axes:
         heading, aside = (axes.get_title(loc=side) for side in ("left", "right"))
         room = axes.get_window_extent().width / figure.dpi

@@ -168,11 +168,7 @@ def creep_curve(
 
 
 def curve_times(end: float, first: float = np.inf) -> Floats:
-    """Times up to the end of a run at which its law is drawn, from the first or earlier [s].
-
-    >>> curve_times(10.0)[[0, -1]].round(6).tolist()
-    [0.001, 10.0]
-    """
+    """Times up to the end of a run at which its law is drawn, from the first or earlier [s]."""
     return np.geomspace(min(first, _EARLIEST * end), end, _POINTS)
 
 

@@ -72,11 +72,7 @@ def trials(table: xr.Dataset, *, width: Width | None = None) -> Figure:
 
 
 def parameters_of(table: xr.Dataset) -> list[str]:
-    """Keys of the parameters of a design.
-
-    >>> parameters_of(xr.Dataset({}, {"load.x": ("trial", [1.0]), "trial": [0]}))
-    ['load.x']
-    """
+    """Keys of the parameters of a design."""
     return [str(name) for name in table.coords if name not in ("trial", "scenario")]
 
 

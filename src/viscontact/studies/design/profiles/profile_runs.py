@@ -195,11 +195,7 @@ def search_grids(end: float, widths: tuple[float, float]) -> tuple[Grid, ...]:
 
 
 def fine_grid(grid: Grid) -> Grid:
-    """Grid of the certified runs, for the last one of the search.
-
-    >>> fine_grid(Grid((108, 37), (1.0, 1.0))).shape
-    (216, 75)
-    """
+    """Grid of the certified runs, for the last one of the search."""
     along, across = grid.shape
     return Grid((CERTIFIED * along, CERTIFIED * across + 1), grid.size)
 

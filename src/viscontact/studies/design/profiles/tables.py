@@ -13,11 +13,7 @@ RESOLUTION = 1e-10
 
 
 def rounded(drop: Floats) -> Floats:
-    """Drops with the digits of the tables [m].
-
-    >>> rounded(np.array([1.23456789e-6])).tolist()
-    [1.2346e-06]
-    """
+    """Drops with the digits of the tables [m]."""
     return np.asarray(np.round(drop / RESOLUTION) / round(1 / RESOLUTION))
 
 
@@ -27,13 +23,7 @@ def tabulated(x: Floats, drop: Floats) -> TabulatedProfile:
 
 
 def finite_table(profile: Profile, x: Floats, half_length: float) -> Floats:
-    """Drops of a profile at positions [m], continued where they are infinite at the ends.
-
-    >>> from viscontact.bodies.indenters import LogarithmicProfile
-    >>> line = finite_table(LogarithmicProfile(1.0), np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 1.0)
-    >>> line.round(3).tolist()
-    [0.863, 0.288, 0.0, 0.288, 0.863]
-    """
+    """Drops of a profile at positions [m], continued where they are infinite at the ends."""
     drop = np.array(profile.drop(x, half_length))
     for end, next_one, second in ((0, 1, 2), (-1, -2, -3)):
         if np.isinf(drop[end]):

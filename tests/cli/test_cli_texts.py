@@ -1,0 +1,73 @@
+"""Options of the command line: what is read, and its words in messages."""
+
+from __future__ import annotations
+
+import gc
+from pathlib import Path
+
+from viscontact.bodies.indenters import Sphere
+from viscontact.cli.material.fit_options import read_indenter, read_kelvin, read_stress, read_weight
+from viscontact.cli.quick_imports import quick_imports
+from viscontact.cli.studies.arguments import as_typed
+from viscontact.cli.sweep.checks import _listed
+from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch, split_values
+from viscontact.cli.sweep.request import ManyRequest
+from viscontact.cli.sweep.table import first_names
+from viscontact.runs.processes.request import RunRequest
+
+
+def test_weight_has_a_column_and_a_number() -> None:
+    assert read_weight("storage=2") == ("storage", 2.0)
+
+
+def test_stress_is_read_in_pascal() -> None:
+    assert read_stress("5 MPa") == 5000000.0
+
+
+def test_temperature_in_celsius_is_read_in_kelvin() -> None:
+    assert read_kelvin("--reference", "20 degC") == 293.15
+
+
+def test_indenter_is_read_from_its_kind_and_radius() -> None:
+    assert read_indenter("sphere 5 mm") == Sphere(radius=0.005)
+
+
+def test_garbage_is_not_collected_during_imports() -> None:
+    with quick_imports():
+        assert not gc.isenabled()
+    assert gc.get_freeze_count() > 0
+    gc.unfreeze()
+
+
+def test_message_about_an_argument_names_the_option() -> None:
+    assert as_typed("constraints: write SCALAR<=VALUE") == "--constraint: write SCALAR<=VALUE"
+    assert as_typed("runs must be above zero") == "--runs must be above zero"
+
+
+def test_several_names_have_a_plural_noun() -> None:
+    assert _listed("line", ["2", "5"]) == "lines 2, 5"
+
+
+def test_message_about_a_varied_key_names_its_option() -> None:
+    options = PlanOptions(varied=("load.force=2,3",))
+    found = options.as_typed("--set load.force: cannot read '2'", ["load.force"])
+    assert found == "--vary load.force: cannot read '2'"
+
+
+def test_key_shares_a_branch_with_its_section_but_not_with_its_sibling() -> None:
+    assert share_a_branch("load", "load.force")
+    assert not share_a_branch("load.kind", "load.force")
+
+
+def test_comma_in_brackets_does_not_separate_values() -> None:
+    assert split_values("[1 mm, 2 mm], 3 mm") == ["[1 mm, 2 mm]", "3 mm"]
+
+
+def test_command_that_resumes_many_runs_has_all_files() -> None:
+    common = RunRequest(Path("a.yaml"), output=Path("all"))
+    found = ManyRequest((Path("a.yaml"), Path("b.yaml")), common, jobs=2).resuming
+    assert found == "viscontact run a.yaml b.yaml -o all -j 2 --resume"
+
+
+def test_names_beyond_the_first_are_counted() -> None:
+    assert first_names(["a", "b", "c"], 2) == "a, b and 1 more"

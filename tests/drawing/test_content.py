@@ -1,0 +1,111 @@
+"""Content of figures: axes, scales, windows, notes, reliefs."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from viscontact.bodies.indenters import Sphere
+from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
+from viscontact.drawing.content.friction import limit_speeds
+from viscontact.drawing.content.look import PRESSURE, shades
+from viscontact.drawing.content.notes import peak_note
+from viscontact.drawing.content.ordered_names import in_order
+from viscontact.drawing.content.pressure_relief import thinned
+from viscontact.drawing.content.relief import relief
+from viscontact.drawing.content.scale import pressure_scale, round_step
+from viscontact.drawing.content.shape import natural_size, stretch_note
+from viscontact.drawing.content.window import window_over
+from viscontact.drawing.figures import names_of
+from viscontact.results.snapshots import Snapshot
+
+
+def test_rising_load_has_a_linear_axis_of_time() -> None:
+    ramp = {name: ("time", np.arange(5.0)) for name in ("force", "approach")}
+    found = along_run([xr.Dataset(ramp, {"time": [0.0, 1.0, 2.0, 4.0, 1000.0]})]).scale
+    assert found == "linear"
+
+
+def test_run_is_cut_to_the_span() -> None:
+    run = xr.Dataset({"force": ("time", [0.0, 1.0, 2.0])}, coords={"time": [0.0, 1.0, 2.0]})
+    found = within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()
+    assert found == [0.0, 1.0]
+
+
+def test_held_load_over_decades_suits_a_logarithmic_axis() -> None:
+    times = [0.0, 1.0, 2.0, 4.0, 1000.0]
+    held = xr.Dataset({name: ("time", [1.0] * 5) for name in ("force", "approach")})
+    assert suits_log_time(held.assign_coords(time=times))
+
+
+def test_limits_are_drawn_from_the_least_to_the_largest_speed() -> None:
+    found = limit_speeds(xr.Dataset(coords={"speed": [10.0, 0.1]}))[[0, -1]].tolist()
+    assert found == [0.1, 10.0]
+
+
+def test_shades_have_equal_steps() -> None:
+    assert shades("000000 ffffff", 3) == ["#000000", "#808080", "#ffffff"]
+    assert shades(PRESSURE, 1) == ["#ffffd9"]
+
+
+def test_note_on_the_peak_concerns_the_drawn_instants_only() -> None:
+    peak = ("time", [np.inf, 1.0])
+    run = xr.Dataset({"peak_pressure_error": peak}, coords={"time": [0.0, 1.0]})
+    assert peak_note([run]) == "peak depends on the mesh"
+    assert peak_note([run], [0.9]) == ""
+
+
+def test_runs_are_ordered_by_the_quantity_in_their_names() -> None:
+    assert list(in_order({"F=1kN": 0, "F=200N": 1})) == ["F=200N", "F=1kN"]
+
+
+def test_block_of_cells_has_its_largest_pressure() -> None:
+    at = np.arange(5.0)
+    pressure = np.arange(25.0).reshape(5, 5)
+    thin = thinned(Snapshot(0.0, at, at, pressure, 0 * pressure, pressure != 0), (2, 1))
+    assert thin.x.tolist() == [0.5, 2.5]
+    assert thin.pressure[0].tolist() == [5.0, 6.0, 7.0, 8.0, 9.0]
+
+
+def test_quadrilateral_with_a_hidden_corner_is_left_out() -> None:
+    x, y = np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0], indexing="ij")
+    there = np.array([[True, True], [True, True], [True, False]])
+    assert relief(x, y, x + y, x + y, there).values.tolist() == [1.0]
+
+
+def test_colours_of_a_signed_scale_are_neutral_at_zero() -> None:
+    assert pressure_scale(0.0, 1e6).colours(2) == ["#ffffd9", "#081d58"]
+    assert pressure_scale(-1e6, 1e6).colours(3)[1] == "#f7f7f7"
+
+
+def test_levels_of_pressure_are_round_and_include_zero() -> None:
+    scale = pressure_scale(0.0, 152e6)
+    found = scale.unit(scale.levels).tolist()
+    assert found == [0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0]
+    assert scale.label == "Pressure [MPa]"
+    signed = pressure_scale(-30e3, 90e3)
+    assert signed.unit(signed.levels)[:4].tolist() == [-40.0, -20.0, 0.0, 20.0]
+    assert signed.diverges
+
+
+def test_round_step_is_not_below_the_least() -> None:
+    assert round_step(0.021) == 0.025
+    assert round_step(7.0) == 10.0
+
+
+def test_stretch_is_noted_unless_the_shape_is_true() -> None:
+    assert stretch_note("heights", 123.4) == "heights 100×"
+    assert stretch_note("y", 1.04) == "true shape"
+
+
+def test_sphere_is_drawn_over_less_than_its_radius_on_both_sides() -> None:
+    assert [round(extent, 3) for extent in natural_size(Sphere(radius=1.0))] == [0.968, 0.968]
+
+
+def test_window_holds_all_boxes_with_a_margin() -> None:
+    assert window_over([(-1.0, 1.0, -0.5, 0.5), (-2.0, 0.0, -0.5, 0.5)]).x == (-2.21, 1.21)
+
+
+def test_animations_are_not_among_the_figures() -> None:
+    assert names_of("speed") == ["friction", "motion-profile"]
+    assert names_of("sweep") == ["response"]

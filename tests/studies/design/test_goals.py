@@ -1,0 +1,28 @@
+"""Constraints, scenarios and compromises of a design."""
+
+from __future__ import annotations
+
+from viscontact.studies.design.goals import Constraint, constraints_of
+from viscontact.studies.design.scenarios import Deviation, Scenario
+from viscontact.studies.design.trade_off import compromises
+
+
+def test_violation_is_the_excess_relative_to_the_bound() -> None:
+    assert Constraint("force", True, 10.0).violation(12.0) == 0.2
+
+
+def test_constraint_is_read_with_its_unit() -> None:
+    assert str(constraints_of(["contact_length<=18mm"])[0]) == "contact_length <= 18 mm"
+
+
+def test_deviation_is_added_to_a_value_with_its_unit() -> None:
+    assert Deviation("-0.5 mm", "").added_to("12 mm") == "0.0115 m"
+
+
+def test_scenario_adds_its_deviation_to_the_trial() -> None:
+    wide = Scenario("wide", {"load.force": "1 N"}, {"load.x": Deviation("2 mm", "5 mm")})
+    assert wide.settings({"load.x": "3 mm"}) == {"load.force": "1 N", "load.x": "0.005 m"}
+
+
+def test_compromises_have_positive_weights_and_end_with_equal_ones() -> None:
+    assert compromises(2) == [(0.25, 0.75), (0.75, 0.25), (0.5, 0.5)]
