@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import Annotated, Any
 from urllib.parse import quote
 
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse, StreamingResponse
 
 from viscontact.drawing.matplotlib import COMPARISONS, FIGURES, STEADY_FIGURES
@@ -40,6 +40,17 @@ router = APIRouter(prefix="/api")
 Place = Annotated[int, Query(ge=0, le=2**53)]
 Times = Annotated[list[str] | None, Query(alias="time", max_length=12)]
 Speeds = Annotated[list[str] | None, Query(alias="speed", max_length=12)]
+
+
+async def _picture_choice(
+    kind: Kind, figure: str = "history", time: Times = None, speed: Speeds = None,
+    dark: bool = False,
+) -> PictureChoice:  # fmt: skip
+    """Read the choice of a figure from a request."""
+    return PictureChoice(figure, tuple(time or ()), tuple(speed or ()), kind=kind, is_dark=dark)
+
+
+Choice = Annotated[PictureChoice, Depends(_picture_choice)]
 
 _NO_CASE = "the case of this run is no longer in the folder; delete the run here"
 #: Largest number of runs in one figure.
@@ -158,23 +169,18 @@ async def interactive(
 
 
 @router.get("/runs/{name}/figure/{figure}.{kind}")
-async def draw(  # noqa: PLR0913
-    calculator: AppCalculator, name: str, figure: str, kind: Kind, request: Request,
-    time: Times = None, speed: Speeds = None, dark: bool = False,
-) -> Response:  # fmt: skip
+async def draw(calculator: AppCalculator, name: str, choice: Choice, request: Request) -> Response:
     """Draw a figure of a run."""
     run = calculator.queue.run(name)
-    choice = PictureChoice(figure, tuple(time or ()), tuple(speed or ()), kind=kind, is_dark=dark)
     figures = FIGURES | STEADY_FIGURES
     drawn = await calculator.do(lambda: figure_of(run.directory, figures, choice), request)
-    return Response(drawn, media_type=MEDIA_TYPES[kind])
+    return Response(drawn, media_type=MEDIA_TYPES[choice.kind])
 
 
 @router.get("/compare.{kind}")
-async def compare(  # noqa: PLR0913
-    calculator: AppCalculator, kind: Kind, runs: str, request: Request,
-    figure: str = "history", time: Times = None, speed: Speeds = None, dark: bool = False,
-) -> Response:  # fmt: skip
+async def compare(
+    calculator: AppCalculator, runs: str, choice: Choice, request: Request
+) -> Response:
     """Draw a figure of several runs."""
     compared = [calculator.queue.run(name) for name in dict.fromkeys(runs.split(","))]
     if not 2 <= len(compared) <= _MOST_COMPARED:
@@ -182,9 +188,8 @@ async def compare(  # noqa: PLR0913
             422, f"two to {_MOST_COMPARED} runs can be compared, got {len(compared)}"
         )
     places = dict(zip(_labels(compared), (run.directory for run in compared), strict=True))
-    choice = PictureChoice(figure, tuple(time or ()), tuple(speed or ()), kind=kind, is_dark=dark)
     drawn = await calculator.do(lambda: comparison_of(places, COMPARISONS, choice), request)
-    return Response(drawn, media_type=MEDIA_TYPES[kind])
+    return Response(drawn, media_type=MEDIA_TYPES[choice.kind])
 
 
 @router.get("/runs/{name}/case.yaml")
