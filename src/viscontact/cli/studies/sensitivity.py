@@ -16,9 +16,11 @@ from viscontact.cli.studies.execution import (
 )
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.studies.sensitivity.result import SensitivityResult
-from viscontact.studies.sensitivity.result_files import TABLE_NAME, write_table
 from viscontact.studies.sensitivity.sensitivity import sensitivity
+from viscontact.studies.study_files import write_table
 
+#: The table as netCDF-4, in the directory of the runs.
+_TABLE_NAME = "sensitivity.nc"
 _SCATTER = "KEY=VALUE, with the unit, e.g. 'indenter.radius=4.98 mm:5.02 mm'"
 
 
@@ -28,14 +30,14 @@ def execute_sensitivity(typed: Mapping[str, Any]) -> None:
 
     def study(**how: Any) -> SensitivityResult:
         found = sensitivity(**arguments, **how)
-        write_table(output, found)
+        write_table(output / _TABLE_NAME, found.table)
         return found
 
     records = Records(output, output / MANIFEST_NAME)
     found = performed(study, records, typed, line=OF_ALL)
     show(found)
     write_report(found, output / REPORT_NAME)
-    print(output / TABLE_NAME)
+    print(output / _TABLE_NAME)
 
 
 def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
