@@ -65,8 +65,14 @@ def chosen_workers(
 
 
 def number_of_workers(workers: int | None) -> int:
-    """Number of parallel processes; by default the cores that this process may use."""
-    return usable_cores() if workers is None else whole("workers", workers, 1)
+    """Number of parallel processes; by default the cores that this process may use.
+
+    A process that another one has started, as a worker, does not start further ones by default:
+    those beside it use the other cores.
+    """
+    if workers is not None:
+        return whole("workers", workers, 1)
+    return usable_cores() if multiprocessing.parent_process() is None else 1
 
 
 def require_executor(executor: object, client: object, workers: object) -> None:

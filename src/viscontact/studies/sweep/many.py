@@ -93,8 +93,8 @@ def simulate_many(
     workers : int, optional
         Number of parallel processes; by default the number of cores that this process may use
         (its binding, control group and SLURM job), or fewer if the runs do not fit into the free
-        memory. Each computes on one thread unless the run sets ``threads``. An executor or a
-        client has its own number.
+        memory, and 1 in a process that is itself a worker. Each computes on one thread unless the
+        run sets ``threads``. An executor or a client has its own number.
     progress : bool or callable, optional
         True: show a bar on stderr. A function is called with (number of the run, done, total) as
         runs end.
