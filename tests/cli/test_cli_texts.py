@@ -8,7 +8,7 @@ from pathlib import Path
 from viscontact.bodies.indenters import Sphere
 from viscontact.cli.material.fit_options import read_indenter, read_kelvin, read_stress, read_weight
 from viscontact.cli.quick_imports import quick_imports
-from viscontact.cli.studies.arguments import as_typed
+from viscontact.cli.studies.arguments import as_typed, bounds
 from viscontact.cli.sweep.checks import _listed
 from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch, split_values
 from viscontact.cli.sweep.request import ManyRequest
@@ -71,3 +71,7 @@ def test_command_that_resumes_many_runs_has_all_files() -> None:
 
 def test_names_beyond_the_first_are_counted() -> None:
     assert first_names(["a", "b", "c"], 2) == "a, b and 1 more"
+
+
+def test_parts_of_a_range_are_separated_by_colons() -> None:
+    assert bounds("1 mm : 2 mm:log") == ("1 mm", "2 mm", "log")

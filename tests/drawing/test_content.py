@@ -11,6 +11,7 @@ from viscontact.drawing.content.friction import limit_speeds
 from viscontact.drawing.content.look import PRESSURE, shades
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import in_order
+from viscontact.drawing.content.panel import Axis, Curve, Panel
 from viscontact.drawing.content.pressure_relief import thinned
 from viscontact.drawing.content.relief import relief
 from viscontact.drawing.content.scale import pressure_scale, round_step
@@ -109,3 +110,14 @@ def test_window_holds_all_boxes_with_a_margin() -> None:
 def test_animations_are_not_among_the_figures() -> None:
     assert names_of("speed") == ["friction", "motion-profile"]
     assert names_of("sweep") == ["response"]
+
+
+def test_panel_has_numbers_in_si_and_an_axis_with_the_unit_in_which_they_are_drawn() -> None:
+    times, areas = np.array([0.0, 1.0]), np.array([1e-6, 2e-6])
+    panel = Panel(
+        Axis.of("Time", "s", times),
+        Axis.of("Contact area", "m2", areas),
+        (Curve(times, areas, error=0.1 * areas),),
+    )
+    assert panel.y.label == "Contact area [mm²]"
+    assert panel.y.unit(panel.curves[0].y).round(6).tolist() == [1.0, 2.0]

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from viscontact.bodies.grid import Grid
-from viscontact.results.enlarged_grid import line_on_wider, on_wider
+from viscontact.results.enlarged_grid import enlargement, line_on_wider, on_wider
 from viscontact.results.last_cycle_values import first_largest, notable_largest
 from viscontact.results.recorded_case import across_period, is_prescribed, recorded_poisson_ratio
 from viscontact.results.recorded_events import RecordedEvent, recorded_events
@@ -181,3 +181,9 @@ def test_stored_result_has_sizes_and_values(tmp_path: Path) -> None:
     xr.Dataset({"force": ("time", [1.0, 2.0])}).to_netcdf(tmp_path / "result.nc")
     with stored_result(tmp_path) as found:
         assert (found.sizes, found["force"].values.tolist()) == ({"time": 2}, [1.0, 2.0])
+
+
+def test_enlargement_is_logged_with_cells_and_extents() -> None:
+    small = Grid((32, 16), (2e-3, 1e-3))
+    found = enlargement(1.5, small, small.widened((48, 16)))
+    assert found == "t = 1.5 s: from 32 x 16 cells on 2 mm x 1 mm to 48 x 16 cells on 3 mm x 1 mm"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from viscontact.web.cases.case_reader import filled
 from viscontact.web.workspace.naming import _layers, file_stem, label_of
 from viscontact.web.workspace.pictures import on_dark
 from viscontact.web.workspace.problems import Problem, problem_of
@@ -36,3 +37,8 @@ def test_problem_has_message_key_and_line() -> None:
     assert found == "motion.rolling"
     found = problem_of("a/case.yaml: a/pmma.csv: no such file", Path("a/case.yaml"))
     assert found == Problem(message="pmma.csv: no such file", path="", line=None)
+
+
+def test_empty_values_of_the_form_are_left_out() -> None:
+    values = {"title": "", "load": {"force": "1 N", "tilt_x": None}, "grid": {}}
+    assert filled(values) == {"load": {"force": "1 N"}}

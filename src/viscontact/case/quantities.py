@@ -41,11 +41,7 @@ ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 
 @dataclass(frozen=True)
 class Quantity:
-    """Annotation of a float that is written with a unit and converted to SI.
-
-    >>> Quantity("length", POSITIVE).read("5 mm")
-    0.005
-    """
+    """Annotation of a float that is written with a unit and converted to SI."""
 
     dimension: str
     sign: str = ANY

@@ -28,12 +28,7 @@ def line_on_wider(line: Floats, grid: Grid, wider: Grid) -> Floats:
 
 
 def enlargement(time: float, before: Grid, after: Grid) -> str:
-    """One line of the log of enlargements; the time is the first on the larger grid [s].
-
-    >>> small = Grid((32, 16), (2e-3, 1e-3))
-    >>> enlargement(1.5, small, small.widened((48, 16)))
-    't = 1.5 s: from 32 x 16 cells on 2 mm x 1 mm to 48 x 16 cells on 3 mm x 1 mm'
-    """
+    """One line of the log of enlargements; the time is the first on the larger grid [s]."""
     old, new = (
         f"{grid.shape[0]} x {grid.shape[1]} cells on {format_quantity(grid.size[0], 'm')} x "
         f"{format_quantity(grid.size[1], 'm')}"

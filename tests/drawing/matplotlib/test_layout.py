@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.error_band import band_key, draw_band
 from viscontact.drawing.matplotlib.layout.page import page_width
-from viscontact.drawing.matplotlib.layout.saving import as_svg
+from viscontact.drawing.matplotlib.layout.saving import as_svg, written
 from viscontact.drawing.matplotlib.layout.style import (
     add_heading,
     arrange_headings,
@@ -71,3 +71,7 @@ def test_creep_is_drawn_from_a_ten_thousandth_of_the_run() -> None:
 def test_parameters_of_a_design_are_its_keys() -> None:
     found = parameters_of(xr.Dataset({}, {"load.x": ("trial", [1.0]), "trial": [0]}))
     assert found == ["load.x"]
+
+
+def test_figure_is_written_as_pdf() -> None:
+    assert written(Figure(), "pdf")[:4] == b"%PDF"

@@ -6,7 +6,7 @@ from viscontact.bodies.surfaces import Surface
 from viscontact.drawing.svg.html import as_script, element, written
 from viscontact.drawing.svg.overview import Overview, as_text
 from viscontact.drawing.svg.surface_map import surface_overview
-from viscontact.drawing.svg.svg_axes import logarithmic
+from viscontact.drawing.svg.svg_axes import linear, logarithmic
 
 
 def test_text_of_an_element_is_escaped() -> None:
@@ -44,3 +44,9 @@ def test_ticks_of_a_logarithmic_axis_have_readable_units() -> None:
     assert [text for _, text in axis.ticks] == ["10 ms", "100 ms", "1 s", "10 s"]
     axis = logarithmic("time", "s", 1.0, 604800.0, each_with_unit=True)
     assert [text for _, text in axis.ticks] == ["1 s", "1 min", "1 h", "1 d"]
+
+
+def test_ticks_of_a_linear_axis_are_numbers_in_one_unit() -> None:
+    axis = linear("x", "m", -0.01, 0.01)
+    assert axis.label == "x [mm]"
+    assert [text for _, text in axis.ticks] == ["−10", "−5", "0", "5", "10"]

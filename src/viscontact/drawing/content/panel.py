@@ -4,18 +4,6 @@ A figure is made in two steps. A function of this room takes results, and decide
 reader sees: which panels there are, their axes, units and ranges, curves with their errors, marks
 and notes. It returns panels. A renderer draws them: Matplotlib, Plotly or SVG. It chooses colours,
 fonts and places only. All numbers are in SI; each axis has the unit in which they are drawn.
-
-Examples
---------
->>> import numpy as np
->>> times, areas = np.array([0.0, 1.0]), np.array([1e-6, 2e-6])
->>> panel = Panel(
-...     Axis.of("Time", "s", times),
-...     Axis.of("Contact area", "m2", areas),
-...     (Curve(times, areas, error=0.1 * areas),),
-... )
->>> panel.y.label, panel.y.unit(panel.curves[0].y).round(6).tolist()
-('Contact area [mm²]', [1.0, 2.0])
 """
 
 from __future__ import annotations

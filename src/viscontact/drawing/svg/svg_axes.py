@@ -35,12 +35,7 @@ class Scale:
 
 
 def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> Scale:
-    """Linear axis between two ends, `low` < `high` [SI].
-
-    >>> axis = linear("x", "m", -0.01, 0.01)
-    >>> axis.label, [text for _, text in axis.ticks]
-    ('x [mm]', ['−10', '−5', '0', '5', '10'])
-    """
+    """Linear axis between two ends, `low` < `high` [SI]."""
     shown = readable_unit(unit, low, high)
     step = round_step((high - low) / shown.factor / most)
     first, last = (math.ceil(low / shown.factor / step - 1e-9), high / shown.factor / step + 1e-9)

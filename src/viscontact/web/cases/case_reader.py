@@ -155,11 +155,7 @@ def form_values(text: str, path: Path) -> dict[str, Any]:
 
 
 def filled(value: Any) -> Any:
-    """Return values without empty ones.
-
-    >>> filled({"title": "", "load": {"force": "1 N", "tilt_x": None}, "grid": {}})
-    {'load': {'force': '1 N'}}
-    """
+    """Return values without empty ones."""
     if isinstance(value, dict):
         parts = {str(name): filled(part) for name, part in value.items()}
         return {name: part for name, part in parts.items() if part not in (None, "", {})}

@@ -91,11 +91,7 @@ def as_svg(figure: Figure) -> bytes:
 
 
 def written(figure: Figure, kind: str) -> bytes:
-    """Content of a file of a figure: ``"png"``, ``"pdf"`` or ``"svg"``.
-
-    >>> written(Figure(), "pdf")[:4]
-    b'%PDF'
-    """
+    """Content of a file of a figure: ``"png"``, ``"pdf"`` or ``"svg"``."""
     drawing = io.BytesIO()
     _write(figure, drawing, kind)
     return drawing.getvalue()
