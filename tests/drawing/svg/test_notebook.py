@@ -411,6 +411,18 @@ def test_section_of_a_result_runs_along_the_longer_extent(transposed: bool) -> N
         np.testing.assert_allclose(found[inner] * pressure, exact[inner], atol=0.03 * exact.max())
 
 
+def test_result_over_speed_is_shown_from_the_slowest_to_the_fastest() -> None:
+    ball, grid = vc.Paraboloid(0.01, 0.01), vc.Grid((32, 32), (6e-3, 6e-3))
+    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e4), poisson_ratio=0.5)
+    load = vc.step(1.0, tilt_y=0.0)
+    ds = vc.steady(ball, rubber, load, [1.0, 0.01], grid=grid, errors=False)
+    text, root = str(ds.viscontact), _parsed(ds.viscontact)
+    assert re.search(r"^ +10 mm/s +1 m/s$", text, re.MULTILINE)
+    drawn = [_text(drawing) for drawing in root.iter("svg")]
+    assert any(each.startswith("contact area") and "speed" in each for each in drawn)
+    assert not any("t =" in each for each in drawn)
+
+
 def test_a_dataset_that_is_no_result_is_reported() -> None:
     assert "It has no time" in str(xr.Dataset().viscontact)
     empty = maxwell_sphere().isel(time=slice(0, 0))
