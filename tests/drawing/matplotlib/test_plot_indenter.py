@@ -16,6 +16,7 @@ from viscontact.cli import main
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.plot import draw_indenter
 from viscontact.runs.check_report import drawn_size
+from viscontact.runs.over_time import OverTime
 from viscontact.simulation.transient.setup import prepare_run
 
 ROLLER = vc.Roller(5e-3, 6e-3, profile="logarithmic", amplitude=2e-6, end_drop=30e-6)
@@ -202,7 +203,7 @@ def test_body_that_ends_a_little_beyond_the_grid_is_drawn_to_its_end(
     length: float, drawn: float
 ) -> None:
     rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((32, 32), (length, 1e-3))
-    run = prepare_run(Problem(ROLLER, rubber, vc.step(1e-3), grid, [0.0]))
+    run = OverTime(prepare_run(Problem(ROLLER, rubber, vc.step(1e-3), grid, [0.0])))
     # The end is looked for in steps of 1e-3 of the length.
     assert drawn_size(run) == pytest.approx((drawn, 1e-3), rel=2e-3)
 
