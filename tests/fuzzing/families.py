@@ -18,7 +18,6 @@ from fuzzing.case_files import case_texts, cases, flow_of
 from fuzzing.tables import tables
 from fuzzing.watch import Tally, command, contents, refused_or, refuses
 from viscontact.runs.execution.prepared_case import prepare
-from viscontact.runs.forecast import forecast
 
 #: Runs that would take longer are checked only [s].
 SHORT = 0.3
@@ -83,7 +82,7 @@ def put_run(case: dict[str, Any], tally: Tally) -> None:
 
 
 def _run_if_short(data: bytes, tally: Tally) -> None:
-    if forecast(prepare(Path("given.yaml"), []).run).seconds > SHORT:
+    if prepare(Path("given.yaml"), []).run.forecast().seconds > SHORT:
         return
     shutil.rmtree("ran", ignore_errors=True)
     asked(["run", "given.yaml", "-o", "ran", "-q"], data, tally, done="run to the end")
