@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
@@ -70,7 +71,7 @@ RUNS = {
             vc.ramp(0.1, 1.0),
             GRID,
             vc.adaptive_times(3.0, 0.03),
-            fields=[2.0],
+            kept=KeptFields([2.0]),
         )
     ),
     "stage, contact lost": lambda: prepare_run(
