@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from viscontact.bodies.loads.motion import STANDING
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import CaseError, case_schema, read_case
 
 CASE = """\
@@ -33,9 +33,9 @@ def write(folder: Path, speed: str = "0.5 m/s", more: str = "") -> Path:
 )
 def test_speed_is_one_a_list_or_a_range(speed: str, speeds: list[float], tmp_path: Path) -> None:
     case = read_case(write(tmp_path, speed))
-    assert case.steady is not None
-    assert case.steady.speeds == pytest.approx(speeds)
-    assert (case.steady.along, case.steady.rolling, case.motion) == ("y", None, STANDING)
+    assert isinstance(case.motion, SteadyMotion)
+    assert case.motion.speeds == pytest.approx(speeds)
+    assert (case.motion.along, case.motion.rolling, case.motion.stands) == ("y", None, False)
 
 
 def test_fields_are_kept_at_speeds(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics.problem.arguments import contact_problem
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.directory.recorded import Recorded
@@ -40,8 +41,11 @@ def travelling() -> OverTime:
 
 
 def steady() -> OverSpeed:
-    contact = contact_problem(indenter=BALL, material=RUBBER, load=LEVEL, grid=GRID, fields=[1e-2])
-    return OverSpeed(prepare(steady_problem(contact, [1e-2, 1e-3], "y", None)))
+    motion = SteadyMotion((1e-2, 1e-3), "y")
+    contact = contact_problem(
+        indenter=BALL, material=RUBBER, load=LEVEL, grid=GRID, fields=[1e-2], motion=motion
+    )
+    return OverSpeed(prepare(steady_problem(contact, motion)))
 
 
 @pytest.mark.parametrize("make", [standing, travelling, steady])
@@ -85,3 +89,8 @@ def test_warnings_name_the_file_that_calls(call: str) -> None:
     with pytest.warns(vc.AccuracyWarning) as caught:
         getattr(vc, call)(BALL, RUBBER, LEVEL, grid=coarse, **further)
     assert {each.filename for each in caught} == {__file__}
+
+
+def test_steady_motion_is_refused_over_time() -> None:
+    with pytest.raises(ValueError, match="a steady motion is over speed, not over time"):
+        over_time(times=[0.0, 1.0], motion=SteadyMotion((1e-2,), "y"))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.resources import curve_memory
 from viscontact.runs.steady_forecast import steady_forecast
@@ -25,8 +26,9 @@ def level(force: float) -> vc.ForceHistory:
 
 
 def prepared(indenter, body, force: float, speed: float, grid: vc.Grid) -> SteadySetup:
-    problem = Problem(indenter, body, level(force), grid, None, None, 1e-6)
-    return prepare(steady_problem(problem, [speed], "y", None))
+    motion = SteadyMotion((speed,), "y")
+    problem = Problem(indenter, body, level(force), grid, tolerance=1e-6, motion=motion)
+    return prepare(steady_problem(problem, motion))
 
 
 @pytest.mark.parametrize("body", [ON_RIGID, ON_CORE])

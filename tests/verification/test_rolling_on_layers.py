@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 import viscontact as vc
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.reference import layer_sphere, slow_friction_coefficient
 from viscontact.simulation.steady_motion.preparation import prepare
@@ -270,8 +271,9 @@ def test_both_forms_of_the_resistance_agree_on_several_terms():
     off = []
     for cells in (64, 128, 256):
         grid = vc.Grid((1, cells), (1.0, 2.56), periodic=(True, False))
-        contact = Problem(CYLINDER, covered(CORE), LEVEL, grid, tolerance=1e-9)
-        problem = steady_problem(contact, 0.1, "y", None)
+        motion = SteadyMotion((0.1,), "y")
+        contact = Problem(CYLINDER, covered(CORE), LEVEL, grid, tolerance=1e-9, motion=motion)
+        problem = steady_problem(contact, motion)
         solved = prepare(problem).solver.solve(0.1, grid, 1e-9)
         both = resistance_of(problem, solved)
         off.append(abs(both.by_slope / both.by_dissipation - 1))

@@ -14,6 +14,7 @@ from fastapi.testclient import TestClient
 import viscontact as vc
 from drawing.plotly.figure_data import array_of
 from viscontact import reference
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.plot import COMPARISONS, FIGURES, STEADY_FIGURES
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.web.cases.case_reader import CaseReader
@@ -84,8 +85,8 @@ def test_coarse_answer_has_fewer_speeds_and_no_errors(tmp_path: Path) -> None:
     many = BALL.replace("count: 3", "count: 60")
     found, settings = cases.prepared(many, "coarse")
     assert settings == ("motion.speed.count=24", "output.errors=false", "tolerance=0.0001")
-    assert found.case.steady is not None
-    speeds = found.case.steady.speeds
+    assert isinstance(found.case.motion, SteadyMotion)
+    speeds = found.case.motion.speeds
     assert (len(speeds), speeds[0], speeds[-1]) == (24, 1.0, 0.01)
     # Speeds whose fields are asked for are all computed.
     _, kept = cases.prepared(many + "output: {fields: [1 m/s]}\n", "coarse")

@@ -42,8 +42,6 @@ class Case(DisplayableGroup, Problem):
         Entries of the report's title block, by name.
     allowable : mapping of str to float
         Limits by the names of scalars or stresses, in SI units.
-    steady : SteadyMotion or None
-        Steady motion, whose speeds take the place of times; None for a run over time.
     digests : mapping of Path to bytes
         SHA-256 of each of those files, and of the case file, when it was read.
     measured : mapping of str to mapping
@@ -65,7 +63,6 @@ class Case(DisplayableGroup, Problem):
     files: Mapping[KeyPath, Path]
     title_block: Mapping[str, str]
     allowable: Mapping[str, float]
-    steady: SteadyMotion | None
     digests: Mapping[Path, bytes] = field(repr=False)
     measured: Mapping[str, Mapping[str, Any]]
     fits: Mapping[str, Fit] = field(repr=False)
@@ -135,9 +132,9 @@ class Case(DisplayableGroup, Problem):
 
 
 def _format_rows(case: Case) -> dict[str, str]:
-    if case.steady is None:
+    if not isinstance(case.motion, SteadyMotion):
         return {"steps": _format_steps(case)}
-    speeds = case.steady.speeds
+    speeds = case.motion.speeds
     low, high = (format_quantity(each, "m/s") for each in (min(speeds), max(speeds)))
     several = f"{len(speeds)} from {low} to {high}"
     return {"speeds" if len(speeds) > 1 else "speed": several if len(speeds) > 1 else low}

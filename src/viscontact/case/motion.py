@@ -42,11 +42,11 @@ class MotionSection(Section):
     )
 
     @abstractmethod
-    def build(self) -> Motion | SteadyMotion:
+    def build(self) -> Motion:
         """Return the motion."""
 
     @cached_property
-    def built(self) -> Motion | SteadyMotion:
+    def built(self) -> Motion:
         """The motion, built once: its file is read once."""
         return self.build()
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.case.case import Case
 from viscontact.case.document import Document, as_written, document_of, read_document
@@ -21,7 +21,7 @@ from viscontact.case.indenters.shapes import combined
 from viscontact.case.materials.layers import Layers
 from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
-from viscontact.case.sections import CaseFile, is_steady
+from viscontact.case.sections import CaseFile, lacks_time
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
 from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.tables import split_sheet
@@ -100,7 +100,8 @@ def digest(path: Path) -> bytes:
 
 def _checked(document: Document) -> CaseFile:
     known = [document.problem(key, why) for key, why in document.misused]
-    known += [why] if (why := _lacks_time(document)) else []
+    if lacks_time(document.data):
+        known.append(document.problem(("time",), "is missing; instants of the run"))
     try:
         found = _validated(document, document.data)
     except ValidationError as error:
@@ -120,23 +121,16 @@ def _checked(document: Document) -> CaseFile:
     raise CaseError(*problems, *([f"{document.path}: and {more} more"] if more > 0 else []))
 
 
-def _lacks_time(document: Document) -> str:
-    """Problem of a case over time that has no section `time`; empty if there is none."""
-    if document.data.get("time") is not None or is_steady(document.data):
-        return ""
-    return document.problem(("time",), "is missing; instants of the run")
-
-
 def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
     folder, confined = str(document.path.parent), document.confined
     return CaseFile.model_validate(data, context={"folder": folder, "confined": confined})
 
 
 def _case(document: Document, found: CaseFile) -> Case:
-    steady, times, early = found.steady, None, None
+    motion, times, early = found.body_motion, None, None
     try:
-        if steady is not None:
-            fields = kept_speeds(found.output, steady.speeds)
+        if isinstance(motion, SteadyMotion):
+            fields = kept_speeds(found.output, motion.speeds)
         else:
             times = found.instants()
             early = early_fields(found.output, times)
@@ -144,17 +138,15 @@ def _case(document: Document, found: CaseFile) -> Case:
             times = with_instants(times, fields)
     except ValueError as error:
         raise CaseError(document.problem(("output", "fields"), str(error))) from error
-    motion = found.motion.built if found.motion else None
     of_indenter, files = found.indenter_material, _files(found, document)
     return Case(
         title=found.title,
         indenter=combined(found.indenter),
         material=found.material.built,
         load=found.history(),
-        motion=motion if isinstance(motion, Motion) else STANDING,
+        motion=motion,
         title_block=found.report.entries,
         allowable=found.allowable.limits,
-        steady=steady,
         grid=found.grid.build() if found.grid else None,
         times=times,
         indenter_material=of_indenter.built if of_indenter else None,

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
@@ -64,47 +64,34 @@ class CaseFile(Section):
         return self
 
     @property
-    def steady(self) -> SteadyMotion | None:
-        """The steady motion, None for a run over time."""
-        built = self.motion.built if self.motion else None
-        return built if isinstance(built, SteadyMotion) else None
+    def body_motion(self) -> Motion:
+        """The motion of the body."""
+        return self.motion.built if self.motion else STANDING
 
     @model_validator(mode="after")
-    def _steady_if_without_time(self) -> CaseFile:
-        if self.steady is None:
-            return self
-        if self.time is not None:
+    def _fits_the_motion(self) -> CaseFile:
+        stands, steady = self.body_motion.stands, isinstance(self.body_motion, SteadyMotion)
+        if steady and self.time is not None:
             raise ValueError(
                 "time: a steady motion has no steps in time, but a row for each speed; leave this "
                 "section out"
             )
-        constant_load(self.history())
-        return self
-
-    @model_validator(mode="after")
-    def _has_what_is_limited(self) -> CaseFile:
-        moving, steady = self.motion is not None, self.steady is not None
-        self.allowable.require_known(moving=moving, steady=steady)
-        return self
-
-    @model_validator(mode="after")
-    def _moves_if_steps_are_cells(self) -> CaseFile:
-        if self.time is None or self.time.spacing != "cells":
-            return self
-        if self.motion is None:
+        if steady:
+            constant_load(self.history())
+        self.allowable.require_known(moving=not stands, steady=steady)
+        if stands and self.time is not None and self.time.spacing == "cells":
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
         return self
 
     def instants(self) -> Floats | AdaptiveTimes | CellTimes:
         """Return the instants of the run [s], or the settings of steps that are chosen later."""
         assert self.time is not None  # refused otherwise
-        motion = self.motion.built if self.motion else None
-        if self.time.spacing != "cells" or not isinstance(motion, Motion):
+        if self.time.spacing != "cells":
             return self.time.instants()
         grid = self.grid.build() if self.grid else None
         if not isinstance(grid, Grid):
             return CellTimes(self.time.end)
-        return moving_times(motion, self.history(), grid.cell_size, self.time.end)
+        return moving_times(self.body_motion, self.history(), grid.cell_size, self.time.end)
 
     def history(self) -> LoadHistory:
         """Return the load; a mean pressure acts on the area of the grid."""
@@ -114,10 +101,11 @@ class CaseFile(Section):
         return self.load.built
 
 
-def is_steady(data: Mapping[str, Any]) -> bool:
-    """True if the data of a case describe a steady motion, valid or not."""
+def lacks_time(data: Mapping[str, Any]) -> bool:
+    """True if the data of a case, valid or not, lack the section `time`."""
     motion = data.get("motion")
-    return isinstance(motion, dict) and motion.get("kind") == "steady"
+    steady = isinstance(motion, dict) and motion.get("kind") == "steady"
+    return data.get("time") is None and not steady
 
 
 #: A section `time` is required, and with a steady motion refused.

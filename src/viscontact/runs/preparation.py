@@ -7,7 +7,9 @@ from typing import Any
 
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
@@ -45,6 +47,13 @@ def prepared(
     return PreparedRun(case, run)
 
 
+def analysis_of(problem: Problem, threads: int = 1, *, errors: bool) -> Analysis[Any, Any]:
+    """Prepare a problem, whose load is known, over time or over speed as its motion requires."""
+    if isinstance(motion := problem.motion, SteadyMotion):
+        return OverSpeed(prepare(steady_problem(problem, motion), threads), errors)
+    return OverTime(prepare_run(problem, threads), errors)
+
+
 def predicted(prepared: PreparedRun) -> Forecast:
     """Return the forecast of a checked case; CaseError if no contact can carry the load."""
     try:
@@ -65,10 +74,7 @@ def _carried_out(case: Case, threads: int, *, roughly: bool) -> Case:
 
 def _prepared_run(case: Case, threads: int) -> Analysis[Any, Any]:
     try:
-        if (motion := case.steady) is None:
-            return OverTime(prepare_run(case, threads), case.errors)
-        moving = steady_problem(case, motion.speeds, motion.along, motion.rolling)
-        return OverSpeed(prepare(moving, threads), case.errors)
+        return analysis_of(case, threads, errors=case.errors)
     except ValueError as error:
         why = str(error)
         # A key of the motion, which is an argument of its own in Python.

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads.steady_motion import steady_motion
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.arguments import contact_problem
@@ -135,6 +136,7 @@ def steady(  # noqa: PLR0913
     [0.0009, 0.0476, 0.0025]
     """
     report = reported(progress, ProgressBar("speed"))
+    motion = steady_motion(speed, along, rolling)
     contact = contact_problem(
         indenter=indenter,
         material=material,
@@ -143,6 +145,7 @@ def steady(  # noqa: PLR0913
         indenter_material=indenter_material,
         tolerance=tolerance,
         fields=fields,
+        motion=motion,
     )
-    problem = steady_problem(contact, speed, along, rolling)
+    problem = steady_problem(contact, motion)
     return solve(OverSpeed(prepare(problem, threads), errors), report)

@@ -13,11 +13,13 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case, CaseError, read_case
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.results.variables import scalars_with_error
-from viscontact.runs.single import simulate
-from viscontact.runs.steady import steady
+from viscontact.runs.preparation import analysis_of
+from viscontact.runs.solving import solve
+from viscontact.simulation.transient.found_events import carried_out
 
 #: Place of a scalar: that of its worst value, the last one, or a time [s] or a speed [m/s].
 At = Literal["worst", "end"] | float
@@ -45,14 +47,7 @@ def case_path(case: str | PathLike[str]) -> Path:
 
 def result_of(case: Case) -> xr.Dataset:
     """Result of a case, over time or over speed."""
-    names = ["indenter", "material", "load", "grid", "indenter_material"]
-    names += ["tolerance", "fields", "errors"]
-    given: dict[str, Any] = {name: getattr(case, name) for name in names}
-    if (motion := case.steady) is None:
-        given |= {"times": case.times, "motion": case.motion}
-        return simulate(**given)
-    given |= {"speed": motion.speeds, "along": motion.along, "rolling": motion.rolling}
-    return steady(**given)
+    return solve(analysis_of(carried_out(case), errors=case.errors))
 
 
 def texts(settings: Mapping[str, Any] | None) -> dict[str, str]:
@@ -90,8 +85,8 @@ def refuse_repeated(**groups: Sequence[str]) -> None:
 
 def places_of(case: Case) -> tuple[RunAxis, Floats]:
     """Instants [s] of a case, those that adaptive steps are known to have, or its speeds [m/s]."""
-    if case.steady is not None:
-        return SPEED, np.array(case.steady.speeds)
+    if isinstance(case.motion, SteadyMotion):
+        return SPEED, np.array(case.motion.speeds)
     return TIME, case.instants if case.adaptive is None else np.array([0.0, case.adaptive.end])
 
 

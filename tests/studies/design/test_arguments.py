@@ -162,7 +162,7 @@ def test_a_design_of_a_rolling_body_counts_the_resistance_at_a_speed(tmp_path: P
     change = {"indenter.radius": ["4 mm", "6 mm"]}
     found = vc.design(path, change, minimise="friction_coefficient", at=0.01, workers=1)
     case = read_case(path)
-    contact = (vc.Sphere(6e-3), case.material, case.load, case.steady.speeds)  # type: ignore[union-attr]
+    contact = (vc.Sphere(6e-3), case.material, case.load, [0.01, 0.1])
     ds = vc.steady(*contact, along="x", rolling=True, grid=case.grid)  # type: ignore[arg-type]
     assert found.settings == {"indenter.radius": "6 mm"}
     assert float(found.best.friction_coefficient) == float(ds.friction_coefficient[0])

@@ -87,10 +87,8 @@ class Motion(ABC):
 
 
 @dataclass(frozen=True)
-class Standing(Motion):
-    """Body that stays at the origin."""
-
-    stands: ClassVar[bool] = True
+class AtOrigin(Motion):
+    """Body that stays at the origin of its grid."""
 
     def position_at(self, times: ArrayLike) -> Floats:
         """Return the origin, shape (..., 2) [m]."""
@@ -122,6 +120,13 @@ class Standing(Motion):
     def history_under(self, load: LoadHistory) -> LoadHistory:
         """Return the load as it is."""
         return load
+
+
+@dataclass(frozen=True)
+class Standing(AtOrigin):
+    """Body that does not move over the surface."""
+
+    stands: ClassVar[bool] = True
 
 
 STANDING = Standing()

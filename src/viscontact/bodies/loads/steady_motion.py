@@ -6,19 +6,21 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
+from viscontact.bodies.loads.motion import AtOrigin
 from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
-class SteadyMotion:
-    """Speeds [m/s] of a body towards + along an axis; `rolling` as of `Travel`."""
+class SteadyMotion(AtOrigin):
+    """Motion towards + along an axis at constant speeds [m/s]; the grid moves with the body."""
 
     speeds: tuple[float, ...]
     along: str
-    rolling: bool | None
+    rolling: bool | None = None
 
     def __post_init__(self) -> None:
         twice = [speed for speed in self.speeds if self.speeds.count(speed) > 1]
@@ -26,6 +28,15 @@ class SteadyMotion:
             raise ValueError(
                 f"speed: each speed is needed once, got {format_quantity(twice[0], 'm/s')} twice"
             )
+
+
+def steady_motion(speed: ArrayLike, along: str, rolling: bool | None) -> SteadyMotion:
+    """Return the motion of the arguments of `steady`."""
+    if along not in ("x", "y"):
+        raise ValueError(f"along must be 'x' or 'y', got {along!r}")
+    if rolling is not None and not isinstance(rolling, bool | np.bool_):
+        raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
+    return SteadyMotion(tuple(checked_speeds("speed", speed).tolist()), along, rolling)
 
 
 def checked_speeds(name: str, given: Any) -> Floats:

@@ -173,7 +173,7 @@ class Problem:
     @property
     def _steps_over_cells(self) -> bool:
         """True if the body passes a cell, or several, in each step."""
-        return isinstance(self.times, CellTimes) or (self.times is None and not self.motion.stands)
+        return isinstance(self.times, CellTimes) or (self.times is None and any(self.motion.moves))
 
     @property
     def end(self) -> float:

@@ -31,6 +31,8 @@ CONTACT_OF_TURN, LEFT_AFTER_TURN = 0.1, 0.01
 def check_motion(problem: Problem) -> None:
     """Refuse what a moving contact cannot be computed with, before its times are needed."""
     motion, mate = problem.motion, problem.indenter_material
+    if not (motion.stands or any(motion.moves)):
+        raise ValueError("motion: a steady motion is over speed, not over time; use steady")
     if motion.stands or mate is None or not creeps(mate):
         return
     if motion.rolling is None:

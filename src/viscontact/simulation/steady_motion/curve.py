@@ -212,7 +212,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
             "depend on the mesh"
         )
     if problem.tilts_freely:
-        found |= free_tilt_warnings([f"tilt_{problem.along}"])
+        found |= free_tilt_warnings([f"tilt_{problem.motion.along}"])
     return found
 
 

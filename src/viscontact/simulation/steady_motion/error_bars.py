@@ -82,7 +82,7 @@ def error_bars(
         difference = abs(float(getattr(state, name)) - float(getattr(coarse.state, name)))
         factor = 1.0 if at_once and name not in OF_FIRST_ORDER else FIRST_ORDER
         bars[name] = max(factor * difference, least[name])
-    along_motion = f"resistance_{problem.along}"
+    along_motion = f"resistance_{problem.motion.along}"
     forces = bars[along_motion]
     if fine.against.slope_weight and not fine.against.at_end:
         forces = max(forces, FORMS * fine.against.difference)
@@ -91,7 +91,7 @@ def error_bars(
         splitting = problem.contact.surface.splitting_error
         forces += splitting / fine.against.loss_share * abs(fine.against.value)
         # The eccentricity is a moment of the pressure, as the resistance by the slope is.
-        eccentricity = f"eccentricity_{problem.along}"
+        eccentricity = f"eccentricity_{problem.motion.along}"
         relative = max(forces, FORMS * fine.against.difference) / abs(fine.against.value)
         moment = relative * abs(float(getattr(state, eccentricity)))
         bars[eccentricity] = max(bars[eccentricity], moment)

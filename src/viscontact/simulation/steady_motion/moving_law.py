@@ -122,7 +122,7 @@ def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingL
     found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(material)]
     for term in _terms(mate) if mate is not None else ():
         compliance = term.compliance
-        if problem.rolling and not compliance.is_elastic:
+        if problem.motion.rolling and not compliance.is_elastic:
             _relaxed(compliance, last, "rolls")
             curvature = problem.contact.indenter.curvatures[problem.axis]
             series, error, _ = _series(compliance, first, last)

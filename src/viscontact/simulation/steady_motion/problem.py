@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint
-from viscontact.bodies.loads.steady_motion import checked_speeds, constant_load
+from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import creeps
 
@@ -20,20 +19,23 @@ class SteadyProblem:
     """Contact problem of a body in steady motion, checked."""
 
     contact: Problem  # under the constant load `point`
+    motion: SteadyMotion
     point: LoadPoint
-    speeds: Floats  # towards + [m/s]
-    axis: int  # of the motion; 0: x, 1: y
-    rolling: bool | None  # True if material of the body flows through the contact
+
+    @property
+    def speeds(self) -> Floats:
+        """The speeds towards + [m/s]."""
+        return np.array(self.motion.speeds)
+
+    @property
+    def axis(self) -> int:
+        """Axis of the motion; 0: x, 1: y."""
+        return "xy".index(self.motion.along)
 
     @property
     def kept(self) -> Floats:
         """Speeds whose fields are kept [m/s]."""
         return self.contact.kept.among(self.speeds, "speed")
-
-    @property
-    def along(self) -> str:
-        """Name of the axis of the motion."""
-        return "xy"[self.axis]
 
     @property
     def tilts_freely(self) -> bool:
@@ -44,25 +46,16 @@ class SteadyProblem:
         return (self.point.tilt_x, self.point.tilt_y)[self.axis] is None
 
 
-def steady_problem(
-    contact: Problem,
-    speed: ArrayLike,
-    along: str,
-    rolling: bool | None,
-) -> SteadyProblem:
+def steady_problem(contact: Problem, motion: SteadyMotion) -> SteadyProblem:
     """Check a problem of steady motion and complete it."""
-    if along not in ("x", "y"):
-        raise ValueError(f"along must be 'x' or 'y', got {along!r}")
-    if rolling is not None and not isinstance(rolling, bool | np.bool_):
-        raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
-    axis = "xy".index(along)
-    speeds = checked_speeds("speed", speed)
+    problem = SteadyProblem(contact, motion, constant_load(contact.load))
+    axis, rolling = problem.axis, motion.rolling
     periodic = contact.grid.periodic if isinstance(contact.grid, Grid) else (False, False)
     if periodic[axis] and not periodic[1 - axis]:
         raise ValueError(
-            f"grid.periodic: the body moves along {along}, and a grid that is periodic along it "
-            "only would hold other bodies ahead of it and behind it; use a grid that is periodic "
-            "across the motion, along both axes under a body that repeats, or not at all"
+            f"grid.periodic: the body moves along {motion.along}, and a grid that is periodic "
+            "along it only would hold other bodies ahead of it and behind it; use a grid that is "
+            "periodic across the motion, along both axes under a body that repeats, or not at all"
         )
     if periodic[axis] and rolling:
         raise ValueError(
@@ -70,8 +63,8 @@ def steady_problem(
             "roll; give rolling=False"
         )
     _check_bodies(contact, axis, rolling)
-    contact.kept.among(speeds, "speed")
-    return SteadyProblem(contact, constant_load(contact.load), speeds, axis, rolling)
+    contact.kept.among(problem.speeds, "speed")
+    return problem
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:

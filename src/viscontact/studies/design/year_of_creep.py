@@ -28,11 +28,7 @@ CREEP = 1e-6
 def creeps_on(case: Case) -> bool:
     """True if the load of a case is held at its end, and the bodies creep within a year."""
     load = case.load
-    if (
-        case.steady
-        or not isinstance(load, ForceHistory | ApproachHistory)
-        or not case.motion.stands
-    ):
+    if not isinstance(load, ForceHistory | ApproachHistory) or not case.motion.stands:
         return False
     end = case.end if case.adaptive is None else case.adaptive.end
     held = bool(load.kinks[-1] <= end and load.level_at([end])[0] > 0)

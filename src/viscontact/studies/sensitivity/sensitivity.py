@@ -158,7 +158,7 @@ def sensitivity(  # noqa: PLR0913
         raise ValueError(f"step: must be {MOST_STEP} at most, got {step!r}")
     own = case_with(path, fixed)
     require_instant(own, at)
-    if own.steady is None and own.adaptive is not None:
+    if own.adaptive is not None:
         raise ValueError(
             f"{path}: time.spacing: adaptive steps differ from run to run, and so do their errors; "
             "write uniform or log with a number of steps"

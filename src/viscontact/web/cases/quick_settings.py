@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.runs.forecast import Forecast
@@ -36,7 +37,7 @@ def without_cells(settings: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _steps(case: Case) -> Iterator[str]:
-    if case.steady is not None:
+    if isinstance(case.motion, SteadyMotion):
         speed, given = case.document.data["motion"]["speed"], case.document.data.get("output") or {}
         # Fields requested at some of the speeds need these.
         if isinstance(speed, dict) and speed["count"] > STEPS and "fields" not in given:

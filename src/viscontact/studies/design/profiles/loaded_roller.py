@@ -92,7 +92,7 @@ def _require_roller(case: Case, path: Path) -> None:
         raise ValueError(
             f"{path}: indenter: the roller has no end; give length, its total length, e.g. '30 mm'"
         )
-    if not case.motion.stands or case.steady is not None:
+    if not case.motion.stands:
         raise ValueError(f"{path}: motion: a free profile takes a standing contact")
     if case.adaptive is not None:
         raise ValueError(
