@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import xarray as xr
 
 from viscontact.bodies.indenters import Sphere
 from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
 from viscontact.drawing.content.friction import limit_speeds
+from viscontact.drawing.content.history import limits_around
 from viscontact.drawing.content.look import PRESSURE, shades
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import in_order
@@ -42,6 +44,15 @@ def test_held_load_over_decades_suits_a_logarithmic_axis() -> None:
 def test_limits_are_drawn_from_the_least_to_the_largest_speed() -> None:
     found = limit_speeds(xr.Dataset(coords={"speed": [10.0, 0.1]}))[[0, -1]].tolist()
     assert found == [0.1, 10.0]
+
+
+def test_range_of_a_history_holds_its_errors_up_to_its_own_span() -> None:
+    at = np.array([0.0, 1.0])
+    curve = Curve(at, at + 1.0, error=np.array([0.5, np.nan]))
+    assert limits_around([curve]) == pytest.approx((0.425, 2.075))  # 5 % beyond 0.5 and 2
+    wide = Curve(at, at + 1.0, error=np.array([9.0, 9.0]))
+    assert limits_around([wide]) == pytest.approx((0.0, 3.15))  # 5 % beyond 3, and none at 0
+    assert limits_around([Curve(at, 0 * at + 2.0)]) == pytest.approx((0.0, 2.3))
 
 
 def test_shades_have_equal_steps() -> None:

@@ -40,6 +40,10 @@ def travelling() -> OverTime:
     return over_time(times=np.linspace(0.0, 1.0, 5), motion=vc.Travel([0.0, 1.0], y=[0.0, 3e-4]))
 
 
+def choosing() -> OverTime:
+    return over_time(times=vc.adaptive_times(2.0, 0.05))
+
+
 def steady() -> OverSpeed:
     motion = SteadyMotion((1e-2, 1e-3), "y")
     contact = contact_problem(
@@ -74,6 +78,20 @@ def test_only_the_last_state_completes_a_run(make: Callable[[], Analysis[Any, An
     assert len(states) == run.total
     assert [part for part, _ in states] == [n / len(states) for n in range(1, len(states) + 1)]
     assert [last for _, last in states] == [False] * (len(states) - 1) + [True]
+
+
+def test_finished_part_of_adaptive_steps_is_that_of_the_time() -> None:
+    run = choosing()
+    loop = run.states()
+    found = [(state.time, run.part(loop, state)) for state in loop if state is not None]
+    assert [part for _, part in found] == [time / 2.0 for time, _ in found]
+    assert len(found) > 3
+    assert run.total is None
+
+
+def test_material_creeps_up_to_the_end_or_while_the_slowest_body_passes_the_grid() -> None:
+    assert standing().longest_creep == 1.0
+    assert steady().longest_creep == pytest.approx(2.4e-3 / 1e-3)
 
 
 def test_body_without_a_motion_has_none_of_its_scalars() -> None:

@@ -43,6 +43,7 @@ def test_the_certificate_is_that_of_the_returned_pressure(half_space):
         plane = approach + tilt_x * GRID.x[:, None] + tilt_y * GRID.y[None, :]
         gap = SPHERE + displacement - plane
         touching = pressure > 0
+        assert (found.in_contact == touching).all()  # not what merely overlaps within the tolerance
         violation = max(np.abs(gap[touching]).max(), -gap.min()) / displacement.max()
         # Rounding of two routes to the gap; measured 1e-15.
         assert violation == pytest.approx(found.residual, abs=1e-13)

@@ -7,7 +7,12 @@ from hypothesis import strategies as st
 
 import viscontact as vc
 from viscontact.backend import team
-from viscontact.backend.transforms import fastest_transforms, transforms_by
+from viscontact.backend.transforms import (
+    fastest_transforms,
+    fill_of_order,
+    restore_of_order,
+    transforms_by,
+)
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactProblem, ContactSolution, solve_contact
 from viscontact.mechanics.contact.rigid_balance import Constraints
@@ -36,6 +41,15 @@ def test_blocks_of_rows_and_threads_give_the_pressure_of_the_whole(
         assert np.abs(found.values[0] - whole.values[0]).max() < 1e-8 * peak
         again = solved(threads)
         assert again.values.tobytes() == found.values.tobytes()
+
+
+@pytest.mark.parametrize("number", [np.float32, np.float64])
+def test_a_field_that_is_stored_by_its_factor_is_restored(number: type) -> None:
+    field, block, again = np.array([3.0, -4.0]), np.zeros(2, number), np.zeros(2)
+    fill_of_order(4.0, block, field)
+    assert block.tolist() == [0.75, -1.0]
+    restore_of_order(4.0, block, again)
+    assert again.tolist() == [3.0, -4.0]
 
 
 @given(lines=st.integers(0, 3000), row_bytes=st.integers(1, 2**23))

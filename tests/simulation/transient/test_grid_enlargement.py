@@ -173,6 +173,8 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew(
     early = ds.isel(time=0)
     outside = ~np.isin(large.x, small.x)
     assert (early.pressure.values[outside] == 0).all()
+    assert not early.in_contact.values[outside].any()
+    assert early.in_contact.any()
     assert np.isnan(early.gap.values[outside]).all()
     assert np.isfinite(early.gap.values[~outside][:, ~outside]).all()
     assert (ds.pressure.sum(["x", "y"]) * large.cell_area).values == pytest.approx(ds.force.values)

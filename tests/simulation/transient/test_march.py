@@ -180,6 +180,7 @@ def test_states_mark_the_cells_that_touch(name: str) -> None:
         # Within the tolerance of the solver, closed cells are those in contact.
         closed = 2 * run.problem.tolerance * state.displacement.max()
         assert state.in_contact.dtype == bool
+        assert not state.in_contact.flags.writeable  # shared with the run, which goes on from it
         assert (state.gap[state.in_contact] <= closed).all()
         assert (state.pressure[~state.in_contact] == 0).all()
         assert state.in_contact.any() == (state.outcome is Outcome.CONVERGED)
