@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.stats import ttest_1samp
 
 from viscontact.studies.calibration.notes import notes_on
 from viscontact.studies.calibration.search import (
@@ -96,6 +97,14 @@ def test_intervals_of_scattered_values_hold_the_true_ones() -> None:
         held += abs(found.point - TRUE) < found.reach(0.95)
         assert abs(found.correlation[0, 1]) < 0.99
     assert (abs(held - 95) <= 7).all()
+
+
+def test_interval_of_a_mean_is_students() -> None:
+    values = np.array([1.0, 2.0, 4.0, 7.0])
+    ones = np.ones((4, 1))
+    found = Optimum(np.array([values.mean()]), np.zeros(1), values.mean() - values, ones, True)
+    (low, high) = ttest_1samp(values, 0.0).confidence_interval(0.95)
+    assert found.reach(0.95)[0] == pytest.approx((high - low) / 2, rel=1e-12)
 
 
 def test_spent_runs_leave_the_best_values_with_a_note() -> None:

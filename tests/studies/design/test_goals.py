@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from viscontact.studies.design.goals import Constraint, constraints_of
 from viscontact.studies.design.scenarios import Deviation, Scenario
-from viscontact.studies.design.trade_off import compromises
+from viscontact.studies.design.trade_off import compromises, not_dominated
 
 
 def test_violation_is_the_excess_relative_to_the_bound() -> None:
@@ -22,6 +26,11 @@ def test_deviation_is_added_to_a_value_with_its_unit() -> None:
 def test_scenario_adds_its_deviation_to_the_trial() -> None:
     wide = Scenario("wide", {"load.force": "1 N"}, {"load.x": Deviation("2 mm", "5 mm")})
     assert wide.settings({"load.x": "3 mm"}) == {"load.force": "1 N", "load.x": "0.005 m"}
+
+
+def test_a_trial_that_is_equal_in_one_goal_and_worse_in_another_is_dominated() -> None:
+    costs = [[0.0, 1.0], [0.0, 2.0], [1.0, 0.0], [2.0, 0.5], [math.nan, 0.0], [0.0, 1.0]]
+    assert not_dominated(np.array(costs)).tolist() == [True, False, True, False, False, True]
 
 
 def test_compromises_have_positive_weights_and_end_with_equal_ones() -> None:

@@ -160,6 +160,8 @@ def test_any_number_of_runs_is_drawn_without_a_warning(method: str, number: int)
 def test_bounds_in_different_units_are_those_of_one_dimension() -> None:
     found = read_range("load.force = 500 N : 2 kN")
     assert (found.low, found.high, found.unit) == (500.0, 2000.0, "N")
+    found = read_range("load.force=2 kN:9000 N")
+    assert (found.low, found.high, found.unit) == (2000.0, 9000.0, "N")
     percent = read_range("grid.tolerance=1 %:5 %")
     assert percent.value(0.5) == "3 %"
     assert read_range("material.poisson_ratio=0.3:0.5").value(0.0) == "0.3"
