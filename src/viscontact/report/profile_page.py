@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.drawing.matplotlib.sweeps.profiles import profiles
+from viscontact.drawing.matplotlib.sweeps.design import profiles
 from viscontact.drawing.svg.html import element
 from viscontact.report.creep_gains import gains_over_a_year
 from viscontact.report.design_page import before_and_after

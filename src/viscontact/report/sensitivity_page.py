@@ -9,8 +9,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.drawing.matplotlib.sweeps.scatter_bands import scatter_bands
-from viscontact.drawing.matplotlib.sweeps.tornado import tornado
+from viscontact.drawing.matplotlib.sweeps.sensitivity import scatter_bands, tornado
 from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import (
     drawn_figure,

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.panel import Axis
 from viscontact.results.sweep_axes import key_label
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
@@ -16,37 +15,21 @@ from viscontact.units.formatting import ReadableUnit, format_compact, readable_u
 _DECADE = 9.0
 
 
-@dataclass(frozen=True)
-class KeyAxis:
+def key_axis(ds: xr.Dataset, key: str) -> Axis:
     """Axis of a key: numbers in a readable unit, or texts at equal distances."""
+    if not is_number(ds, key):
+        texts = tuple(dict.fromkeys(map(str, ds[key].values.ravel())))
+        return Axis(key_label(key), ReadableUnit("", 1.0), texts=texts)
+    known = np.unique(ds[key].values[np.isfinite(ds[key].values)])
+    unit = readable_unit(ds[key].attrs.get("units", "1"), known)
+    return Axis(key_label(key), unit, scale="log" if _suits_logarithm(known) else "linear")
 
-    name: str
-    unit: ReadableUnit
-    texts: tuple[str, ...]  # empty for numbers
-    span: float = 1.0  # ratio of the largest to the least value of a logarithmic axis, else 1
 
-    @classmethod
-    def of(cls, ds: xr.Dataset, key: str) -> KeyAxis:
-        """Return the axis of a key of a sweep."""
-        values = ds[key].values
-        if not is_number(ds, key):
-            texts = tuple(dict.fromkeys(map(str, values.ravel())))
-            return cls(key_label(key), ReadableUnit("", 1.0), texts)
-        known = np.unique(values[np.isfinite(values)])
-        unit = readable_unit(ds[key].attrs.get("units", "1"), known)
-        span = float(known[-1] / known[0]) if _suits_logarithm(known) else 1.0
-        return cls(key_label(key), unit, (), span)
-
-    @property
-    def is_log(self) -> bool:
-        """True for a logarithmic axis."""
-        return self.span > 1.0
-
-    def at(self, values: NDArray[np.generic]) -> Floats:
-        """Places of values on the axis."""
-        if self.texts:
-            return np.array([self.texts.index(str(value)) for value in values], dtype=np.float64)
-        return self.unit(values)
+def places_on(axis: Axis, values: NDArray[np.generic]) -> Floats:
+    """Places of values of a key on its axis: numbers [SI], or positions of texts."""
+    if not axis.texts:
+        return np.asarray(values, dtype=np.float64)
+    return np.array([axis.texts.index(str(value)) for value in values], dtype=np.float64)
 
 
 def key_labels(ds: xr.Dataset, key: str) -> list[str]:

@@ -53,13 +53,20 @@ class Ink:
     """Colour of a curve by its meaning; each renderer has its own shades."""
 
     # "run" is one of several different things, by its number from 0; "ordered" one of a sequence,
-    # by its place from 0 (first) to 1 (last); "fit" what was fitted to measured points.
-    kind: Literal["run", "ordered", "fit", "faint", "text"] = "run"
+    # by its place from 0 (first) to 1 (last); "fit" what was fitted to measured points; "pale"
+    # what is set aside.
+    kind: Literal["run", "ordered", "fit", "faint", "pale", "text"] = "run"
     place: float = 0
 
 
-#: What is shown, what is compared with it, and lines of less importance.
-FIRST, SECOND, FAINT = Ink(), Ink(place=1), Ink("faint")
+#: What is shown, what is compared with it, lines of less importance, what is set aside, and text.
+FIRST, SECOND, FAINT, PALE, TEXT = Ink(), Ink(place=1), Ink("faint"), Ink("pale"), Ink("text")
+
+
+#: Lines, markers, both ("joined"), or horizontal bars from 0.
+CurveLook = Literal[
+    "line", "dashed", "dotted", "points", "hollow", "cross", "square", "joined", "bars"
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +77,7 @@ class Curve:
     y: Floats
     name: str = ""  # in the legend
     ink: Ink = FIRST
-    look: Literal["line", "dashed", "dotted", "points", "hollow", "joined"] = "line"
+    look: CurveLook = "line"
     #: Half widths: bands along a line, bars at points; NaN where unknown, inf on the mesh.
     error: Floats | None = None
     error_x: Floats | None = None
@@ -95,6 +102,7 @@ class Mark:
     axis: Literal["x", "y"] = "x"
     text: str = ""
     look: Literal["line", "dashed", "dotted"] = "line"
+    ink: Ink = FAINT
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.drawing.content.key_axis import KeyAxis, is_number, key_labels
+from viscontact.drawing.content.key_axis import is_number, key_axis, key_labels, places_on
 from viscontact.results.largest_values import compared_scalars, largest_values
 from viscontact.results.sweep_axes import run_dims, varied_keys
 
@@ -34,9 +34,9 @@ class SweptKeys:
 
 @dataclass(frozen=True)
 class RunGroup:
-    """Some runs: places on the axis, largest values [SI], errors, and those without a result."""
+    """Some runs: places, largest values, errors [SI], and those without a result."""
 
-    places: Floats
+    places: Floats  # on the axis
     values: Floats
     errors: Floats  # inf for a value that depends on the mesh
     missing: Bools
@@ -65,18 +65,18 @@ def points_over(ds: xr.Dataset, name: str, key: str) -> RunGroup:
     values, errors = (each.values.ravel() for each in largest_values(ds, name))
     places = xr.broadcast(ds[key], ds["state"])[0].transpose(*ds["state"].dims).values.ravel()
     missing = (ds["state"] != "done").values.ravel()
-    return RunGroup(KeyAxis.of(ds, key).at(places), values, errors, missing, _names(ds))
+    return RunGroup(places_on(key_axis(ds, key), places), values, errors, missing, _names(ds))
 
 
 def curves_over(ds: xr.Dataset, name: str, keys: list[str]) -> Iterator[RunGroup]:
     """Runs over the first key, for each value of the second one."""
-    axis, missing = KeyAxis.of(ds, keys[0]), ds["state"] != "done"
+    axis, missing = key_axis(ds, keys[0]), ds["state"] != "done"
     arrays = (*largest_values(ds, name), missing)
     values, errors, lost = (each.transpose(*keys).values for each in arrays)
     shape = (values.shape[0], -1)
     names = np.array(_names(ds.transpose(*keys, ...)), dtype=object).reshape(shape)
     labels = key_labels(ds, keys[1]) if len(keys) > 1 else [""]
-    places = axis.at(ds[keys[0]].values)
+    places = places_on(axis, ds[keys[0]].values)
     for row, label in enumerate(labels):
         value, error, is_lost = (each.reshape(shape)[:, row] for each in (values, errors, lost))
         yield RunGroup(

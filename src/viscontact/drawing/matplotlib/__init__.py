@@ -56,12 +56,9 @@ from viscontact.drawing.matplotlib.pressure.pressure_surface import (
 )
 from viscontact.drawing.matplotlib.pressure.stress_section import stress_section
 from viscontact.drawing.matplotlib.result_plots import ResultPlots, add_methods
-from viscontact.drawing.matplotlib.sweeps.profiles import profiles
+from viscontact.drawing.matplotlib.sweeps.design import profiles, trade_off, trials
 from viscontact.drawing.matplotlib.sweeps.response import response
-from viscontact.drawing.matplotlib.sweeps.scatter_bands import scatter_bands
-from viscontact.drawing.matplotlib.sweeps.tornado import tornado
-from viscontact.drawing.matplotlib.sweeps.trade_off import trade_off
-from viscontact.drawing.matplotlib.sweeps.trials import trials
+from viscontact.drawing.matplotlib.sweeps.sensitivity import scatter_bands, tornado
 
 __all__ = [
     "ANIMATION_SUFFIXES",

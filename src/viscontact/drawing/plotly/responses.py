@@ -9,8 +9,9 @@ import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
 
-from viscontact.drawing.content.key_axis import KeyAxis
+from viscontact.drawing.content.key_axis import key_axis
 from viscontact.drawing.content.look import LIGHT, Look
+from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.content.response import RunGroup, curves_over, points_over, swept_keys
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.sweep_axes import key_label
@@ -36,7 +37,7 @@ def responses(ds: xr.Dataset, look: Look = LIGHT) -> list[go.Figure]:
         return [
             _figure(
                 name,
-                KeyAxis.of(ds, key),
+                key_axis(ds, key),
                 [points_over(ds, name, key)],
                 look,
                 limits,
@@ -45,7 +46,7 @@ def responses(ds: xr.Dataset, look: Look = LIGHT) -> list[go.Figure]:
             for name in swept.scalars
             for number, key in enumerate(keys)
         ]
-    axis, by = KeyAxis.of(ds, keys[0]), ", ".join(map(key_label, keys[1:]))
+    axis, by = key_axis(ds, keys[0]), ", ".join(map(key_label, keys[1:]))
     return [
         _figure(name, axis, list(curves_over(ds, name, keys)), look, limits, by=by)
         for name in swept.scalars
@@ -54,7 +55,7 @@ def responses(ds: xr.Dataset, look: Look = LIGHT) -> list[go.Figure]:
 
 def _figure(
     name: str,
-    axis: KeyAxis,
+    axis: Axis,
     groups: list[RunGroup],
     look: Look,
     limits: Mapping[str, float],
@@ -68,7 +69,7 @@ def _figure(
     traces = [
         trace
         for group, colour in zip(groups, colours, strict=True)
-        for trace in _traces(group, colour, SCALARS[name].units, unit, look, limit)
+        for trace in _traces(group, axis, colour, SCALARS[name].units, unit, look, limit)
     ]
     is_near = bool(limit <= _FAR * np.nanmax(sizes))
     line, words = _limit_line(unit, limit, look) if is_near else ([], [])
@@ -105,10 +106,16 @@ def _limit_line(unit: ReadableUnit, limit: float, look: Look) -> tuple[list[Part
 
 
 def _traces(
-    group: RunGroup, colour: str, si: str, unit: ReadableUnit, look: Look, limit: float
+    group: RunGroup,
+    axis: Axis,
+    colour: str,
+    si: str,
+    unit: ReadableUnit,
+    look: Look,
+    limit: float,
 ) -> Iterator[Part]:
     """Curve with error bars, hollow points that depend on the mesh, crosses without a result."""
-    values, errors = unit(group.values), unit(group.errors)
+    places, values, errors = axis.unit(group.places), unit(group.values), unit(group.errors)
     on_mesh = np.isposinf(group.errors)
     sure = np.where(on_mesh, np.nan, values)
     bars = np.where(np.isfinite(errors), errors, 0.0)
@@ -119,7 +126,7 @@ def _traces(
         for run, value, error in sizes
     ]
     curve: Part = {
-        **{"x": numbers(group.places), "y": numbers(sure), "name": escape(group.label)},
+        **{"x": numbers(places), "y": numbers(sure), "name": escape(group.label)},
         "mode": "lines+markers" if group.is_joined else "markers",
         "line": {"color": colour, "width": 1.8},
         "marker": {"color": colour, "size": 7},
@@ -137,7 +144,7 @@ def _traces(
     ):
         if chosen.any():
             yield {
-                **{"x": numbers(group.places[chosen]), "y": numbers(up[chosen])},
+                **{"x": numbers(places[chosen]), "y": numbers(up[chosen])},
                 **{"mode": "markers", "showlegend": False, "legendgroup": group.label},
                 "marker": {"color": ink, "size": 8, "symbol": symbol},
                 "text": np.array(text)[chosen].tolist(),
@@ -146,15 +153,15 @@ def _traces(
             }
 
 
-def _across(axis: KeyAxis) -> Part:
+def _across(axis: Axis) -> Part:
     """Axis of a key: texts at equal distances, or numbers, logarithmic over decades."""
-    found: Part = {"title": {"text": axis.unit.label(axis.name)}}
+    found: Part = {"title": {"text": axis.label}}
     if axis.texts:
         return found | {
             "tickvals": list(range(len(axis.texts))),
             "ticktext": list(map(escape, axis.texts)),
         }
-    return found | ({"type": "log", "dtick": "D2"} if axis.is_log else {})
+    return found | ({"type": "log", "dtick": "D2"} if axis.scale == "log" else {})
 
 
 def _range(groups: list[RunGroup], unit: ReadableUnit, limit: float) -> list[float]:

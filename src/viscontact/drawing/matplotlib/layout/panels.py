@@ -24,7 +24,14 @@ _LOOKS: Mapping[str, dict[str, Any]] = {
     "joined": {"marker": "o", "markersize": 3.5},
     "points": {"marker": "o", "markersize": 3.5, "linestyle": "none"},
     "hollow": {"marker": "o", "markersize": 3.2, "linestyle": "none", "markerfacecolor": "none"},
+    "cross": {"marker": "x", "markersize": 3.5, "linestyle": "none"},
+    "square": {
+        **{"marker": "s", "markersize": 8.0, "linestyle": "none", "markerfacecolor": "none"},
+        "zorder": 2.1,  # around a point with its error bars
+    },
 }
+#: Errors of bars.
+_CAPPED: Mapping[str, Any] = {"ecolor": style.INK, "elinewidth": 0.9, "capsize": 2.0}
 _MARKS = {"line": "-", "dashed": "--", "dotted": ":"}
 
 
@@ -48,24 +55,21 @@ def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
 def draw_panel(axes: Axes, panel: Panel) -> list[Band]:
     """Draw a panel, and return the error bands of its curves."""
     style.dress(axes)
-    for curve in panel.curves:
-        axes.plot(
-            panel.x.unit(curve.x),
-            panel.y.unit(curve.y),
-            label=curve.name,
-            **style.look_of(curve.ink) | _LOOKS[curve.look],
-        )
-    bands = [band for curve in panel.curves for band in _errors(axes, panel, curve)]
     for shaded in panel.bands:
         look = {"color": style.look_of(shaded.ink)["color"], "alpha": 0.25, "linewidth": 0.0}
         edges = panel.y.unit(shaded.low), panel.y.unit(shaded.high)
         axes.fill_between(panel.x.unit(shaded.x), *edges, label=shaded.name, **look)
+    for curve in panel.curves:
+        _draw_curve(axes, panel.x.unit(curve.x), panel.y.unit(curve.y), curve)
+    bands = [band for curve in panel.curves for band in _errors(axes, panel, curve)]
     for mark in panel.marks:
         _draw_mark(axes, panel, mark)
     axes.set_ylabel(panel.y.label)
     if panel.y.limits is not None:
         axes.set_ylim(*panel.y.unit(panel.y.limits))
-    if panel.y.scale == "log":
+    if panel.y.texts:
+        axes.set_yticks(range(len(panel.y.texts)), panel.y.texts)
+    elif panel.y.scale == "log":
         axes.set_yscale("log")
     else:
         axes.ticklabel_format(axis="y", useOffset=False)
@@ -77,6 +81,14 @@ def draw_panel(axes: Axes, panel: Panel) -> list[Band]:
     if panel.note:
         style.add_heading(axes, panel.note, aside=True)
     return bands
+
+
+def _draw_curve(axes: Axes, x: Floats, y: Floats, curve: Curve) -> None:
+    look = style.look_of(curve.ink)
+    if curve.look == "bars":
+        axes.barh(y, x, height=0.65, color=look["color"], alpha=0.8, label=curve.name)
+    else:
+        axes.plot(x, y, label=curve.name, **look | _LOOKS[curve.look])
 
 
 def scale_along(axes: Axes, axis: Axis) -> None:
@@ -107,7 +119,8 @@ def _errors(axes: Axes, panel: Panel, curve: Curve) -> list[Band]:
         if curve.look not in ("line", "dashed", "dotted"):
             bars = np.where(np.isfinite(error), axis.unit(error), 0.0)
             how: dict[str, Any] = {"xerr" if sideways else "yerr": bars}
-            axes.errorbar(x, y, fmt="none", ecolor=colour, elinewidth=0.8, **how)
+            how |= _CAPPED if curve.look == "bars" else {"ecolor": colour, "elinewidth": 0.8}
+            axes.errorbar(x, y, fmt="none", **how)
             continue
         for part in _branches(y if sideways else x):
             half = axis.unit(error[part])
@@ -125,9 +138,8 @@ def _branches(along: Floats) -> list[Any]:
 
 
 def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
-    look: dict[str, Any] = {
-        **{"color": style.FAINT, "linestyle": _MARKS[mark.look], "linewidth": style.THIN_LINE}
-    }
+    look: dict[str, Any] = {"linestyle": _MARKS[mark.look], "linewidth": style.THIN_LINE}
+    look["color"] = style.look_of(mark.ink)["color"]
     if mark.axis == "x":
         axes.axvline(float(panel.x.unit(mark.place)), **look)
     else:

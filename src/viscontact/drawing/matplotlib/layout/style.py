@@ -163,6 +163,8 @@ def look_of(ink: Ink) -> dict[str, Any]:
         return line | {"color": RUNS[number % len(RUNS)], "linestyle": dashes}
     if ink.kind == "ordered":
         return line | {"color": shades(INSTANTS, 1, LIGHT.late * ink.place)[0]}
+    if ink.kind == "pale":
+        return line | {"color": FAINT, "alpha": 0.6}
     return line | {"color": {"fit": BODY, "faint": FAINT, "text": INK}[ink.kind]}
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from textwrap import fill
 
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
+from matplotlib.axis import Axis as Scale
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from viscontact.drawing.content.key_axis import KeyAxis
+from viscontact.drawing.content.panel import Axis
 from viscontact.units.formatting import format_compact
 
 #: Ratio of the ends from which a logarithmic axis has powers of ten only.
@@ -17,21 +17,22 @@ _FEW_DECADES = 1e2
 _MOST_TEXTS = 16
 
 
-def label_key(axes: Axes, key: KeyAxis, letters: int) -> None:
+def label_key(axes: Axes, key: Axis, letters: int) -> None:
     """Label the horizontal axis in lines of some letters, and choose its scale."""
-    axes.set_xlabel(fill(key.unit.label(key.name), letters))
-    if key.is_log:
+    axes.set_xlabel(fill(key.label, letters))
+    if key.scale == "log":
         axes.set_xscale("log")
-        place_log_ticks(axes.xaxis, key.span)
+        place_log_ticks(axes.xaxis)
     if key.texts:
         every = -(-len(key.texts) // _MOST_TEXTS)
         axes.set_xticks(range(0, len(key.texts), every))
         axes.set_xticklabels(key.texts[::every], rotation=30, ha="right")
 
 
-def place_log_ticks(axis: Axis, span: float) -> None:
-    """Place plain numbers at the ticks of a logarithmic axis with a ratio of its ends."""
-    subs = (1.0, 2.0, 5.0) if span < _FEW_DECADES else (1.0,)
+def place_log_ticks(axis: Scale) -> None:
+    """Place plain numbers at the ticks of a logarithmic axis."""
+    low, high = axis.get_data_interval()
+    subs = (1.0, 2.0, 5.0) if high < _FEW_DECADES * low else (1.0,)
     axis.set_major_locator(LogLocator(subs=subs))
     axis.set_major_formatter(FuncFormatter(lambda value, _: format_compact(value)))
     axis.set_minor_formatter(NullFormatter())

@@ -10,7 +10,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from viscontact.drawing.content.key_axis import KeyAxis
+from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.key_axis import key_axis
+from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.content.response import (
     RunGroup,
     SweptKeys,
@@ -109,13 +111,13 @@ def _panels(swept: SweptKeys, across: float, *, is_map: bool) -> Figure:
     panels = list(figure.subplots(rows, columns, squeeze=False).flat)
     for unused in panels[len(scalars) :]:
         unused.remove()
-    axis = KeyAxis.of(ds, keys[0])
+    axis = key_axis(ds, keys[0])
     for name, axes in zip(scalars, panels, strict=False):
         style.dress(axes)
         if is_map:
             _draw_map(axes, ds, name, axis, *keys)
         else:
-            _draw_curves(axes, name, list(curves_over(ds, name, keys)))
+            _draw_curves(axes, name, axis, list(curves_over(ds, name, keys)))
         label_key(axes, axis, _letters(across, columns))
     if has_legend:
         handles, labels = panels[0].get_legend_handles_labels()
@@ -131,8 +133,9 @@ def _points(swept: SweptKeys, across: float) -> Figure:
     for row, name in zip(grid, scalars, strict=True):
         for key, axes in zip(keys, row, strict=True):
             style.dress(axes)
-            _draw_curves(axes, name, [points_over(swept.ds, name, key)])
-            label_key(axes, KeyAxis.of(swept.ds, key), _letters(across, len(keys)))
+            axis = key_axis(swept.ds, key)
+            _draw_curves(axes, name, axis, [points_over(swept.ds, name, key)])
+            label_key(axes, axis, _letters(across, len(keys)))
         for axes in row[1:]:
             axes.set_ylabel("")
     for axes in grid[:-1].flat:
@@ -145,7 +148,7 @@ def _letters(across: float, columns: int = 1) -> int:
     return int(across / columns / _LETTER)
 
 
-def _draw_curves(axes: Axes, name: str, groups: list[RunGroup]) -> None:
+def _draw_curves(axes: Axes, name: str, axis: Axis, groups: list[RunGroup]) -> None:
     """Curves or points of a scalar, one for each group of runs, in a common unit."""
     unit = readable_unit(SCALARS[name].units, *(group.values for group in groups))
     axes.set_ylabel(unit.label(SCALARS[name].label))
@@ -153,12 +156,15 @@ def _draw_curves(axes: Axes, name: str, groups: list[RunGroup]) -> None:
     looks = styles_of([group.label for group in groups]) if few else []
     colours = [look["color"] for look in looks] or style.time_colours(len(groups))
     for number, (group, colour) in enumerate(zip(groups, colours, strict=True)):
-        _draw_group(axes, group, unit, colour, group.label if few or number in (0, last) else "")
+        label = group.label if few or number in (0, last) else ""
+        _draw_group(axes, group, axis.unit(group.places), unit, colour, label)
 
 
-def _draw_group(axes: Axes, group: RunGroup, unit: ReadableUnit, colour: str, label: str) -> None:
+def _draw_group(
+    axes: Axes, group: RunGroup, places: Floats, unit: ReadableUnit, colour: str, label: str
+) -> None:
     """Draw a curve or points with error bars; hollow markers depend on the mesh."""
-    places, values, errors = group.places, unit(group.values), unit(group.errors)
+    values, errors = unit(group.values), unit(group.errors)
     marked = np.isposinf(errors)
     size = 3.5 if values.size <= _MANY else 2.0
     # Values that depend on the mesh of each run are no curve.
@@ -173,11 +179,11 @@ def _draw_group(axes: Axes, group: RunGroup, unit: ReadableUnit, colour: str, la
         axes.errorbar(places, values, bars, fmt="none", ecolor=colour, elinewidth=0.8)
 
 
-def _draw_map(axes: Axes, ds: xr.Dataset, name: str, across: KeyAxis, key: str, by: str) -> None:
+def _draw_map(axes: Axes, ds: xr.Dataset, name: str, across: Axis, key: str, by: str) -> None:
     """Contours of a scalar over two keys, with a dot for each run."""
-    largest, up = largest_values(ds, name)[0].transpose(by, key).values, KeyAxis.of(ds, by)
+    largest, up = largest_values(ds, name)[0].transpose(by, key).values, key_axis(ds, by)
     missing = (ds["state"] != "done").transpose(by, key).values
-    x, y = across.at(ds[key].values), up.at(ds[by].values)
+    x, y = (axis.unit(ds[each].values) for axis, each in ((across, key), (up, by)))
     unit = readable_unit(SCALARS[name].units, largest)
     values = np.ma.masked_invalid(unit(largest))
     drawn = axes.contourf(x, y, values, _CONTOURS, cmap="viridis")
@@ -187,8 +193,8 @@ def _draw_map(axes: Axes, ds: xr.Dataset, name: str, across: KeyAxis, key: str, 
     points_x, points_y = np.meshgrid(x, y)
     axes.plot(points_x[has_value], points_y[has_value], ".", color="white", markersize=2.0)
     axes.plot(points_x[missing], points_y[missing], "x", color=style.INK, markersize=3)
-    axes.set_ylabel(up.unit.label(up.name))
-    if up.is_log:
+    axes.set_ylabel(up.label)
+    if up.scale == "log":
         axes.set_yscale("log")
-        place_log_ticks(axes.yaxis, up.span)
+        place_log_ticks(axes.yaxis)
     style.add_heading(axes, unit.label(SCALARS[name].label))
