@@ -18,11 +18,11 @@ from viscontact.runs.directory.checkpoint import (
     load_checkpoint,
 )
 from viscontact.runs.directory.differences import Difference, differences
+from viscontact.runs.directory.earlier_result import stored_run
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter, working_files
-from viscontact.runs.directory.stored_result import stored_run
 
 
 class ChangedCaseError(ValueError):

@@ -18,6 +18,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.mechanics.state import ContactState
 from viscontact.results.enlarged_grid import enlargement
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
+from viscontact.runs.directory.earlier_result import check_result, stored_grid
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.netcdf_layout import (
     Contents,
@@ -32,7 +33,6 @@ from viscontact.runs.directory.netcdf_layout import (
     write_fields,
     write_scalars,
 )
-from viscontact.runs.directory.stored_result import check_result, stored_grid
 from viscontact.runs.directory.write_guard import WriteGuard
 from viscontact.simulation.accuracy.error_bars import ErrorBars
 from viscontact.simulation.transient.provenance import date_and_time

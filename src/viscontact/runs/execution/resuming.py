@@ -13,8 +13,8 @@ from viscontact.case.yaml_source import parse
 from viscontact.results.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.differences import Difference, differences
+from viscontact.runs.directory.earlier_result import StoredRun, stored_run
 from viscontact.runs.directory.recorded import Recorded
-from viscontact.runs.directory.stored_result import StoredRun, stored_run
 from viscontact.runs.execution.run_directory import (
     is_of_a_run,
     refuse_no_directory,

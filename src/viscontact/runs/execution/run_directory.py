@@ -16,10 +16,10 @@ from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, 
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.checkpoint import is_checkpoint
+from viscontact.runs.directory.earlier_result import stored_run
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.progress_log import is_course
-from viscontact.runs.directory.stored_result import stored_run
 
 #: Files that a run overwrites, and functions that recognize those written by a run.
 _WRITTEN = {STATE_NAME: is_checkpoint, PROGRESS_NAME: is_course}

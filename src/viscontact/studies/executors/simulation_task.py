@@ -19,11 +19,11 @@ from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.analysis import plain_case
 from viscontact.runs.command_error import CommandError, refuse
 from viscontact.runs.directory.differences import NOTHING, differences
+from viscontact.runs.directory.earlier_result import stored_run
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder
-from viscontact.runs.directory.stored_result import stored_run
 from viscontact.runs.execution.run_directory import refuse_no_directory, reserved
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.over_time import OverTime

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.earlier_result import stored_run
 from viscontact.runs.directory.lock import is_locked
-from viscontact.runs.directory.stored_result import stored_run
 from viscontact.studies.sweep.equal_values import comparable
 from viscontact.studies.sweep.manifest import SweepRun, read_manifest
 
