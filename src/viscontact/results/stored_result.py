@@ -4,17 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, TypeVar, Union
 
 import netCDF4
 import numpy as np
 
 from viscontact.results.run_files import RESULT_NAME
+from viscontact.results.variables import FIELDS
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _Opened = TypeVar("_Opened")
+
+
+def open_file(path: Path, mode: Literal["r", "a"] = "r") -> netCDF4.Dataset:
+    """Open a result without masks, ``"r"`` for reading or ``"a"`` for appending."""
+    file = netCDF4.Dataset(str(path), mode)
+    # NaN is the fill value and would be masked.
+    file.set_auto_maskandscale(False)
+    keep_little(file)
+    return file
+
+
+def keep_little(file: netCDF4.Dataset) -> None:
+    """Let HDF5 write fields at once: its default cache holds some dozen rows until closing."""
+    for name in FIELDS:
+        if name in file.variables:
+            file.variables[name].set_var_chunk_cache(size=1, nelems=1, preemption=1.0)
 
 
 class StoredVariable:
@@ -42,8 +59,7 @@ class StoredResult:
     """Result file, with the attributes of an xarray.Dataset that tables use."""
 
     def __init__(self, file: Path) -> None:
-        self._file = netCDF4.Dataset(file)
-        self._file.set_auto_mask(False)
+        self._file = open_file(file)
         self.encoding = {"source": str(file)}
         self.attrs = {name: self._file.getncattr(name) for name in self._file.ncattrs()}
         self.sizes = {name: len(axis) for name, axis in self._file.dimensions.items()}
@@ -78,10 +94,10 @@ Result: TypeAlias = Union["xr.Dataset", StoredResult]
 
 def stored_result(path: str | Path) -> StoredResult:
     """Open the result in a run directory or a file; errors are those of `open_results`."""
-    return opened_file(path, StoredResult)
+    return opened(path, StoredResult)
 
 
-def opened_file(path: str | Path, open_file: Callable[[Path], _Opened]) -> _Opened:
+def opened(path: str | Path, open_file: Callable[[Path], _Opened]) -> _Opened:
     """Open the result in a run directory or a file, which a run may replace meanwhile.
 
     FileNotFoundError if there is none, ValueError if it cannot be read.

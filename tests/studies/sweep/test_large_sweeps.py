@@ -12,8 +12,8 @@ import pytest
 
 import viscontact as vc
 from swept_runs import sweep_of
+from viscontact.results import stored_result
 from viscontact.results.run_files import MANIFEST_NAME
-from viscontact.runs.directory import netcdf_layout
 from viscontact.studies.sweep.collecting import write_joint_result
 from viscontact.studies.sweep.joint_layout import JointLayout, joint_layout
 from viscontact.studies.sweep.manifest import SweepRun, write_manifest
@@ -73,7 +73,7 @@ def test_no_result_file_is_opened_for_scalars_and_states(
 
     with monkeypatch.context() as patched:
         patched.setattr(netCDF4, "Dataset", refuse)
-        patched.setattr(netcdf_layout.netCDF4, "Dataset", refuse)
+        patched.setattr(stored_result.netCDF4, "Dataset", refuse)
         ds = vc.open_many(sweep)
         assert sweep_status(sweep).counts[State.DONE] == 30
     with vc.open_results(run) as one:

@@ -12,9 +12,10 @@ import numpy as np
 
 from viscontact.bodies.grid import Grid
 from viscontact.results.descriptions import parse_case
+from viscontact.results.stored_result import open_file
 from viscontact.results.variables import AXES
 from viscontact.runs.directory.checkpoint import REMEDY
-from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
+from viscontact.runs.directory.netcdf_layout import Extent, Layout
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class StoredRun:
 def stored_run(path: Path) -> StoredRun:
     """Read the description of a stored result; ValueError if it cannot be read as one."""
     try:
-        with opened(path, "r") as file:
+        with open_file(path) as file:
             over = next((name for name in AXES if name in file.dimensions), None)
             if over is None:
                 raise ValueError("it has no times")
@@ -53,7 +54,7 @@ def check_result(path: Path, layout: Layout, extent: Extent) -> None:
     if not path.is_file():
         raise ValueError(f"{path} is missing, so the run cannot be continued; {REMEDY}")
     try:
-        with opened(path, "r") as file:
+        with open_file(path) as file:
             fault = _fault(file, layout, extent) or _fault_of_scalars(file, layout, extent)
     except (OSError, RuntimeError, ValueError) as error:
         raise ValueError(f"{path} cannot be read as a netCDF result ({error}); {REMEDY}") from error
@@ -64,7 +65,7 @@ def check_result(path: Path, layout: Layout, extent: Extent) -> None:
 def stored_grid(path: Path, grid: Grid) -> Grid:
     """Return the grid of a result, whose run may have enlarged the given grid."""
     try:
-        with opened(path, "r") as file:
+        with open_file(path) as file:
             return grid.widened((len(file.dimensions["x"]), len(file.dimensions["y"])))
     except (OSError, RuntimeError, ValueError, KeyError):
         return grid  # `check_result` reports what is wrong with the file

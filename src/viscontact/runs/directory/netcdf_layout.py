@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
@@ -16,6 +16,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.state import ContactState
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
+from viscontact.results.stored_result import keep_little
 from viscontact.results.variables import (
     AXES,
     COORDINATES,
@@ -132,7 +133,7 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
     file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
     for name in layout.scalars:
         file[name].setncatts(scalar_attributes(name, errors=layout.errors))
-    _keep_little(file)
+    keep_little(file)
     return file
 
 
@@ -157,22 +158,6 @@ def _create(
         # Mostly 0. Gap and displacement hardly shrink, at many times the cost of writing.
         options |= {"zlib": True, "complevel": 1, "shuffle": True}
     file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
-
-
-def opened(path: Path, mode: Literal["r", "a"]) -> netCDF4.Dataset:
-    """Open a result without masks, ``"r"`` for reading or ``"a"`` for appending."""
-    file = netCDF4.Dataset(str(path), mode)
-    # NaN is the fill value and would be masked.
-    file.set_auto_maskandscale(False)
-    _keep_little(file)
-    return file
-
-
-def _keep_little(file: netCDF4.Dataset) -> None:
-    """Let HDF5 write fields at once: its default cache holds some dozen rows until closing."""
-    for name in FIELDS:
-        if name in file.variables:
-            file.variables[name].set_var_chunk_cache(size=1, nelems=1, preemption=1.0)
 
 
 def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState]) -> None:

@@ -17,6 +17,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.state import ContactState
 from viscontact.results.enlarged_grid import enlargement
+from viscontact.results.stored_result import open_file
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
 from viscontact.runs.directory.earlier_result import check_result, stored_grid
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -27,7 +28,6 @@ from viscontact.runs.directory.netcdf_layout import (
     copy_rows,
     created,
     described_fields,
-    opened,
     read_scalars,
     write_errors,
     write_fields,
@@ -204,7 +204,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         try:
             self._open = file = created(self._working, self._layout, self._attributes)
             if source is not None and layout is not None:
-                with opened(source, "r") as stored:
+                with open_file(source) as stored:
                     copy_rows(stored, file, layout, self._layout.grid, self._done)
         except BaseException:
             self.close()
@@ -222,7 +222,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             _, before = working_files(self._path)
             self._working.replace(before)
             self._open = larger = created(self._working, self._layout, self._attributes)
-            with opened(before, "r") as smaller:
+            with open_file(before) as smaller:
                 copy_rows(smaller, larger, layout, grid, self._done)
             self._check()
             before.unlink()
@@ -242,7 +242,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             except PermissionError:
                 if not MAY_BE_HELD:
                     raise
-                self._open = opened(self._working, "a")
+                self._open = open_file(self._working, "a")
         return self._open is None
 
     @property
@@ -276,5 +276,5 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         if self._open is None:
             self._working.unlink(missing_ok=True)
             shutil.copyfile(self._path, self._working)
-            self._open = opened(self._working, "a")
+            self._open = open_file(self._working, "a")
         return self._open

@@ -14,8 +14,9 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.state import Outcome
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
+from viscontact.results.stored_result import open_file
 from viscontact.results.variables import AXES, ERRORS, SCALARS
-from viscontact.runs.directory.netcdf_layout import described_fields, opened
+from viscontact.runs.directory.netcdf_layout import described_fields
 from viscontact.runs.directory.progress_log import reached_in
 from viscontact.studies.sweep.states import last_line
 
@@ -48,7 +49,7 @@ def run_outline(directory: Path) -> RunOutline:
             columns = frozenset(set(COLUMNS) & set(end))
             judged = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
             return RunOutline(over, rows, columns, end.get("fields"), *judged)
-    with opened(directory / RESULT_NAME, "r") as file:
+    with open_file(directory / RESULT_NAME) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
         return RunOutline(over, rows, frozenset(_stored(file)), described_fields(file))
@@ -87,7 +88,7 @@ def _stored(file: netCDF4.Dataset) -> list[str]:
 
 
 def _of_result(path: Path) -> Floats:
-    with opened(path, "r") as file:
+    with open_file(path) as file:
         table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
         for name in _stored(file):
             table[:, COLUMNS.index(name)] = file.variables[name][:]
