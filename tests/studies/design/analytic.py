@@ -9,7 +9,7 @@ from typing import Any
 
 from viscontact.studies.design.conclusions import notes_on
 from viscontact.studies.design.evaluated_trials import Trials
-from viscontact.studies.design.goals import Goal, Value, constraints_of
+from viscontact.studies.design.goals import Goal, constraints_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.penalised_cost import PenalisedCost
@@ -17,6 +17,7 @@ from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level
 from viscontact.studies.executors.chosen import ChosenWorkers
+from viscontact.studies.scalars import Value
 
 #: Values of the parameters to the objective and, by name of the constraint, the other scalars.
 Function = Callable[[Mapping[str, float]], Mapping[str, Value]]

@@ -16,10 +16,11 @@ from tests.studies.design.analytic import (
 
 from viscontact.studies.design.conclusions import why_infeasible
 from viscontact.studies.design.evaluated_trials import Trials
-from viscontact.studies.design.goals import Goal, Value
+from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.evaluation import Budget, Evaluation, Level
+from viscontact.studies.scalars import Value
 
 TWO = {"load.x": ("0", "1"), "load.y": ("0", "1")}
 

@@ -14,11 +14,12 @@ from tests.studies.design.analytic import search_of, trials_of
 from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
-from viscontact.studies.design.goals import Goal, Value
+from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.search import Point, Search
 from viscontact.studies.design.trade_off import costs_of, not_dominated, searched_trade_off
 from viscontact.studies.design.trials import Trial
+from viscontact.studies.scalars import Value
 
 TWO = {"load.x": ("0", "1"), "load.y": ("-1", "1")}
 GOALS = (Goal("force", True), Goal("approach", True))

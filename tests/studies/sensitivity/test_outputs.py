@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from viscontact.studies.case_values import At
+from viscontact.studies.scalars import At
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
 
 

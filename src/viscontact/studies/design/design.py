@@ -15,9 +15,9 @@ from viscontact.studies.case_values import (
     case_with,
     fingerprint,
     refuse_repeated,
-    require_instant,
     texts,
 )
+from viscontact.studies.cells import coarse_cells
 from viscontact.studies.design.conclusions import (
     InfeasibleError,
     notes_on,
@@ -34,11 +34,12 @@ from viscontact.studies.design.result_files import write_result
 from viscontact.studies.design.scenarios import Scenario, scenarios_of
 from viscontact.studies.design.search import Point, Search
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
-from viscontact.studies.design.trial_runs import CaseTrials, coarse_cells
+from viscontact.studies.design.trial_runs import CaseTrials
 from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation, Level, Progress
 from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
+from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
 from viscontact.units.numbers import whole
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from viscontact.studies.design.goals import Constraint, Goal, Value
+from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.search import Foreseen, Point
 from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level, StudyRun
+from viscontact.studies.scalars import Value
 from viscontact.studies.space import Space
 
 #: Runs of a trial with some values, on cells of a level, one for each scenario.

@@ -7,13 +7,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import xarray as xr
 
-from viscontact.results.run_axis import run_axis
-from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS
-from viscontact.studies.case_values import At, known_scalar
+from viscontact.studies.scalars import At, Value, known_scalar, magnitude
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_any_quantity
 
@@ -25,19 +22,6 @@ MOST_GOALS = 3
 _CONSTRAINT = re.compile(r"\s*(\w+)\s*(<=|>=)\s*(.+?)\s*")
 #: Units of the results in the words of quantities.
 _AS_READ = {"m2": "m^2"}
-
-
-@dataclass(frozen=True)
-class Value:
-    """Value of a scalar of a run, with its error, in SI units."""
-
-    value: float  # NaN if the run has none
-    error: float  # half width of the error bar: inf if mesh-dependent, NaN if unknown
-
-    @property
-    def depends_on_mesh(self) -> bool:
-        """True if smaller cells give other values, without a limit."""
-        return math.isinf(self.error)
 
 
 @dataclass(frozen=True)
@@ -86,28 +70,6 @@ class Constraint:
     def __str__(self) -> str:
         sign = "<=" if self.upper else ">="
         return f"{self.scalar} {sign} {format_quantity(self.bound, self.units)}"
-
-
-def magnitude(results: xr.Dataset, scalar: str, at: At, *, largest: bool) -> Value:
-    """Largest or least magnitude of a scalar in a run, or at an instant; ValueError without."""
-    if scalar not in results:
-        raise ValueError(f"{scalar}: the result does not have it")
-    sizes = np.abs(np.asarray(results[scalar].values, dtype=float))
-    errors = errors_of(results, scalar)
-    if at == "worst":
-        if not np.isfinite(sizes).any():
-            return Value(math.nan, math.nan)
-        row = int(np.nanargmax(sizes) if largest else np.nanargmin(sizes))
-        # A value without a limit at any instant is the worst, whatever its number is here.
-        unlimited = bool(largest and np.isposinf(errors).any())
-        return Value(float(sizes[row]), math.inf if unlimited else float(errors[row]))
-    axis = run_axis(results)
-    places = axis.values(results)
-    row = len(places) - 1 if at == "end" else int(np.abs(places - float(at)).argmin())
-    if at != "end" and not math.isclose(places[row], float(at), rel_tol=1e-9, abs_tol=1e-15):
-        near, wanted = axis.quantity(places[row]), axis.quantity(float(at))
-        raise ValueError(f"at: {wanted} is no {axis.row} of the run; the nearest one is {near}")
-    return Value(float(sizes[row]), float(errors[row]))
 
 
 def goals_of(minimise: Names, maximise: Names, at: At) -> tuple[Goal, ...]:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscontact.studies.design.goals import Goal, Value
+from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.trials import Trial
+from viscontact.studies.scalars import Value
 
 #: Part of the sum of all goals in a compromise: of two trials that are equal in the goal that is
 #: farthest off, the one that is better in the others has the smaller cost.

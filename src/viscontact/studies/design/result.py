@@ -15,12 +15,12 @@ from viscontact.backend.errors import AccuracyWarning
 from viscontact.case import Case, read_case
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS, error_name
-from viscontact.studies.case_values import places_of
-from viscontact.studies.design.goals import Constraint, Goal, Value
+from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.trade_off import costs_of, not_dominated
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
+from viscontact.studies.scalars import Value, places_of
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
 from viscontact.units.display import write_study_report

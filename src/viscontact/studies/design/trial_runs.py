@@ -7,19 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from viscontact.bodies.grid import Grid
-from viscontact.case import Case
 from viscontact.studies.case_values import case_with, result_of
-from viscontact.studies.design.goals import Constraint, Goal, magnitude
+from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.design.trials import REACH, goal_name
 from viscontact.studies.evaluation import Entry, Level
-
-#: Relative error of an automatic grid in the search, unless the case allows more.
-COARSE_TOLERANCE = 0.05
-#: Least number of cells along an edge, and cells from which a given grid is made coarser.
-LEAST_CELLS, MOST_CELLS = 32, 2**12
+from viscontact.studies.scalars import magnitude
 
 #: Scalar without a limit at a sharp end, also where the cells do not resolve that.
 PEAK = "peak_pressure"
@@ -69,7 +63,7 @@ class TrialRun:
         found = result_of(case)
         values = {goal_name(goal): goal.value(found) for goal in self.goals}
         values |= {str(each): each.value(found) for each in self.constraints}
-        values[REACH] = magnitude(found, REACH, "worst", largest=True)
+        values[REACH] = magnitude(found, REACH, "worst")
         warned = str(found.attrs.get("warnings", ""))
         outcome = {name: [each.value, each.error] for name, each in values.items()}
         if reaches_sharp_end(case.indenter, warned):
@@ -77,18 +71,3 @@ class TrialRun:
             peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
             outcome |= {name: [outcome[name][0], math.inf] for name in peaks}
         return {"values": outcome, "warnings": warned}
-
-
-def coarse_cells(case: Case) -> dict[str, str]:
-    """Settings of the coarse cells of a case; none if its own cells are coarse."""
-    if isinstance(case.grid, Grid):
-        shape, least = case.grid.shape, LEAST_CELLS
-        while math.prod(shape) > MOST_CELLS and min(shape) >= 2 * least:
-            shape = (shape[0] // 2, shape[1] // 2)
-        return {} if shape == case.grid.shape else {"grid.shape": f"[{shape[0]}, {shape[1]}]"}
-    automatic = case.automatic_grid
-    if automatic is None or automatic.largest_cell is not None:
-        return {}
-    if automatic.tolerance >= COARSE_TOLERANCE:
-        return {}
-    return {"grid.tolerance": f"{100 * COARSE_TOLERANCE:g} %"}

@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from viscontact.studies.design.goals import Constraint, Goal, Value
+from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.evaluation import Level
+from viscontact.studies.scalars import Value
 
 #: Scalar that shows how far a contact reaches, where it reaches a sharp end.
 REACH = "contact_length"

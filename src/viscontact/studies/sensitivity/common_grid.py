@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -28,18 +27,3 @@ def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
     counts = good_shape(2 * np.max(reach, axis=0) / cell - 1e-6, np.inf)
     size = (float(counts[0] * cell[0]), float(counts[1] * cell[1]))
     return Grid(counts, size, nominal.periodic, centre=nominal.centre)
-
-
-def coarser(grid: Grid) -> Grid:
-    """Return the grid with cells of twice the length, where there are several along an axis."""
-    nx, ny = grid.shape
-    return replace(grid, shape=(-(-nx // 2), -(-ny // 2)))
-
-
-def grid_setting(grid: Grid) -> Mapping[str, str]:
-    """Setting of a case for a grid that is not periodic."""
-    lengths, centre = (
-        ", ".join(f"{each!r} m" for each in map(float, pair)) for pair in (grid.size, grid.centre)
-    )
-    shape = f"[{grid.shape[0]}, {grid.shape[1]}]"
-    return {"grid": f"{{shape: {shape}, size: [{lengths}], centre: [{centre}]}}"}

@@ -9,11 +9,10 @@ from functools import cached_property
 import numpy as np
 import xarray as xr
 
-from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.arrays import Floats
 from viscontact.results.run_axis import RUN_AXES, RunAxis
 from viscontact.results.sweep_axes import over_of
-from viscontact.results.variables import error_name
-from viscontact.studies.case_values import At, known_scalar
+from viscontact.studies.scalars import At, Value, known_scalar, magnitude, magnitudes
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +38,6 @@ class OutputScalars:
 
     def over(self, scalar: str) -> Floats:
         """Values of a scalar, shape (runs, instants or speeds)."""
-        if scalar not in self.joint:
-            raise ValueError(f"of: {scalar}: the results do not have it")
         return np.asarray(self.joint[scalar].values, dtype=np.float64)
 
     @property
@@ -51,36 +48,11 @@ class OutputScalars:
 
     def values(self, scalar: str) -> Floats:
         """Magnitudes of a scalar in all runs, NaN without a result."""
-        sizes = np.abs(self.over(scalar))
-        return np.take_along_axis(sizes, self._rows(sizes)[:, None], axis=1)[:, 0]
+        return magnitudes(self.joint, scalar, self.at)[0]
 
-    def nominal_error(self, scalar: str) -> float:
-        """Error of the scalar in the run of the case: NaN if unknown, inf if mesh-dependent."""
-        if error_name(scalar) not in self.joint:
-            return np.nan
-        row = self._rows(np.abs(self.over(scalar)))[0]
-        return float(self.joint[error_name(scalar)].values[0, row])
-
-    def _rows(self, sizes: Floats) -> Integers:
-        """Row of the instant in each run."""
-        known = np.isfinite(sizes)
-        if self.at == "worst":
-            return np.asarray(np.where(known, sizes, -1.0).argmax(axis=1))
-        if self.at == "end":
-            return np.asarray(sizes.shape[1] - 1 - known[:, ::-1].argmax(axis=1))
-        return self._rows_of(float(self.at), len(sizes))
-
-    def _rows_of(self, wanted: float, runs: int) -> Integers:
-        """Row of an instant [s] or a speed [m/s] in each run that has it, as the first one must."""
-        axis = RUN_AXES[over_of(self.joint)]
-        distance = np.abs(np.atleast_2d(self.joint[axis.name].values) - wanted)
-        found = np.where(np.isnan(distance), np.inf, distance).argmin(axis=1)
-        if not distance[0, found[0]] <= 1e-9 * abs(wanted):
-            near = axis.quantity(np.atleast_2d(self.joint[axis.name].values)[0, found[0]])
-            raise ValueError(
-                f"at: {axis.quantity(wanted)} is no {axis.row} of the runs; the nearest is {near}"
-            )
-        return np.broadcast_to(found, runs)
+    def nominal(self, scalar: str) -> Value:
+        """Magnitude of a scalar in the run of the case, the only one with errors."""
+        return magnitude(self.joint.isel(run=[0]), scalar, self.at)
 
 
 def checked_outputs(of: Sequence[str] | str) -> tuple[str, ...]:

@@ -13,8 +13,9 @@ from viscontact.case import Case, CaseError
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.studies.case_values import case_with
+from viscontact.studies.cells import coarser, grid_setting, shape_setting
 from viscontact.studies.evaluation import Level
-from viscontact.studies.sensitivity.common_grid import coarser, covering, grid_setting
+from viscontact.studies.sensitivity.common_grid import covering
 from viscontact.studies.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
 from viscontact.studies.sensitivity.inputs import Input
 from viscontact.studies.sensitivity.samples import Samples
@@ -146,8 +147,7 @@ def _of_samples(path: Path, settings: Mapping[str, str], samples: Samples) -> li
 def _settings_of(case: Case, grid: Grid) -> dict[Level, Mapping[str, str]]:
     """Settings of the common grid; the case may have given one."""
     if isinstance(case.grid, Grid):
-        nx, ny = coarser(case.grid).shape
-        return {"case": {}, "coarse": {"grid.shape": f"[{nx}, {ny}]"}}
+        return {"case": {}, "coarse": shape_setting(coarser(case.grid).shape)}
     return {"case": grid_setting(grid), "coarse": grid_setting(coarser(grid))}
 
 

@@ -17,15 +17,14 @@ from viscontact.case import Case
 from viscontact.case.errors import dotted
 from viscontact.results.netcdf import open_results
 from viscontact.studies.case_values import (
-    At,
     case_path,
     case_with,
     refuse_repeated,
-    require_instant,
     texts,
 )
 from viscontact.studies.evaluation import Progress
 from viscontact.studies.executors.chosen import refuse_import_by_a_worker
+from viscontact.studies.scalars import At, require_instant
 from viscontact.studies.sensitivity.inputs import Input, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
 from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned
@@ -229,6 +228,8 @@ def _computed(
         scalars = OutputScalars(joint(runs, folder), at)
         if why := scalars.failures.get(NOMINAL):
             raise RuntimeError(f"the run with the values of the case failed: {why}")
+        if missing := [name for name in outputs if name not in scalars.joint]:
+            raise ValueError(f"of: {missing[0]}: the results do not have it")
         with open_results(folder / runs[0].directory) as ds:
             about = {"title": str(ds.attrs.get("title", "")), "at": str(at)}
             warned = str(ds.attrs.get("warnings", "")).splitlines()

@@ -21,8 +21,8 @@ from viscontact.studies.sensitivity.variance import indices_of, percentiles_of
 def derivative_table(plan: Plan, scalars: OutputScalars, outputs: Sequence[str]) -> xr.Dataset:
     """Table over (output, input) of the derivatives and elasticities, each with its error."""
     inputs = [each.given for each in plan.derivatives]
-    values = np.array([scalars.values(name)[0] for name in outputs])
-    errors = np.array([scalars.nominal_error(name) for name in outputs])
+    own = [scalars.nominal(name) for name in outputs]
+    values, errors = (np.array([getattr(v, part) for v in own]) for part in ("value", "error"))
     shape = (len(outputs), len(inputs))
     slopes, bars = np.full(shape, np.nan), np.full(shape, np.nan)
     for column, each in enumerate(plan.derivatives):

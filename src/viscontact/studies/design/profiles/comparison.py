@@ -12,12 +12,12 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
-from viscontact.studies.design.goals import Value
 from viscontact.studies.design.profiles.deviations import deviating
 from viscontact.studies.design.profiles.named import NamedProfile
 from viscontact.studies.design.profiles.profile_runs import MARGIN, ProfileRuns
 from viscontact.studies.design.profiles.result import CASE, ELASTIC, FREE, ProfileDesign
 from viscontact.studies.design.profiles.tables import tabulated
+from viscontact.studies.scalars import Value
 from viscontact.units.formatting import format_quantity
 
 _PEAK, _ERROR = "peak_pressure", "peak_pressure_error"

@@ -16,7 +16,6 @@ from viscontact.bodies.indenters import LogarithmicProfile
 from viscontact.studies.case_values import (
     case_path,
     fingerprint,
-    require_instant,
     texts,
 )
 from viscontact.studies.design.profiles.comparison import FoundProfiles, compared
@@ -33,6 +32,7 @@ from viscontact.studies.design.scenarios import scenarios_of
 from viscontact.studies.evaluation import Budget, Evaluation
 from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
+from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import non_negative, whole

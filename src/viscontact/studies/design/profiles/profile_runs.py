@@ -13,11 +13,10 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.runs.single import simulate
-from viscontact.studies.case_values import At
-from viscontact.studies.design.goals import Value, magnitude
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.evaluation import Entry, Evaluation
+from viscontact.studies.scalars import At, Value, magnitude
 
 #: Coarse cells from the middle of the roller to its end, and beyond it.
 CELLS, BEYOND = 50, 4
@@ -163,7 +162,7 @@ class CertifiedPeak:
     def __call__(self) -> Entry:
         """Simulate the run."""
         found = simulate(**self.recipe)
-        value = magnitude(found, "peak_pressure", self.at, largest=True)
+        value = magnitude(found, "peak_pressure", self.at)
         warned = str(found.attrs.get("warnings", ""))
         is_sharp = reaches_sharp_end(self.recipe["indenter"], warned)
         bar = np.inf if is_sharp else value.error
