@@ -7,13 +7,12 @@ from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from typing import Any
 
+from viscontact.studies.design import evaluated_trials
 from viscontact.studies.design.conclusions import notes_on
-from viscontact.studies.design.evaluated_trials import Trials
+from viscontact.studies.design.evaluated_trials import Searched, Trials
 from viscontact.studies.design.goals import Goal, constraints_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
-from viscontact.studies.design.penalised_cost import PenalisedCost
-from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level
 from viscontact.studies.executors.chosen import ChosenWorkers
@@ -78,20 +77,13 @@ def searched(
     least: bool = True,
     constraints: Sequence[str] = (),
     **options: Any,
-) -> tuple[Search, Trial | None]:
+) -> tuple[Searched, Trial | None]:
     """Search for the best `force` of a function, and return the search and the best trial."""
     goals = (Goal("force", least),)
     trials = trials_of(function, goals, change, constraints=constraints, **options)
     trials.of_case()
-    search = search_of(trials, Objective(goals), is_coarse=options.get("is_coarse", False))
-    return search, search.run()
-
-
-def search_of(trials: Trials, objective: Objective, *, is_coarse: bool = False) -> Search:
-    """Search for the least objective."""
-    levels: tuple[Level, ...] = ("coarse", "case") if is_coarse else ("case",)
-    cost = PenalisedCost(objective, trials.goals, trials.constraints)
-    return Search(trials.space, trials, cost, trials.budget, levels)
+    search = evaluated_trials.searched(trials, Objective(goals))
+    return search, search.best
 
 
 def trials_of(
@@ -111,19 +103,14 @@ def trials_of(
 
     executor = Rounds() if workers > 1 else None
     evaluation = Evaluation(Budget(budget), ChosenWorkers(executor, workers))
-    return Trials(space_of(change), runs_of, goals, constraints_of(constraints), evaluation)
+    levels = ("coarse", "case") if is_coarse else ("case",)
+    limits = constraints_of(constraints)
+    return Trials(space_of(change), runs_of, goals, limits, evaluation, levels)
 
 
-def notes(best: Trial, search: Search) -> list[str]:
+def notes(best: Trial, search: Searched) -> list[str]:
     """Notes on the best trial."""
-    return list(notes_on(best, trials_in(search)[0], search))
-
-
-def trials_in(search: Search) -> list[Trial]:
-    """All trials of a search, the case itself first."""
-    trials = search.evaluate
-    assert isinstance(trials, Trials)
-    return trials.in_order()
+    return list(notes_on(best, search.trials.in_order()[0], search))
 
 
 def _number(text: str) -> float:

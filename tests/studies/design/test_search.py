@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import pytest
 from tests.studies.design.analytic import (
     FunctionInPlaceOfARun,
     notes,
-    search_of,
     searched,
-    trials_in,
 )
 
 from viscontact.studies.design.conclusions import why_infeasible
-from viscontact.studies.design.evaluated_trials import Trials
+from viscontact.studies.design.evaluated_trials import Searched, Trials
+from viscontact.studies.design.evaluated_trials import searched as searched_among
 from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
+from viscontact.studies.design.search import Foreseen, Point, Score, search
+from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level
 from viscontact.studies.scalars import Value
 
@@ -29,20 +30,40 @@ def exact(number: float) -> dict[str, Value]:
     return {"force": Value(number, 0.0)}
 
 
-def value_of(search: object, trial: object) -> float:
-    return trial.worst(search.cost.goals[0]).value  # type: ignore[attr-defined,no-any-return]
+def value_of(design: Searched, trial: Trial) -> float:
+    return trial.worst(design.trials.goals[0]).value
 
 
 def test_a_parabola_is_minimised_in_less_than_forty_runs() -> None:
-    search, best = searched(lambda v: exact(1 + (v["load.x"] - 0.37) ** 2), {"load.x": ("0", "1")})
+    design, best = searched(lambda v: exact(1 + (v["load.x"] - 0.37) ** 2), {"load.x": ("0", "1")})
     assert best is not None
-    assert value_of(search, best) == pytest.approx(1.0, abs=1e-3)
-    assert search.budget.runs <= 40
+    assert value_of(design, best) == pytest.approx(1.0, abs=1e-3)
+    assert design.trials.budget.runs <= 40
+
+
+def test_the_search_needs_only_a_function_of_points() -> None:
+    budget = Budget(40)
+
+    def scores(points: Sequence[Point], level: Level, ahead: Foreseen | None) -> list[Score]:
+        budget.require(len(points))
+        budget.runs += len(points)
+        error = 0.05 if level == "rough" else 0.0
+        return [_score(each, level, 1 + (each[0] - 0.37) ** 2 + error) for each in points]
+
+    found = search(scores, space_of({"load.x": ("0", "1")}), budget, ("rough", "fine"))
+    assert found.best is not None
+    assert found.best.level == "fine"
+    assert found.best.point[0] == pytest.approx(0.37, abs=0.03)
+    assert not found.is_cut_short
+
+
+def _score(point: Point, level: Level, value: float) -> Score:
+    return Score((level, point), point, level, value, 0.0, value, 0.0, True, False)
 
 
 def test_a_logarithmic_range_is_searched_on_its_scale() -> None:
     change = {"load.x": ("1 mm", "10 m", "log")}
-    _search, best = searched(lambda v: exact(1 + math.log10(v["load.x"] / 20) ** 2), change)
+    _design, best = searched(lambda v: exact(1 + math.log10(v["load.x"] / 20) ** 2), change)
     assert best is not None
     # The unit is that of the lower bound; the width of the parabola allows 8 %.
     assert float(best.settings["load.x"].split()[0]) == pytest.approx(20, rel=0.08)
@@ -50,11 +71,11 @@ def test_a_logarithmic_range_is_searched_on_its_scale() -> None:
 
 
 def test_the_largest_value_is_found_where_it_is_asked_for() -> None:
-    search, best = searched(
+    design, best = searched(
         lambda v: exact(5 - (v["load.x"] - 0.7) ** 2), {"load.x": ("0", "1")}, least=False
     )
     assert best is not None
-    assert value_of(search, best) == pytest.approx(5.0, abs=5e-3)
+    assert value_of(design, best) == pytest.approx(5.0, abs=5e-3)
 
 
 def test_a_kinked_valley_of_two_parameters_is_followed_to_within_two_per_cent() -> None:
@@ -63,10 +84,10 @@ def test_a_kinked_valley_of_two_parameters_is_followed_to_within_two_per_cent() 
         return exact(max(2 - x - 0.3 * y, 0.5 + 3 * x + y))
 
     # Both are equal at x = 0.375 - 0.325 y; along this line 1.625 + 0.025 y is least at y = 0.
-    search, best = searched(valley, TWO)
+    design, best = searched(valley, TWO)
     assert best is not None
-    assert value_of(search, best) == pytest.approx(1.625, rel=0.02)
-    assert search.budget.runs <= 60
+    assert value_of(design, best) == pytest.approx(1.625, rel=0.02)
+    assert design.trials.budget.runs <= 60
 
 
 def test_the_global_one_of_two_minima_is_found() -> None:
@@ -86,7 +107,7 @@ def test_the_optimum_under_a_constraint_lies_on_it(bound: float) -> None:
         return exact(2 - x) | {f"contact_length <= {1000 * bound:g} mm": Value(x, 0.0)}
 
     limit = [f"contact_length<={bound} m"]
-    _search, best = searched(falling, {"load.x": ("0", "1")}, constraints=limit)
+    _design, best = searched(falling, {"load.x": ("0", "1")}, constraints=limit)
     assert best is not None
     assert bound - 0.02 < float(best.settings["load.x"]) <= bound
 
@@ -95,10 +116,10 @@ def test_a_value_without_a_limit_is_never_the_best() -> None:
     def singular(v: Mapping[str, float]) -> dict[str, Value]:
         return {"force": Value(2 - v["load.x"], math.inf if v["load.x"] > 0.4 else 0.0)}
 
-    search, best = searched(singular, {"load.x": ("0", "1")})
+    design, best = searched(singular, {"load.x": ("0", "1")})
     assert best is not None
     assert 0.38 < float(best.settings["load.x"]) <= 0.4
-    (note,) = [each for each in notes(best, search) if "without a limit" in each]
+    (note,) = [each for each in notes(best, design) if "without a limit" in each]
     beside = float(note.partition("load.x=")[2].split()[0])
     assert 0.4 < beside < float(best.settings["load.x"]) + 0.02
 
@@ -132,7 +153,7 @@ def test_the_worst_scenario_decides() -> None:
 
     evaluation = Evaluation(Budget(60))
     trials = Trials(space_of({"load.x": ["0", "1", "2"]}), runs_of, goals, (), evaluation)
-    best = search_of(trials, Objective(goals)).run()
+    best = searched_among(trials, Objective(goals)).best
     assert best is not None
     assert best.settings == {"load.x": "1"}
     assert evaluation.budget.runs == 2 * 3
@@ -140,41 +161,41 @@ def test_the_worst_scenario_decides() -> None:
 
 def test_choices_are_tried_in_all_combinations() -> None:
     change = {"load.x": ["1", "2", "5"], "load.y": ["3", "4"]}
-    search, best = searched(lambda v: exact(abs(v["load.x"] - 2.1) + v["load.y"]), change)
+    design, best = searched(lambda v: exact(abs(v["load.x"] - 2.1) + v["load.y"]), change)
     assert best is not None
     assert best.settings == {"load.x": "2", "load.y": "3"}
-    assert search.budget.runs == 1 + 6  # with the case itself
+    assert design.trials.budget.runs == 1 + 6  # with the case itself
 
 
 def test_a_choice_and_a_range_are_searched_together() -> None:
     change = {"load.x": ("0", "1"), "load.y": ["3", "4"]}
-    search, best = searched(lambda v: exact((v["load.x"] - 0.6) ** 2 + 5 - v["load.y"]), change)
+    design, best = searched(lambda v: exact((v["load.x"] - 0.6) ** 2 + 5 - v["load.y"]), change)
     assert best is not None
     assert best.settings["load.y"] == "4"
-    assert value_of(search, best) == pytest.approx(1.0, abs=0.01)
+    assert value_of(design, best) == pytest.approx(1.0, abs=0.01)
 
 
 @pytest.mark.parametrize("budget", [1, 5, 17])
 def test_no_more_runs_are_made_than_allowed(budget: int) -> None:
-    search, _ = searched(lambda v: exact(v["load.x"] * v["load.y"]), TWO, budget=budget)
-    assert search.budget.runs <= budget
+    design, _ = searched(lambda v: exact(v["load.x"] * v["load.y"]), TWO, budget=budget)
+    assert design.trials.budget.runs <= budget
 
 
 def test_the_best_of_the_coarse_cells_is_computed_on_those_of_the_case() -> None:
-    search, best = searched(
+    design, best = searched(
         lambda v: exact(1 + (v["load.x"] - 0.37) ** 2), {"load.x": ("0", "1")}, is_coarse=True
     )
     assert best is not None
     assert best.level == "case"
-    assert {each.level for each in trials_in(search)} == {"coarse", "case"}
+    assert {each.level for each in design.trials.in_order()} == {"coarse", "case"}
 
 
 @pytest.mark.parametrize("slope", [1.0, -1.0])
 def test_an_optimum_at_a_bound_is_reported_with_its_bound(slope: float) -> None:
-    search, best = searched(lambda v: exact(3 + slope * v["load.x"]), {"load.x": ("0", "1")})
+    design, best = searched(lambda v: exact(3 + slope * v["load.x"]), {"load.x": ("0", "1")})
     assert best is not None
     assert float(best.settings["load.x"]) == (0.0 if slope > 0 else 1.0)
-    (note,) = [each for each in notes(best, search) if "bound" in each]
+    (note,) = [each for each in notes(best, design) if "bound" in each]
     bound = "lower bound of load.x, 0:" if slope > 0 else "upper bound of load.x, 1:"
     assert bound in note
 
@@ -183,9 +204,9 @@ def test_an_infeasible_design_names_the_constraint_and_the_closest_trial() -> No
     def far(v: Mapping[str, float]) -> dict[str, Value]:
         return exact(1.0) | {"contact_length <= 1 m": Value(1.5 + v["load.x"], 0.0)}
 
-    search, best = searched(far, {"load.x": ("0", "1")}, constraints=["contact_length<=1m"])
+    design, best = searched(far, {"load.x": ("0", "1")}, constraints=["contact_length<=1m"])
     assert best is None
-    why = why_infeasible(search)
+    why = why_infeasible(design.trials)
     assert why.startswith("no feasible design in ")
     assert "contact_length <= 1 m is not kept; the closest is 1.5" in why
 
@@ -200,17 +221,17 @@ def test_a_feasible_corner_is_found_in_a_third_of_the_runs(bound: float) -> None
     # Feasible is a triangle at x = y = 0: of 0.006 % of the plane in the first case, where the
     # middle of the plane exceeds the bound by more than 100 %, and of 2.5 % in the second.
     limits = [f"contact_length<={bound} m"]
-    search, best = searched(long, TWO, constraints=limits, budget=20, is_coarse=True)
+    design, best = searched(long, TWO, constraints=limits, budget=20, is_coarse=True)
     assert best is not None
     assert best.level == "case"
-    assert search.budget.runs <= 20
+    assert design.trials.budget.runs <= 20
     # The optimum is that of a straight line: all of the length goes to x.
-    assert value_of(search, best) == pytest.approx(3 - (bound - 0.4) / 0.8, rel=0.03)
+    assert value_of(design, best) == pytest.approx(3 - (bound - 0.4) / 0.8, rel=0.03)
 
 
 @pytest.mark.parametrize("budget", [6, 9, 20])
 def test_few_runs_still_give_a_certified_trial_and_a_note(budget: int) -> None:
-    search, best = searched(
+    design, best = searched(
         lambda v: exact(2 + (v["load.x"] - 0.2) ** 2 + (v["load.y"] - 0.9) ** 2),
         TWO,
         budget=budget,
@@ -218,8 +239,8 @@ def test_few_runs_still_give_a_certified_trial_and_a_note(budget: int) -> None:
     )
     assert best is not None
     assert best.level == "case"
-    assert search.budget.runs <= budget
-    assert any(f"{budget} runs are too few" in note for note in notes(best, search))
+    assert design.trials.budget.runs <= budget
+    assert any(f"{budget} runs are too few" in note for note in notes(best, design))
 
 
 @pytest.mark.parametrize("workers", [2, 3, 4])
@@ -229,10 +250,10 @@ def test_workers_compute_trials_ahead_and_do_not_change_the_search(workers: int)
 
     one, best = searched(bowl, TWO, is_coarse=True)
     several, same = searched(bowl, TWO, is_coarse=True, workers=workers)
-    assert trials_in(several) == trials_in(one)
+    assert several.trials.in_order() == one.trials.in_order()
     assert best == same
-    trials = len(trials_in(one))
-    rounds = several.evaluate.evaluation.workers.executor.rounds  # type: ignore[attr-defined]
+    trials = len(one.trials.in_order())
+    rounds = several.trials.evaluation.workers.executor.rounds  # type: ignore[attr-defined]
     # Without a wrong guess there would be 1 / workers as many rounds as trials.
     assert rounds < 1.7 * trials / workers
     assert rounds >= trials / workers

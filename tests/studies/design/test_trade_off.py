@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.studies.design.analytic import search_of, trials_of
+from tests.studies.design.analytic import trials_of
 from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
 from viscontact.studies.design.goals import Goal
-from viscontact.studies.design.objectives import Objective
-from viscontact.studies.design.search import Point, Search
 from viscontact.studies.design.trade_off import costs_of, not_dominated, searched_trade_off
-from viscontact.studies.design.trials import Trial
 from viscontact.studies.scalars import Value
 
 TWO = {"load.x": ("0", "1"), "load.y": ("-1", "1")}
@@ -48,13 +44,7 @@ def front_of(function: object, budget: int = 300) -> tuple[NDArray[np.float64], 
     """Costs on the front of a function, sorted by the first one, and the number of runs."""
     trials = trials_of(function, GOALS, TWO, budget=budget)  # type: ignore[arg-type]
     trials.of_case()
-    tried: dict[tuple[str, ...], tuple[Point, Trial]] = {}
-
-    def search_for(objective: Objective, later: int) -> Search:
-        left = trials.budget.most - trials.budget.runs
-        return replace(search_of(trials, objective), tried=tried, held=left * later // (later + 1))
-
-    searched_trade_off(search_for, GOALS)
+    searched_trade_off(trials)
     done = [each for each in trials.in_order() if not each.failure]
     costs = costs_of(done, GOALS)
     found = costs[not_dominated(costs)]

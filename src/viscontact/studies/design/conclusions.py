@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
+from viscontact.studies.design.evaluated_trials import Searched, Trials
 from viscontact.studies.design.goals import Constraint
-from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial
 from viscontact.units.formatting import format_quantity
 
@@ -21,12 +21,11 @@ class InfeasibleError(ValueError):
     """No trial of a design keeps all constraints."""
 
 
-def why_infeasible(search: Search) -> str:
+def why_infeasible(trials: Trials) -> str:
     """Reason why no trial is feasible, with the closest one."""
-    names = " or the ".join(goal.scalar for goal in search.cost.goals)
-    limits = search.cost.constraints
-    tried = [trial for _, trial in search.tried.values()]
-    said = f"no feasible design in {search.budget.runs} runs"
+    names = " or the ".join(goal.scalar for goal in trials.goals)
+    limits, tried = trials.constraints, trials.tried()
+    said = f"no feasible design in {trials.budget.runs} runs"
     done = [trial for trial in tried if not trial.failure]
     if not done:
         reason = tried[0].failure if tried else "runs: are too few"
@@ -44,10 +43,10 @@ def why_infeasible(search: Search) -> str:
     return f"{said}: {broken} is not kept; the closest is {value} at {where}"
 
 
-def notes_on(best: Trial, before: Trial, search: Search) -> Iterator[str]:
+def notes_on(best: Trial, before: Trial, search: Searched) -> Iterator[str]:
     """Yield notes on the best trial, and on that of the case `before`."""
-    space, cost = search.space, search.cost
-    goals, point = cost.objective.goals, search.point(best)
+    trials, objective = search.trials, search.objective
+    space, goals, point = trials.space, objective.goals, trials.points[best.key]
     for number in space.ranges if len(goals) == 1 else ():
         goal = goals[0]
         part, key = point[number], space.parameters[number].key
@@ -59,20 +58,18 @@ def notes_on(best: Trial, before: Trial, search: Search) -> Iterator[str]:
                 f"{verb} for ever, there is no optimum"
             )
     yield from _beside_no_limit(best, search)
-    for limit in cost.constraints:
+    for limit in trials.constraints:
         yield from _undecided(best, limit)
     if search.is_cut_short:
-        yield f"{search.budget.most} runs are too few to search until the gain is within the error"
-    if cost.is_feasible(before):
-        own, found = (cost.objective.cost(each).value for each in (before, best))
+        yield f"{trials.budget.most} runs are too few to search until the gain is within the error"
+    if before.is_feasible(trials.goals, trials.constraints):
+        own, found = (objective.cost(each).value for each in (before, best))
         if own < found:
             yield "the values of the case itself are better than the best ones that were found"
     yield from best.warnings
 
 
-def notes_on_trade_off(
-    searches: Sequence[tuple[Search, Trial | None]], before: Trial
-) -> Iterator[str]:
+def notes_on_trade_off(searches: Sequence[Searched], before: Trial) -> Iterator[str]:
     """Yield notes on the trials of a trade-off, each once."""
     yield (
         "the best trial is the compromise whose scalars are equally far from their best values; "
@@ -80,21 +77,23 @@ def notes_on_trade_off(
     )
     notes = (
         note
-        for search, best in searches
-        if best is not None
-        for note in notes_on(best, before, search)
+        for each in searches
+        if each.best is not None
+        for note in notes_on(each.best, before, each)
     )
     yield from dict.fromkeys(notes)
 
 
-def _beside_no_limit(best: Trial, search: Search) -> Iterator[str]:
+def _beside_no_limit(best: Trial, search: Searched) -> Iterator[str]:
     """Yield that a trial next to the best one has no limit, as at a sharp end."""
+    points = search.trials.points
 
     def distance(trial: Trial) -> float:
-        return math.dist(search.point(trial), search.point(best))
+        return math.dist(points[trial.key], points[best.key])
 
-    for goal in search.cost.objective.goals:
-        beside = [each for each in search.trials(best.level) if each.worst(goal).depends_on_mesh]
+    for goal in search.objective.goals:
+        tried = search.trials.tried(best.level)
+        beside = [each for each in tried if each.worst(goal).depends_on_mesh]
         nearest = min(beside, key=distance, default=None)
         if nearest is not None and distance(nearest) <= BESIDE:
             where = ", ".join(f"{key}={value}" for key, value in nearest.settings.items())

@@ -24,18 +24,15 @@ from viscontact.studies.design.conclusions import (
     notes_on_trade_off,
     why_infeasible,
 )
-from viscontact.studies.design.evaluated_trials import Trials
+from viscontact.studies.design.evaluated_trials import Searched, Trials, searched
 from viscontact.studies.design.goals import Goal, constraints_of, goals_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
-from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.result import DesignResult, table_of
 from viscontact.studies.design.result_files import write_result
 from viscontact.studies.design.scenarios import Scenario, scenarios_of
-from viscontact.studies.design.search import Point, Search
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
-from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation, Level, Progress
 from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
@@ -183,7 +180,8 @@ def design(  # noqa: PLR0913
         chosen_workers(workers, executor, client) as chosen,
     ):
         evaluation = Evaluation(budget, chosen, journal, progress)
-        trials = Trials(space, of_case, goals, limits, evaluation)
+        levels: tuple[Level, ...] = ("coarse", "case") if of_case.coarse else ("case",)
+        trials = Trials(space, of_case, goals, limits, evaluation, levels, len(scenarios))
         found = _searched(trials, of_case, values, _unused_tolerances(own, scatter))
         if directory is not None:
             write_result(Path(directory), found)
@@ -202,15 +200,18 @@ def _searched(
 ) -> DesignResult:
     """Search, and describe the best trial, with notes `known` before; ValueError if none is."""
     goals, limits = trials.goals, trials.constraints
-    searches = _searches(trials, of_case)
-    search, best = searches[-1]
+    searches = _searches(trials)
+    best = searches[-1].best
     if best is None:
-        raise InfeasibleError(why_infeasible(search))
+        raise InfeasibleError(why_infeasible(trials))
     before, *_ = made = trials.in_order()
     names = [each.name or "as in the case" for each in of_case.scenarios]
     table = table_of(made, trials.space.keys, own, names, goals, limits)
+    is_trade_off = len(goals) > 1
     said = (
-        notes_on(best, before, search) if len(goals) == 1 else notes_on_trade_off(searches, before)
+        notes_on_trade_off(searches, before)
+        if is_trade_off
+        else notes_on(best, before, searches[0])
     )
     notes, number = (*known, *said), made.index(best)
     about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
@@ -229,25 +230,16 @@ def _searched(
     )
 
 
-def _searches(trials: Trials, of_case: CaseTrials) -> list[tuple[Search, Trial | None]]:
-    """Searches for the goals, each with its best trial; all know the trials of the others."""
-    goals, budget, size = trials.goals, trials.budget, len(of_case.scenarios)
-    tried: dict[tuple[str, ...], tuple[Point, Trial]] = {}
-
-    def search_for(objective: Objective, later: int) -> Search:
-        cost = PenalisedCost(objective, goals, trials.constraints)
-        levels: tuple[Level, ...] = ("coarse", "case") if of_case.coarse else ("case",)
-        held = (budget.most - budget.runs) * later // (later + 1)
-        return Search(trials.space, trials, cost, budget, levels, size, tried, held)
-
+def _searches(trials: Trials) -> list[Searched]:
+    """Searches for the goals, after the case itself; all know the trials of the others."""
     try:
         trials.of_case()
     except BudgetSpentError:
-        raise ValueError(f"runs: {budget.most} are too few for {size} scenarios") from None
-    if len(goals) > 1:
-        return searched_trade_off(search_for, goals)
-    search = search_for(Objective(goals), 0)
-    return [(search, search.run())]
+        most, size = trials.budget.most, trials.size
+        raise ValueError(f"runs: {most} are too few for {size} scenarios") from None
+    if len(trials.goals) > 1:
+        return searched_trade_off(trials)
+    return [searched(trials, Objective(trials.goals))]
 
 
 def _unused_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> list[str]:

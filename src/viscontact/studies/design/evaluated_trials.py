@@ -1,12 +1,16 @@
-"""Trials of a design, whose runs an evaluation makes."""
+"""Trials of a design, whose runs an evaluation makes, and the search among them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from viscontact.studies.design.goals import Constraint, Goal
-from viscontact.studies.design.search import Foreseen, Point
+from viscontact.studies.design.objectives import Objective
+from viscontact.studies.design.penalised_cost import PenalisedCost
+from viscontact.studies.design.search import Foreseen, Point, Score, search
 from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level, StudyRun
 from viscontact.studies.scalars import Value
@@ -25,7 +29,10 @@ class Trials:
     goals: tuple[Goal, ...]
     constraints: tuple[Constraint, ...]
     evaluation: Evaluation
-    made: dict[tuple[str, ...], Trial] = field(default_factory=dict)
+    levels: tuple[Level, ...] = ("case",)  # of the search, the cheap one first
+    size: int = 1  # runs of a trial
+    made: dict[Hashable, Trial] = field(default_factory=dict)
+    points: dict[Hashable, Point] = field(default_factory=dict)  # all but the case's own
 
     @property
     def budget(self) -> Budget:
@@ -45,7 +52,15 @@ class Trials:
             for point in ahead(count) if ahead else ():
                 yield self.runs_of(self.space.settings(point), level)
 
-        return [self._trial(self.space.settings(point), level, likely) for point in points]
+        found = [self._trial(self.space.settings(point), level, likely) for point in points]
+        for trial, point in zip(found, points, strict=True):
+            self.points.setdefault(trial.key, tuple(np.clip(point, 0.0, 1.0).tolist()))
+        return found
+
+    def tried(self, level: Level | None = None) -> list[Trial]:
+        """Trials at points of the space, of one level or of all."""
+        found = (self.made[key] for key in self.points)
+        return [trial for trial in found if level in (None, trial.level)]
 
     def of_case(self) -> Trial:
         """Trial of the case with its own values."""
@@ -64,6 +79,36 @@ class Trials:
         trial = Trial(dict(settings), level, tuple(map(_result, outcomes)))
         self.made[trial.key] = trial
         return trial
+
+
+@dataclass(frozen=True, eq=False)
+class Searched:
+    """Search of a design for one objective, among all trials so far."""
+
+    trials: Trials
+    objective: Objective
+    best: Trial | None  # None if none is feasible on the cells of the case
+    is_cut_short: bool  # the runs were used up before the gain was within the error
+
+
+def searched(trials: Trials, objective: Objective, *, held: int = 0) -> Searched:
+    """Search for the trial with the least objective; `held` runs are left to later searches."""
+    cost = PenalisedCost(objective, trials.goals, trials.constraints)
+
+    def evaluate(points: Sequence[Point], level: Level, ahead: Foreseen | None) -> list[Score]:
+        return [score(trial) for trial in trials(points, level, ahead)]
+
+    def score(trial: Trial) -> Score:
+        return cost.score(trial, trials.points[trial.key])
+
+    found = search(
+        *(evaluate, trials.space, trials.budget, trials.levels),
+        size=trials.size,
+        held=held,
+        known=list(map(score, trials.tried())),
+    )
+    best = None if found.best is None else trials.made[found.best.key]
+    return Searched(trials, objective, best, found.is_cut_short)
 
 
 def _result(outcome: Entry) -> ScenarioResult:

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.objectives import Objective
+from viscontact.studies.design.search import Point, Score
 from viscontact.studies.design.trials import Trial
+from viscontact.studies.scalars import Value
 
 #: Cost of a relative excess over a bound, in parts of the objective: an exact penalty, as long as
 #: the objective changes less than this for a given relative change of the bound.
@@ -29,25 +31,31 @@ class PenalisedCost:
     scale: float = 0.0  # size of the first objective
     reach: float = 0.0  # first reach of a contact [m]
 
-    def __call__(self, trial: Trial) -> float:
+    def score(self, trial: Trial, point: Point) -> Score:
+        """Score of a trial at a point; the first one with a value gives the scale."""
+        objective = self.objective.cost(trial)
+        cost, error = self._cost(trial, objective), objective.error
+        return Score(
+            trial.key,
+            point,
+            trial.level,
+            objective.value,
+            error,
+            cost,
+            error / self.scale if self.scale and math.isfinite(error) else 0.0,
+            trial.is_feasible(self.goals, self.constraints),
+            bool(trial.failure),
+        )
+
+    def _cost(self, trial: Trial, objective: Value) -> float:
         """Cost of a trial [-]."""
-        value = self.objective.cost(trial)
-        if not math.isfinite(value.value):
+        if not math.isfinite(objective.value):
             return FAILED
-        self.scale = self.scale or abs(value.value) or 1.0
+        self.scale = self.scale or abs(objective.value) or 1.0
         self.reach = self.reach or trial.reach() or 1.0
-        if value.depends_on_mesh:
+        if objective.depends_on_mesh:
             return PENALTY + min(trial.reach() / self.reach, MOST_REACH)
         excess = trial.violation(self.constraints)
         # Less than two, and never flat, so that a search knows the way to the bound.
         bounded = excess if excess < 1 else 2 - 1 / excess
-        return value.value / self.scale + PENALTY * bounded
-
-    def is_feasible(self, trial: Trial) -> bool:
-        """True if all runs of a trial have a result with a limit, and all constraints are kept."""
-        return trial.is_feasible(self.goals, self.constraints)
-
-    def error(self, trial: Trial) -> float:
-        """Error of the cost of a trial [-]; zero if it is not known."""
-        error = self.objective.cost(trial).error
-        return error / self.scale if math.isfinite(error) else 0.0
+        return objective.value / self.scale + PENALTY * bounded

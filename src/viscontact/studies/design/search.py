@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
@@ -13,8 +13,6 @@ from typing import Any
 import numpy as np
 from scipy.optimize import direct, minimize
 
-from viscontact.studies.design.penalised_cost import PenalisedCost
-from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Level
 from viscontact.studies.space import Choice, Space
 
@@ -39,13 +37,68 @@ SIMPLEX, WIDE_SIMPLEX = 0.04, 0.1
 #: none is feasible, for the one that is closest to being so.
 NEAR_END, NEAR_UNFEASIBLE_END = 0.1, 0.25
 
+
+@dataclass(frozen=True)
+class Score:
+    """Score of a point: the objective, and the cost, which has penalties where it is infeasible."""
+
+    key: Hashable  # the same for points with the same values on the same cells
+    point: Point
+    level: Level
+    value: float  # objective: NaN if a run failed
+    error: float  # of the objective; NaN if unknown, inf if it depends on the mesh
+    cost: float  # [-]
+    cost_error: float  # [-], 0 if unknown
+    is_feasible: bool
+    has_failed: bool
+
+
+@dataclass(frozen=True)
+class Found:
+    """End of a search."""
+
+    best: Score | None  # of the feasible points on the finest cells
+    is_cut_short: bool  # the runs were used up before the gain was within the error
+
+
 #: Points that are likely to follow, a given number of them.
 Foreseen = Callable[[int], Sequence[Point]]
-#: Trials at some points; workers that are free compute those that are likely to follow.
+#: Scores of some points; workers that are free compute those that are likely to follow.
 #: BudgetSpentError if they would take more runs than are left.
-Evaluate = Callable[[Sequence[Point], Level, Foreseen | None], Sequence[Trial]]
+Evaluate = Callable[[Sequence[Point], Level, Foreseen | None], Sequence[Score]]
 #: Cost of a point.
 _Cost = Callable[[Any], float]
+
+
+def search(
+    evaluate: Evaluate,
+    space: Space,
+    budget: Budget,
+    levels: Sequence[Level],
+    *,
+    size: int = 1,
+    held: int = 0,
+    known: Iterable[Score] = (),
+) -> Found:
+    """Search a space for the least objective, on cells of some levels, the cheapest first.
+
+    A point takes `size` runs; `held` runs of the budget are left to later searches, `known` points
+    are those of earlier ones.
+    """
+    made = _Search(evaluate, space, budget, levels, size)
+    made.tried.update({each.key: each for each in known})
+    budget.reserved = held
+    if len(levels) > 1:
+        # The best points are to be computed on the finest cells in any event.
+        budget.reserved += min(CANDIDATES * size, budget.left // RESERVED)
+    first = levels[0]
+    made.within_budget(partial(made.explore, first))
+    if made.best(first) is None:
+        made.within_budget(partial(made.approach, first))
+    budget.reserved = held
+    made.within_budget(made.certify)
+    made.within_budget(made.refine)
+    return Found(made.best(levels[-1]), made.is_cut_short)
 
 
 class _NothingGainedError(Exception):
@@ -57,62 +110,42 @@ class _ForeseenError(Exception):
 
 
 @dataclass
-class Search:
-    """Search over a space by trials at its points."""
+class _Search:
+    """Points that a search has tried."""
 
-    space: Space
     evaluate: Evaluate
-    cost: PenalisedCost
+    space: Space
     budget: Budget
-    levels: tuple[Level, ...] = ("case",)  # the cheap one first
-    size: int = 1  # runs of a trial
-    tried: dict[tuple[str, ...], tuple[Point, Trial]] = field(default_factory=dict)
-    held: int = 0  # runs that are left to other searches
-    is_cut_short: bool = False  # the runs were used up before the gain was within the error
+    levels: Sequence[Level]
+    size: int
+    tried: dict[Hashable, Score] = field(default_factory=dict)
+    is_cut_short: bool = False
 
-    def run(self) -> Trial | None:
-        """Return the best feasible trial on the cells of the case; None without one."""
-        budget = self.budget
-        budget.reserved = self.held
-        if len(self.levels) > 1:
-            # The best trials are to be computed on the cells of the case in any event.
-            most = budget.left // RESERVED
-            budget.reserved += min(CANDIDATES * self.size, most)
-        first = self.levels[0]
-        self._within_budget(partial(self._explore, first))
-        if self.best(first) is None:
-            self._within_budget(partial(self._approach, first))
-        budget.reserved = self.held
-        self._within_budget(self._certify)
-        self._within_budget(self._refine)
-        return self.best("case")
-
-    def _within_budget(self, search: Callable[[], None]) -> None:
+    def within_budget(self, part: Callable[[], None]) -> None:
         """Search until the runs are used up."""
         try:
-            search()
+            part()
         except BudgetSpentError:
             self.is_cut_short = True
 
-    def best(self, level: Level) -> Trial | None:
-        """Best feasible trial of a level."""
+    def best(self, level: Level) -> Score | None:
+        """Best feasible point of a level."""
         return next(iter(self._ranked(level)), None)
 
-    def closest(self, level: Level) -> Trial | None:
-        """Trial of a level with the least cost, feasible or not; None if all of them failed."""
-        done = (each for each in self.trials(level) if not each.failure)
-        return min(done, key=self.cost, default=None)
+    def closest(self, level: Level) -> Score | None:
+        """Point of a level with the least cost, feasible or not; None if all of them failed."""
+        done = (each for each in self._of(level) if not each.has_failed)
+        return min(done, key=lambda each: each.cost, default=None)
 
-    def trials(self, level: Level) -> list[Trial]:
-        """Trials of a level, in their order."""
-        return [trial for _, trial in self.tried.values() if trial.level == level]
+    def _of(self, level: Level) -> list[Score]:
+        return [each for each in self.tried.values() if each.level == level]
 
-    def _ranked(self, level: Level) -> list[Trial]:
-        """Feasible trials of a level, the best first."""
-        found = [each for each in self.trials(level) if self.cost.is_feasible(each)]
-        return sorted(found, key=lambda each: self.cost.objective.cost(each).value)
+    def _ranked(self, level: Level) -> list[Score]:
+        """Feasible points of a level, the best first."""
+        found = [each for each in self._of(level) if each.is_feasible]
+        return sorted(found, key=lambda each: each.value)
 
-    def _explore(self, level: Level) -> None:
+    def explore(self, level: Level) -> None:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
         choices = [each for each in self.space.parameters if isinstance(each, Choice)]
         if len(choices) == len(self.space.parameters):
@@ -129,21 +162,21 @@ class Search:
         _Watched(self, level, patience, minimise, left // UNFEASIBLE_PART).run()
         self._try_ends(level)
 
-    def _approach(self, level: Level) -> None:
-        """Search around the trial that is closest to a feasible one, where none is feasible."""
+    def approach(self, level: Level) -> None:
+        """Search around the point that is closest to a feasible one, where none is feasible."""
         closest = self.closest(level)
         if closest is not None and self.space.ranges:
             self._around(closest, level, WIDE_SIMPLEX)
 
     def _try_ends(self, level: Level) -> None:
-        """Try the end of a range that the best or least infeasible trial is close to."""
+        """Try the end of a range that the best or least infeasible point is close to."""
         # DIRECT never reaches it.
         best, near_end = self.best(level), NEAR_END
         if best is None:
             best, near_end = self.closest(level), NEAR_UNFEASIBLE_END
         if best is None:
             return
-        point = list(self.point(best))
+        point = list(best.point)
         ends = [round(point[n]) for n in self.space.ranges]
         near = [
             (n, end)
@@ -158,39 +191,36 @@ class Search:
             tried.insert(0, tuple(point))
         self._try_all(tried, level)
 
-    def _certify(self) -> None:
-        """Compute the best coarse trials on the cells of the case."""
-        if self.levels[0] == "case":
+    def certify(self) -> None:
+        """Compute the best points of the coarse cells on the finest ones."""
+        coarse, fine = self.levels[0], self.levels[-1]
+        if coarse == fine:
             return
-        certified: list[Trial] = []
-        ranked = self._ranked("coarse")
-        if not ranked and (closest := self.closest("coarse")) is not None:
+        ranked = self._ranked(coarse)
+        if not ranked and (closest := self.closest(coarse)) is not None:
             # It may be feasible on smaller cells.
-            self.trial_at(self.point(closest), "case", _first_of([]))
-        for rank, coarse in enumerate(ranked, 1):
-            value = self.cost.objective.cost(coarse)
-            best = self.best("case")
+            self.score_at(closest.point, fine, _first_of([]))
+        for rank, each in enumerate(ranked):
+            best = self.best(fine)
             if best is not None:
                 # The others are worse by more than the cells can explain.
-                known = value.error if math.isfinite(value.error) else 0.0
-                if value.value - known > self.cost.objective.cost(best).value:
+                known = each.error if math.isfinite(each.error) else 0.0
+                if rank >= CANDIDATES or each.value - known > best.value:
                     return
-                if len(certified) >= CANDIDATES:
-                    return
-            others = [self.point(each) for each in ranked[rank:CANDIDATES]]
-            certified.append(self.trial_at(self.point(coarse), "case", _first_of(others)))
+            others = [other.point for other in ranked[rank + 1 : CANDIDATES]]
+            self.score_at(each.point, fine, _first_of(others))
 
-    def _refine(self) -> None:
-        """Search around the best certified trial on the cells of the case, by Nelder and Mead."""
-        best = self.best("case")
+    def refine(self) -> None:
+        """Search around the best point on the finest cells, by Nelder and Mead."""
+        best = self.best(self.levels[-1])
         if best is None or not self.space.ranges:
             return
-        self._around(best, "case", SIMPLEX)
-        self._try_ends("case")
+        self._around(best, self.levels[-1], SIMPLEX)
+        self._try_ends(self.levels[-1])
 
-    def _around(self, trial: Trial, level: Level, edge: float) -> None:
-        """Search around a trial by Nelder and Mead, from a simplex with some edge."""
-        start, ranges = np.array(self.point(trial)), self.space.ranges
+    def _around(self, best: Score, level: Level, edge: float) -> None:
+        """Search around a point by Nelder and Mead, from a simplex with some edge."""
+        start, ranges = np.array(best.point), self.space.ranges
         simplex = np.tile(start[list(ranges)], (len(ranges) + 1, 1))
         for row in range(len(ranges)):
             simplex[row + 1, row] += edge if simplex[0, row] < 0.5 else -edge
@@ -207,20 +237,14 @@ class Search:
 
         _Watched(self, level, LOCAL_PATIENCE * (1 + len(ranges)), minimise).run()
 
-    def point(self, trial: Trial) -> Point:
-        """Coordinates of a trial."""
-        return self.tried[trial.key][0]
-
     def _try_all(self, points: Sequence[Point], level: Level) -> None:
         for number, point in enumerate(points, 1):
-            self.trial_at(point, level, _first_of(points[number:]))
+            self.score_at(point, level, _first_of(points[number:]))
 
-    def trial_at(self, point: Point, level: Level, ahead: Foreseen) -> Trial:
-        """Return the trial of a point; `ahead` are the points that are likely to follow."""
-        (trial,) = self.evaluate([point], level, ahead)
-        clipped = tuple(float(np.clip(part, 0, 1)) for part in point)
-        self.tried.setdefault(trial.key, (clipped, trial))
-        return trial
+    def score_at(self, point: Point, level: Level, ahead: Foreseen) -> Score:
+        """Return the score of a point; `ahead` are the points that are likely to follow."""
+        (score,) = self.evaluate([point], level, ahead)
+        return self.tried.setdefault(score.key, score)
 
 
 class _Watched:
@@ -228,7 +252,7 @@ class _Watched:
 
     def __init__(
         self,
-        search: Search,
+        search: _Search,
         level: Level,
         patience: int,
         minimise: Callable[[_Cost], None],
@@ -247,10 +271,10 @@ class _Watched:
 
     def __call__(self, given: Any) -> float:
         before, point = len(self._search.tried), tuple(map(float, np.ravel(given)))
-        trial = self._search.trial_at(point, self._level, self._foreseen)
-        cost = self._known[point] = self._search.cost(trial)
-        self._watch(trial, cost, is_new=len(self._search.tried) > before)
-        return cost
+        score = self._search.score_at(point, self._level, self._foreseen)
+        self._known[point] = score.cost
+        self._watch(score, is_new=len(self._search.tried) > before)
+        return score.cost
 
     def _foreseen(self, count: int) -> list[Point]:
         """Next points of the search, if each of them costs as much as the nearest known one."""
@@ -273,10 +297,10 @@ class _Watched:
             self._minimise(repeated)
         return list(found)
 
-    def _watch(self, trial: Trial, cost: float, *, is_new: bool) -> None:
+    def _watch(self, score: Score, *, is_new: bool) -> None:
         self._tried += is_new
-        if cost < self._mark - max(LEAST_GAIN, self._search.cost.error(trial)):
-            self._mark, self._last = cost, self._tried
+        if score.cost < self._mark - max(LEAST_GAIN, score.cost_error):
+            self._mark, self._last = score.cost, self._tried
         patience = self._patience
         if self._search.best(self._level) is None:
             if self._tried >= self._most_unfeasible and self._search.closest(self._level):

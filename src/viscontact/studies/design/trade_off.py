@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.studies.design.evaluated_trials import Searched, Trials, searched
 from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.objectives import Objective
-from viscontact.studies.design.search import Search
 from viscontact.studies.design.trials import Trial
 
 #: Weights of the compromises are multiples of its inverse.
@@ -25,22 +25,20 @@ def compromises(count: int) -> list[tuple[float, ...]]:
     return [*(row for row in found if not np.allclose(row, equal)), equal]
 
 
-def searched_trade_off(
-    search_for: Callable[[Objective, int], Search], goals: Sequence[Goal]
-) -> list[tuple[Search, Trial | None]]:
+def searched_trade_off(trials: Trials) -> list[Searched]:
     """Search for the best trial of each goal, then for compromises; the equal one is the last."""
-    # `search_for` makes a search for an objective that leaves some runs to others. If a goal has no
-    # feasible trial, its search is the last.
-    weights = compromises(len(goals))
-    found: list[tuple[Search, Trial | None]] = []
+    # If a goal has no feasible trial, its search is the last.
+    goals, budget, weights = trials.goals, trials.budget, compromises(len(trials.goals))
+    found: list[Searched] = []
 
-    def search(objective: Objective) -> Trial | None:
-        made = search_for(objective, len(goals) + len(weights) - len(found) - 1)
-        found.append((made, made.run()))
-        return found[-1][1]
+    def search(objective: Objective) -> None:
+        later = len(goals) + len(weights) - len(found) - 1
+        held = (budget.most - budget.runs) * later // (later + 1)
+        found.append(searched(trials, objective, held=held))
 
-    best = [search(Objective((goal,))) for goal in goals]
-    ends = [each for each in best if each is not None]
+    for goal in goals:
+        search(Objective((goal,)))
+    ends = [each.best for each in found if each.best is not None]
     if len(ends) < len(goals):
         return found
     costs = costs_of(ends, goals)
