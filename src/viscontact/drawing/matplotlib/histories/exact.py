@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.loads import ApproachHistory
 from viscontact.drawing.content.along_run import along_run, within_span
-from viscontact.drawing.matplotlib.histories.exact_history import (
+from viscontact.drawing.content.exact_history import (
     ExactHistory,
     exact_history,
     exact_label,
