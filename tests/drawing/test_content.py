@@ -7,9 +7,12 @@ import pytest
 import xarray as xr
 
 from viscontact.bodies.indenters import Sphere
+from viscontact.bodies.laws import Elastic, Maxwell
 from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
+from viscontact.drawing.content.design import profile_panel, trial_panels
 from viscontact.drawing.content.friction import limit_speeds
 from viscontact.drawing.content.history import limits_around
+from viscontact.drawing.content.law_curves import creep_panels, material_panels
 from viscontact.drawing.content.look import PRESSURE, shades
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import in_order
@@ -17,6 +20,7 @@ from viscontact.drawing.content.panel import Axis, Curve, Panel
 from viscontact.drawing.content.pressure_relief import thinned
 from viscontact.drawing.content.relief import relief
 from viscontact.drawing.content.scale import pressure_scale, round_step
+from viscontact.drawing.content.sensitivity import tornado_panels
 from viscontact.drawing.content.shape import natural_size, stretch_note
 from viscontact.drawing.content.window import window_over
 from viscontact.drawing.figures import names_of
@@ -132,3 +136,52 @@ def test_panel_has_numbers_in_si_and_an_axis_with_the_unit_in_which_they_are_dra
     )
     assert panel.y.label == "Contact area [mm²]"
     assert panel.y.unit(panel.curves[0].y).round(6).tolist() == [1.0, 2.0]
+
+
+def test_trials_are_told_apart_and_the_best_one_is_marked() -> None:
+    data = {"force": ("trial", [3.0, 2.0, 4.0]), "force_error": ("trial", [0.1, np.inf, 0.3])}
+    data |= {"feasible": ("trial", [True, True, False]), "level": ("trial", 3 * ["case"])}
+    keys = {"load.force": ("trial", [1.0, 2.0, 3.0], {"units": "N"})}
+    (panel,) = trial_panels(xr.Dataset(data, keys, {"goal": "force", "best": 1}))
+    found = {curve.name: (curve.look, curve.x.tolist()) for curve in panel.curves}
+    assert found["cells of the case"] == ("points", [1.0, 2.0])
+    assert found["not feasible"] == ("cross", [3.0])
+    assert found["best"] == ("square", [2.0])
+    assert panel.x.label == "Load force [N]"
+
+
+def test_profiles_are_cut_off_where_they_drop_steeply_at_the_ends() -> None:
+    data = {"drop": (("profile", "x"), [[1e-3, 2e-6, 0.0, 2e-6, 1e-3]])}
+    x = [-1.0, -0.5, 0.0, 0.5, 1.0]
+    panel = profile_panel(xr.Dataset(data, {"profile": ["free"], "x": x}))
+    assert panel.y.limits == pytest.approx((-0.4e-6, 8e-6))
+
+
+def test_bars_are_the_known_elasticities_the_largest_first() -> None:
+    data = {"elasticity": (("output", "input"), [[0.1, np.nan, -2.0]])}
+    data |= {"elasticity_error": (("output", "input"), [[0.01, 0.0, 0.1]])}
+    inputs = ["load.force", "load.time", "indenter.radius"]
+    (panel,) = tornado_panels(xr.Dataset(data, {"output": ["force"], "input": inputs}))
+    assert panel.y.texts == ("Indenter radius", "Load force")
+    assert {curve.y[0]: (curve.x[0], curve.ink.place) for curve in panel.curves} == {
+        0.0: (-2.0, 1),
+        1.0: (0.1, 0),
+    }
+
+
+def test_curve_of_a_law_has_its_value_at_time_zero_only_if_it_is_alone() -> None:
+    law, times = Maxwell(1e9, 1e11), np.geomspace(1.0, 100.0, 3)
+    compliance, modulus = creep_panels({"": law}, times)
+    assert [mark.place for mark in (*compliance.marks, *modulus.marks)] == pytest.approx(
+        [5e-10, 1e9]
+    )
+    assert creep_panels({"one": law, "two": law}, times)[0].marks == ()
+
+
+def test_known_range_of_a_material_is_shaded_over_time_and_over_frequency() -> None:
+    panels = material_panels(Maxwell(1e9, 1e9), (0.01, 100.0), (0.0, 10.0), ())
+    assert [panel.shaded for panel in panels] == [(0.01, 10.0), (0.01, 10.0), (0.1, 100.0)]
+    assert [panel.y.scale for panel in panels] == 3 * ["log"]
+    narrow = material_panels(Maxwell(1e9, 1e9), (0.1, 0.2), None, ())
+    assert [panel.y.scale for panel in narrow] == ["linear", "linear", "log"]
+    assert material_panels(Elastic(1e6), (0.1, 1.0), None, ())[1].shaded is None

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.layers import creeping_laws
+from viscontact.drawing.content.law_curves import curve_times
 from viscontact.drawing.matplotlib import creep_curve, draw_indenter, friction
 from viscontact.drawing.matplotlib.layout.saving import as_svg
-from viscontact.drawing.matplotlib.materials.creep import curve_times
 from viscontact.drawing.svg.curves import law_drawings
 from viscontact.drawing.svg.html import element
 from viscontact.drawing.svg.shapes import indenter_drawings

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.drawing.content.design import parameters_of
+from viscontact.drawing.content.law_curves import curve_times
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.error_band import band_key, draw_band
 from viscontact.drawing.matplotlib.layout.page import page_width
@@ -17,7 +18,6 @@ from viscontact.drawing.matplotlib.layout.style import (
     by_rows,
     new_figure,
 )
-from viscontact.drawing.matplotlib.materials.creep import curve_times
 
 
 def test_band_reaches_from_value_minus_to_value_plus_error() -> None:

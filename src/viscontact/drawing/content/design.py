@@ -9,7 +9,17 @@ import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.key_axis import key_axis, places_on
-from viscontact.drawing.content.panel import FIRST, PALE, TEXT, Axis, Curve, CurveLook, Ink, Panel
+from viscontact.drawing.content.panel import (
+    FIRST,
+    PALE,
+    TEXT,
+    Axis,
+    Curve,
+    Ink,
+    LineLook,
+    MarkLook,
+    Panel,
+)
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import readable_unit
 
@@ -27,7 +37,7 @@ def trial_panels(table: xr.Dataset) -> list[Panel]:
     y, values, errors = _scalar(table, str(table.attrs["goal"]).split()[0])
     feasible, is_coarse = table["feasible"].values.astype(bool), table["level"].values == "coarse"
     best = np.arange(values.size) == int(table.attrs["best"])
-    groups: tuple[tuple[Bools, str, Ink, CurveLook], ...] = (
+    groups: tuple[tuple[Bools, str, Ink, MarkLook], ...] = (
         (feasible & is_coarse, "coarse cells", PALE, "points"),
         (feasible & ~is_coarse, "cells of the case", FIRST, "points"),
         (~feasible, "not feasible", PALE, "cross"),
@@ -58,7 +68,7 @@ def trade_off_panels(table: xr.Dataset) -> list[Panel]:
     for names in pairs:
         (x, along, error_x), (y, up, error) = (_scalar(table, name) for name in names)
         best, rows = [int(table.attrs["best"])], np.flatnonzero(front)[np.argsort(along[front])]
-        look: CurveLook = "joined" if len(pairs) == 1 else "points"
+        look: LineLook | MarkLook = "joined" if len(pairs) == 1 else "points"
         curves = [
             Curve(along[rows], up[rows], "not dominated", FIRST, look, error[rows], error_x[rows]),
             Curve(along[best], up[best], "compromise", TEXT, "square"),

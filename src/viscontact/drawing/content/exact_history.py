@@ -1,4 +1,4 @@
-"""Exact history of the recorded case of a result, for a sphere on a half-space."""
+"""Computed history of a sphere on a half-space, and the exact one of its recorded case."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Indenter, Sphere
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.loads import ApproachHistory, ForceHistory
+from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.drawing.content.exact_sphere import exact_sphere, sphere_radius
+from viscontact.drawing.content.panel import FAINT, TEXT, Axis, Curve, Ink, Mark, Panel
 from viscontact.reference import (
     AxisymmetricContact,
     LeeRadokContact,
@@ -21,7 +24,10 @@ from viscontact.reference import (
     press_axisymmetric,
 )
 from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_object
+from viscontact.results.run_axis import require_time
+from viscontact.units.formatting import ReadableUnit
 
+_NAME = "exact"
 # Steps of the reference between corners of the load, and points of its pressure.
 _STEPS, _PLACES = 60, 48
 
@@ -35,6 +41,50 @@ class ExactHistory:
     approach: Floats
     force: Floats
     peak_pressure: Floats
+
+
+def exact_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
+    """Panels of radius, approach or force, and peak pressure, and one of their differences."""
+    require_time(results, _NAME)
+    theory = exact_history(results, _NAME)
+    names = ["force", "approach", "contact_area", "peak_pressure"]
+    run = within_span(results, names, times, _NAME, "")
+    within = np.isin(results["time"].values, run["time"].values)
+    x, label = along_run([run]), _label(results, theory.solution)
+    instants, panels, differences = run["time"].values, [], []
+    compared = _compared(results, run, theory)
+    for number, (quantity, si, ours, theirs) in enumerate(compared):
+        exact, ink = theirs[within], Ink(place=number)
+        curves = (
+            Curve(instants, exact, label, FAINT),
+            Curve(instants, ours, ink=ink, look="white", symbol=number),
+        )
+        note = "" if number else "markers: computed"
+        panels.append(Panel(x, Axis.of(quantity, si, exact), curves, note=note))
+        part = (ours - exact) / (np.abs(exact).max() or 1.0)
+        differences.append(Curve(instants, part, quantity.lower(), ink, "white", symbol=number))
+    of_largest = Axis("Difference", ReadableUnit("% of the largest", 0.01))
+    zero = (Mark(0.0, "y", ink=TEXT),)
+    note = f"computed less {label}"
+    return [*panels, Panel(x, of_largest, tuple(differences), marks=zero, note=note)]
+
+
+def _compared(
+    results: xr.Dataset, run: xr.Dataset, theory: ExactHistory
+) -> list[tuple[str, str, Floats, Floats]]:
+    """Label, unit, computed and exact history of each quantity that was not prescribed."""
+    radius = np.sqrt(run["contact_area"].values / np.pi)
+    by_approach = isinstance(recorded_object(results, "load", _NAME), ApproachHistory)
+    follows = (
+        ("Force", "N", run["force"].values, theory.force)
+        if by_approach
+        else ("Approach", "m", run["approach"].values, theory.approach)
+    )
+    return [
+        ("Contact radius", "m", radius, theory.contact_radius),
+        follows,
+        ("Peak pressure", "Pa", run["peak_pressure"].values, theory.peak_pressure),
+    ]
 
 
 def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
@@ -56,9 +106,9 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
     return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
 
 
-def exact_label(results: xr.Dataset, solution: str, figure: str) -> str:
+def _label(results: xr.Dataset, solution: str) -> str:
     """Legend of an exact solution, which replaces a sphere by its paraboloid."""
-    sphere = isinstance(recorded_object(results, "indenter", figure), Sphere)
+    sphere = isinstance(recorded_object(results, "indenter", _NAME), Sphere)
     return f"{'paraboloid' if sphere else 'exact'} ({solution})"
 
 

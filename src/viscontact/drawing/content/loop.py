@@ -84,12 +84,13 @@ def _panel(loop: Loop, curves: tuple[Curve, ...], units: Units, note: str) -> Pa
 
 
 def _curve(run: xr.Dataset, loop: Loop, name: str, ink: Ink) -> Curve:
-    errors = [
+    error, error_x = (
         None if is_prescribed(run, scalar) else stated_error(run, scalar)
         for scalar in (loop.value, loop.along)
-    ]
+    )
     x = np.asarray(run[loop.along].values, dtype=np.float64)
-    return Curve(x, drawn_values(run, loop.value), name, ink, "line", *errors)
+    y = drawn_values(run, loop.value)
+    return Curve(x, y, name, ink, error=error, error_x=error_x)
 
 
 def _limits(curves: tuple[Curve, ...]) -> tuple[float, float] | None:

@@ -63,10 +63,10 @@ class Ink:
 FIRST, SECOND, FAINT, PALE, TEXT = Ink(), Ink(place=1), Ink("faint"), Ink("pale"), Ink("text")
 
 
-#: Lines, markers, both ("joined"), or horizontal bars from 0.
-CurveLook = Literal[
-    "line", "dashed", "dotted", "points", "hollow", "cross", "square", "joined", "bars"
-]
+#: "beyond" continues a line where it is less certain; "joined" has markers.
+LineLook = Literal["line", "dashed", "beyond", "dotted", "joined"]
+#: Full markers, without or with a filling in white ("hollow", "white"), other ones, bars from 0.
+MarkLook = Literal["points", "hollow", "white", "cross", "square", "bars"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,10 +77,11 @@ class Curve:
     y: Floats
     name: str = ""  # in the legend
     ink: Ink = FIRST
-    look: CurveLook = "line"
+    look: LineLook | MarkLook = "line"
     #: Half widths: bands along a line, bars at points; NaN where unknown, inf on the mesh.
     error: Floats | None = None
     error_x: Floats | None = None
+    symbol: int = 0  # of markers: different sources or quantities have different ones
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +115,7 @@ class Panel:
     curves: tuple[Curve, ...] = ()
     bands: tuple[Band, ...] = ()
     marks: tuple[Mark, ...] = ()
+    shaded: tuple[float, float] | None = None  # range on the horizontal axis [SI]
     title: str = ""
     note: str = ""  # remark beside the title
     in_place: str = ""  # text in place of curves that are not drawn

@@ -11,6 +11,7 @@ from viscontact.bodies.loads import MixedHistory
 from viscontact.bodies.materials.layers import Layered, creeping_laws
 from viscontact.bodies.materials.material import Material
 from viscontact.case import Case, CaseError, Parts
+from viscontact.drawing.content.law_curves import curve_times
 from viscontact.drawing.content.shape import natural_size
 from viscontact.drawing.matplotlib import (
     creep_curve,
@@ -20,7 +21,6 @@ from viscontact.drawing.matplotlib import (
     fitted_series,
 )
 from viscontact.drawing.matplotlib.layout.page import Width
-from viscontact.drawing.matplotlib.materials.creep import curve_times
 from viscontact.drawing.svg.curves import law_span
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast

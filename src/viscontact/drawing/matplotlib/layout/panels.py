@@ -20,10 +20,15 @@ from viscontact.drawing.matplotlib.layout.page import NARROW
 _LOOKS: Mapping[str, dict[str, Any]] = {
     "line": {},
     "dashed": {"linestyle": "--", "linewidth": 1.0},
+    "beyond": {"linestyle": (0, (3, 2)), "alpha": 0.7},
     "dotted": {"linestyle": ":", "linewidth": 1.0},
     "joined": {"marker": "o", "markersize": 3.5},
     "points": {"marker": "o", "markersize": 3.5, "linestyle": "none"},
     "hollow": {"marker": "o", "markersize": 3.2, "linestyle": "none", "markerfacecolor": "none"},
+    "white": {
+        **{"marker": "o", "markersize": 3.6, "linestyle": "none", "markerfacecolor": "white"},
+        "markeredgewidth": 0.9,
+    },
     "cross": {"marker": "x", "markersize": 3.5, "linestyle": "none"},
     "square": {
         **{"marker": "s", "markersize": 8.0, "linestyle": "none", "markerfacecolor": "none"},
@@ -55,6 +60,9 @@ def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
 def draw_panel(axes: Axes, panel: Panel) -> list[Band]:
     """Draw a panel, and return the error bands of its curves."""
     style.dress(axes)
+    if panel.shaded is not None:
+        low, high = panel.x.unit(panel.shaded).tolist()
+        axes.axvspan(low, high, color=style.SHADE, zorder=0, linewidth=0)
     for shaded in panel.bands:
         look = {"color": style.look_of(shaded.ink)["color"], "alpha": 0.25, "linewidth": 0.0}
         edges = panel.y.unit(shaded.low), panel.y.unit(shaded.high)
@@ -88,7 +96,10 @@ def _draw_curve(axes: Axes, x: Floats, y: Floats, curve: Curve) -> None:
     if curve.look == "bars":
         axes.barh(y, x, height=0.65, color=look["color"], alpha=0.8, label=curve.name)
     else:
-        axes.plot(x, y, label=curve.name, **look | _LOOKS[curve.look])
+        look |= _LOOKS[curve.look]
+        if curve.symbol:
+            look["marker"] = style.MARKERS[curve.symbol]
+        axes.plot(x, y, label=curve.name, **look)
 
 
 def scale_along(axes: Axes, axis: Axis) -> None:
@@ -100,10 +111,10 @@ def scale_along(axes: Axes, axis: Axis) -> None:
             set_log_time(axes, float(axis.unit(axis.first)), end)
         if end > start:
             axes.set_xlim(start, end)
-        if axis.scale == "time":
-            label = label_log_time(axes, axis.unit, float(axis.unit(axis.first)), end)
     if axis.scale == "log":
         axes.set_xscale("log")
+    if axis.scale != "linear" and axis.limits is not None and axis.quantity == "Time":
+        label = label_log_time(axes, axis.unit, float(axis.unit(axis.first)), end)
     if axes.xaxis.get_tick_params()["labelbottom"]:
         axes.set_xlabel(label)
 

@@ -34,6 +34,8 @@ _ROW, _FEW_ROWS = 0.18, 3
 _Entry = TypeVar("_Entry")
 
 INK, FAINT, LINE, BODY = LIGHT.ink, LIGHT.faint, LIGHT.blue, LIGHT.warm
+#: Background of a range.
+SHADE = "#eef2f6"
 _RUN_DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)))
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")

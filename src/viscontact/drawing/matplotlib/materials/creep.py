@@ -12,19 +12,14 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import Law
-from viscontact.bodies.materials.layers import creeping_laws
 from viscontact.drawing.content.compared_runs import runs_of
+from viscontact.drawing.content.law_curves import creep_panels, recorded_laws, run_times
+from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.matplotlib.layout import style
-from viscontact.drawing.matplotlib.layout.log_time import label_log_time
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
-from viscontact.results.recorded_case import recorded_object
-from viscontact.results.run_axis import law_times
-from viscontact.units.formatting import readable_unit
+from viscontact.drawing.matplotlib.layout.panels import draw_panel
 
 _NAME = "creep"
-
-#: Four decades show how the law gets to where the run begins [-]; points of a curve.
-_EARLIEST, _POINTS = 1e-4, 300
 
 
 def creep(
@@ -66,17 +61,7 @@ def creep(
     ['Creep compliance Φ [1/GPa]', 'Relaxation modulus G [MPa]']
     """
     runs = runs_of(results, _NAME)
-    laws = {
-        f"{name} {part}".strip(): law
-        for name, run in runs.items()
-        for part, law in creeping_laws(recorded_object(run, "material", _NAME)).items()
-    }
-    simulated = np.concatenate([law_times(run) for run in runs.values()])
-    span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
-    positive = span[span > 0]
-    if positive.size == 0 or not np.all(np.isfinite(span)):
-        raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
-    return _curves(laws, curve_times(float(positive.max()), float(positive.min())), width)
+    return _drawn(recorded_laws(runs), run_times(runs, times), width)
 
 
 def compare_creep(
@@ -164,63 +149,33 @@ def creep_curve(
         raise ValueError(
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"
         )
-    return _curves({"": law} if isinstance(law, Law) else law, instants, width)
+    return _drawn({"": law} if isinstance(law, Law) else law, instants, width)
 
 
-def curve_times(end: float, first: float = np.inf) -> Floats:
-    """Times up to the end of a run at which its law is drawn, from the first or earlier [s]."""
-    return np.geomspace(min(first, _EARLIEST * end), end, _POINTS)
-
-
-def _curves(laws: Mapping[str, Law], times: Floats, width: Width | None) -> Figure:
-    compliances = [(law(times), float(law(0.0))) for law in laws.values()]
-    stiff_at_once = all(at_once > 0 for _, at_once in compliances)
-    count = 2 if stiff_at_once else 1
-    wide = page_width(width, style.TWO_COLUMNS if count == 2 else style.ONE_COLUMN)
-    columns = 1 if wide <= NARROW else count
-    rows = count // columns
+def _drawn(laws: Mapping[str, Law], times: Floats, width: Width | None) -> Figure:
+    drawn = creep_panels(laws, times)
+    wide = page_width(width, style.TWO_COLUMNS if len(drawn) == 2 else style.ONE_COLUMN)
+    columns = 1 if wide <= NARROW else len(drawn)
+    rows = len(drawn) // columns
     figure = style.new_figure(wide, 2.7 if rows == 1 else 2.4 * rows)
     panels = list(figure.subplots(rows, columns, squeeze=False).flat)
-    _draw(panels[0], "Creep compliance Φ", "1/Pa", times, compliances)
-    if stiff_at_once:
-        moduli = [(law.relaxation(times), float(law.relaxation(0.0))) for law in laws.values()]
-        _draw(panels[1], "Relaxation modulus G", "Pa", times, moduli)
+    for axes, panel in zip(panels, drawn, strict=True):
+        draw_panel(axes, panel)
+        if panel.marks:
+            _explain_mark(axes, panel)
     if len(laws) > 1:
-        lines = panels[0].get_lines()[: len(laws)]
-        style.add_legend_below(figure, lines, list(laws), columns=columns + 1)
+        style.add_legend_below(figure, panels[0].get_lines(), list(laws), columns=columns + 1)
     return figure
 
 
-def _draw(
-    axes: Axes,
-    quantity: str,
-    si_unit: str,
-    times: Floats,
-    curves: list[tuple[Floats, float]],
-) -> None:
-    """Draw curves, each with its value at time 0."""
-    everything = [each for values, at_once in curves for each in (values, at_once)]
-    unit, time_unit = readable_unit(si_unit, *everything), readable_unit("s", times)
-    looks = style.run_styles(len(curves))
-    for (values, _), look in zip(curves, looks, strict=True):
-        axes.semilogx(time_unit(times), unit(values), **look)
-    if len(curves) == 1:
-        _mark_beginning(axes, *(unit(each) for each in curves[0]))
-    axes.set_ylabel(unit.label(quantity))
-    first, end = time_unit([times[0], times[-1]]).tolist()
-    axes.set_xlim(first, end)
-    axes.set_xlabel(label_log_time(axes, time_unit, first, end))
-    style.dress(axes)
-
-
-def _mark_beginning(axes: Axes, values: Floats, at_once: Floats) -> None:
-    """Mark the value at time 0, which is not on a logarithmic axis."""
-    level = float(at_once)
-    axes.axhline(level, color=style.FAINT, linewidth=0.8, linestyle=(0, (4, 3)))
-    rises = values[-1] > level
+def _explain_mark(axes: Axes, panel: Panel) -> None:
+    """Write what a level is, on the side of it where the curve is not."""
+    (mark,), (curve,) = panel.marks, panel.curves
+    axes.get_lines()[-1].set(linewidth=0.8, linestyle=(0, (4, 3)))
+    rises = curve.y[-1] > mark.place
     axes.annotate(
-        "t = 0",
-        (1.0, level),
+        mark.text,
+        (1.0, float(panel.y.unit(mark.place))),
         xycoords=("axes fraction", "data"),
         xytext=(-2, 3 if rises else -3),
         textcoords="offset points",

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.drawing.content.motion_profile import motion_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.results.stored_contact import cells_in_contact
-from viscontact.units.formatting import format_quantity, readable_unit
-
-#: Most speeds that are drawn by default, and digits of a speed.
-_MOST, _DIGITS = 5, 3
+from viscontact.drawing.matplotlib.pressure.contact_curves import draw_with_edges
 
 
 def motion_profile(
@@ -63,55 +58,9 @@ def motion_profile(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('y from the axis, along the motion [mm]', 'Pressure [kPa]')
     """
-    if "speed" not in results.dims or "pressure" not in results:
-        raise ValueError(
-            "motion_profile: the figure needs a result of steady motion with fields, from steady()"
-        )
-    along = str(results.attrs["along"])
-    across = "y" if along == "x" else "x"
-    dimension = str(results["pressure"].dims[0])
-    stored = results["pressure"].sel({across: at}, method="nearest").sortby(dimension)
-    chosen = _chosen(stored[dimension].values, speeds)
-    lines, places = stored.values[chosen], stored[along].values
-    touched = cells_in_contact(results).sel({across: at}, method="nearest").sortby(dimension)
+    panel = motion_panel(results, speeds, at)
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS)
         axes = style.new_figure(wide, 0.45 * wide).subplots()
-    style.dress(axes)
-    x_unit, y_unit = readable_unit("m", places), readable_unit("Pa", lines)
-    curves, colours = [], style.time_colours(len(chosen))
-    for index, (number, pressure) in enumerate(zip(chosen.tolist(), lines, strict=True)):
-        colour = colours[index]
-        curves += axes.plot(x_unit(places), y_unit(pressure), color=colour, lw=style.LINE_WIDTH)
-        _mark_edges(axes, x_unit(places), touched.values[number], colour)
-        label = format_quantity(float(stored[dimension].values[number]), "m/s", _DIGITS)
-        curves[-1].set_label(label)
-    axes.axvline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
-    axes.set(
-        xlabel=x_unit.label(f"{along} from the axis, along the motion"),
-        ylabel=y_unit.label("Pressure"),
-    )
-    style.add_legend(axes, curves, [str(curve.get_label()) for curve in curves])
+    style.add_legend(axes, *draw_with_edges(axes, panel))
     return style.figure_of(axes)
-
-
-def _chosen(stored: Floats, speeds: ArrayLike | None) -> Integers:
-    """Positions of the speeds to draw among the stored ones, ascending."""
-    if speeds is None:
-        count = min(_MOST, len(stored))
-        return np.unique(np.rint(np.linspace(0, len(stored) - 1, count)).astype(int))
-    wanted = np.atleast_1d(np.asarray(speeds, dtype=float))
-    return np.unique(np.abs(np.log(stored / wanted[:, None])).argmin(axis=1))
-
-
-def _mark_edges(axes: Axes, places: Floats, touched: Bools, colour: str) -> None:
-    """Mark the trailing edge (hollow) and the leading edge (full) of a contact."""
-    inside = np.flatnonzero(touched)
-    if not inside.size:
-        return
-    half = (places[1] - places[0]) / 2
-    for place, fill in (
-        (places[inside[0]] - half, "white"),
-        (places[inside[-1]] + half, colour),
-    ):
-        axes.plot(place, 0.0, "o", color=colour, mfc=fill, ms=4, clip_on=False, zorder=3)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.compared_runs import Runs
@@ -32,30 +33,29 @@ def draw_curves(
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS * 0.8)
         axes = style.new_figure(wide, min(3.0, 0.75 * wide)).add_subplot()
-    lines = len(axes.get_lines())
-    _draw(axes, panels[0])
+    named = draw_with_edges(axes, panels[0])
     axes.set_ylim(bottom=0.0)
-    names = [curve.name for curve in panels[0].curves if curve.name]
-    style.add_legend(axes, axes.get_lines()[lines : lines + len(names)], names)
+    style.add_legend(axes, *named)
     return style.figure_of(axes)
 
 
 def _compared(panels: list[Panel], width: Width | None) -> Figure:
     figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(panels) + 0.4)
     shared = figure.subplots(len(panels), sharex=True, sharey=True, squeeze=False)[:, 0]
-    for axes, panel in zip(shared, panels, strict=True):
-        _draw(axes, panel)
+    named = [draw_with_edges(axes, panel) for axes, panel in zip(shared, panels, strict=True)]
     shared[0].set_ylim(bottom=0.0)  # once all curves have extended the common limits
-    names = [curve.name for curve in panels[0].curves]
-    style.add_legend_below(figure, shared[0].get_lines(), names)
+    style.add_legend_below(figure, *named[0])
     return figure
 
 
-def _draw(axes: Axes, panel: Panel) -> None:
-    """Draw a panel, with edges of the contact on its lower border."""
+def draw_with_edges(axes: Axes, panel: Panel) -> tuple[list[Line2D], list[str]]:
+    """Draw a panel, with edges of the contact on its lower border; return what has a name."""
     before = len(axes.get_lines())
     draw_panel(axes, panel)
-    for line, curve in zip(axes.get_lines()[before:], panel.curves, strict=True):
+    drawn = list(zip(axes.get_lines()[before:], panel.curves, strict=False))
+    for line, curve in drawn:
         if curve.look != "line":
             white = {"markerfacecolor": "white"} if curve.look == "hollow" else {}
             line.set(markersize=4.0, zorder=3, clip_on=False, **white)
+    named = [(line, curve.name) for line, curve in drawn if curve.name]
+    return [line for line, _ in named], [name for _, name in named]
