@@ -143,6 +143,11 @@ def history_of(states: Sequence[ContactState]) -> History:
     return {name: np.array([getattr(state, name) for state in states], float) for name in names}
 
 
+def with_contact(history: History) -> Bools:
+    """Instants at which the bodies are in contact."""
+    return np.asarray(history["contact_area"] > 0)
+
+
 def _drop_beside_peak(pressure: Floats) -> float:
     """Largest relative drop from the largest pressure to the neighbouring cells in contact."""
     i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)

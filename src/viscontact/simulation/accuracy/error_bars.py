@@ -16,7 +16,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.loads import MixedHistory
 from viscontact.results.variables import scalars_with_error
-from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
+from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, with_contact
 from viscontact.simulation.accuracy.coarser_runs import (
     creeps,
     march_coarser_run,
@@ -216,9 +216,9 @@ def _mean_pressure_bar(history: History, values: dict[str, Floats]) -> Floats:
 
 def _touching(history: History, results: list[CoarserResult]) -> Bools:
     """Times of contact in the run or in a coarser one."""
-    touching = np.asarray(history["peak_pressure"] > 0)
+    touching = with_contact(history)
     for result in results:
-        touching |= np.nan_to_num(aligned("peak_pressure", history["time"], result)) > 0
+        touching |= np.nan_to_num(aligned("contact_area", history["time"], result)) > 0
     return touching
 
 
@@ -230,16 +230,17 @@ def _before_first_cell(history: History, touching: Bools) -> Bools:
 def _bound_by_first_contact(values: dict[str, Floats], history: History, touching: Bools) -> None:
     """Take the scalars of the first cells as errors of a contact smaller than a cell."""
     early = _before_first_cell(history, touching)
-    if not early.any() or not (history["peak_pressure"] > 0).any():
+    contact = with_contact(history)
+    if not early.any() or not contact.any():
         return
-    first = int((history["peak_pressure"] > 0).argmax())
+    first = int(contact.argmax())
     for name in ZERO_WITHOUT_CONTACT:
         values[name][early] = np.fmax(values[name][early], np.abs(history[name][first]))
 
 
 def _certainly_separated(run: RunSetup, history: History, touching: Bools) -> Bools:
     """Times without contact in the run, and under a given approach without any next to them."""
-    apart = np.asarray(history["peak_pressure"] == 0)
+    apart = ~with_contact(history)
     load, times = run.problem.load, history["time"]
     if load.control == "force":
         return apart

@@ -16,7 +16,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.rounding import rounding_remedy
-from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
+from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, with_contact
 from viscontact.simulation.accuracy.coarser_runs import MIN_ACROSS
 from viscontact.simulation.accuracy.refinement_levels import (
     RefinementLevels,
@@ -62,7 +62,7 @@ def peak_bars(
     widened = np.maximum(bars, np.nan_to_num(excess) * history["peak_pressure"])
     unbounded = unbounded_peak(history, results)
     if left_out:
-        unbounded |= (history["peak_pressure"] > 0) & _at_end(history["time"], results)
+        unbounded |= with_contact(history) & _at_end(history["time"], results)
     return np.where(unbounded, np.inf, widened)
 
 
@@ -78,7 +78,7 @@ def singular_warnings(
 
 def unbounded_peak(history: History, results: Sequence[CoarserResult]) -> Bools:
     """Times at which the peak pressure has no limit, by the body's shape or by the grids."""
-    contact = np.asarray(history["peak_pressure"] > 0)
+    contact = with_contact(history)
     if any(each.is_sharp for each in results):
         return contact
     levels = RefinementLevels.of("peak_pressure", history, list(results))
