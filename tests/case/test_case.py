@@ -20,7 +20,7 @@ import viscontact as vc
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.case.loads import history
 from viscontact.case.materials import measured_laws
-from viscontact.case.quantities import POSITIVE, Quantity
+from viscontact.case.quantities import POSITIVE, WithUnit
 from viscontact.case.time_grid_output import Cells
 from viscontact.case.yaml_source import _QUANTITY, parse, parse_value
 from viscontact.units.parsing import parse_quantity
@@ -535,4 +535,4 @@ def test_quantities_are_the_texts_that_yaml_reads(text: str) -> None:
 
 
 def test_quantity_of_a_case_is_read_in_si() -> None:
-    assert Quantity("length", POSITIVE).read("5 mm") == 0.005
+    assert WithUnit("length", POSITIVE).read("5 mm") == 0.005

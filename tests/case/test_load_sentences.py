@@ -12,11 +12,11 @@ from pydantic_core import PydanticCustomError
 
 import viscontact as vc
 from viscontact.case.loads.grammar import EXAMPLES
-from viscontact.case.loads.sentence_history import MOST_POINTS, Course, SentenceError, course_of
+from viscontact.case.loads.sentence_history import MOST_POINTS, LoadPoints, SentenceError, course_of
 from viscontact.case.loads.sentences import read_sentences, split_sentences
 
 
-def course(*texts: str) -> Course:
+def course(*texts: str) -> LoadPoints:
     return course_of(read_sentences(texts))
 
 

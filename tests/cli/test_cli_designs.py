@@ -15,7 +15,7 @@ from viscontact.cli.sweep import checks
 from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.results.run_files import MANIFEST_NAME
-from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.job import RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep.manifest import SweepRun, read_manifest
 
@@ -281,7 +281,7 @@ def test_runs_that_are_not_prepared_are_resumed_by_their_files(
         monkeypatch.setattr(checks, "MOST_READ", most)
         jobs = checks.checked_jobs(request, planned, runs)
         standings = {job.name: job.standing for job in jobs}
-        assert standings.pop("auto_force=5mN") is Standing.FINISHED
-        assert standings.pop("auto_force=7mN") is Standing.STOPPED
-        assert set(standings.values()) == {Standing.NEW}
+        assert standings.pop("auto_force=5mN") is RunStage.FINISHED
+        assert standings.pop("auto_force=7mN") is RunStage.STOPPED
+        assert set(standings.values()) == {RunStage.NEW}
         assert {job.instants for job in jobs} == {2}

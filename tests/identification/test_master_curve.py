@@ -12,7 +12,7 @@ from viscontact.identification import (
     fit_master_curve,
     fit_wlf,
 )
-from viscontact.identification.overlap import Curve, log_shift
+from viscontact.identification.overlap import TemperatureCurve, log_shift
 from viscontact.laws import WLF, Arrhenius, CreepSeries, RelaxationSeries, TabulatedShift
 
 TEMPERATURES = np.arange(360.0, 431.0, 5.0)
@@ -124,7 +124,7 @@ def test_losses_that_scatter_wildly_do_not_move_a_well_measured_storage(seed):
 def test_the_shift_found_has_the_least_mismatch_and_states_it(seed):
     rng = np.random.default_rng(seed)
     slow, fast = (
-        Curve(
+        TemperatureCurve(
             np.log(T),
             np.log(LAW.relaxation(T / RULE.factor(t)) * (1 + 0.02 * rng.standard_normal(T.size)))[
                 None

@@ -17,7 +17,7 @@ from viscontact.case import CaseError, read_case
 from viscontact.cli import main
 from viscontact.drawing.svg.html import written
 from viscontact.report import report_page
-from viscontact.report.inputs import Input, inputs
+from viscontact.report.inputs import InputRow, inputs
 from viscontact.report.measured import measured_figure, measured_lines
 from viscontact.report.title_block import file_lines, title_entries
 from viscontact.results.filed_case import FiledCase, started_at
@@ -169,15 +169,15 @@ output: {errors: false, fields: none}
 def test_design_of_a_crown_stands_beside_the_amplitude_that_follows(tmp_path: Path) -> None:
     with vc.open_results(directory(tmp_path, text=ROLLER)) as found:
         rows = inputs(found)
-    assert Input("Indenter", "profile", "logarithmic profile", "johns-gohar") in rows
-    assert Input("Indenter", "profile force", "", "500 N") in rows
+    assert InputRow("Indenter", "profile", "logarithmic profile", "johns-gohar") in rows
+    assert InputRow("Indenter", "profile force", "", "500 N") in rows
     [amplitude] = [each for each in rows if each.name == "profile amplitude"]
     # Q / (2 pi L E*) with half the length L (Lundberg 1939), by hand.
     lundberg = 1e6 * 500 / (2 * math.pi * 8e-3 * 3300e6)
     assert amplitude.value == f"{lundberg:.4f} µm"
     assert amplitude.typed == ""
-    assert Input("Load", "force", "200 N", "0.2 kN") in rows
-    assert Input("Indenter", "radius", "", "5 mm") in rows  # one value, not twice the same
+    assert InputRow("Load", "force", "200 N", "0.2 kN") in rows
+    assert InputRow("Indenter", "radius", "", "5 mm") in rows  # one value, not twice the same
 
 
 def test_a_measured_compliance_is_shown_as_it_was_measured(ds: xr.Dataset) -> None:

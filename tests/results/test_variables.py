@@ -39,7 +39,7 @@ from viscontact.results.variables import (
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation.accuracy.coarser_results import history_of
 from viscontact.simulation.accuracy.error_bars import ZERO_WITHOUT_CONTACT
@@ -210,7 +210,7 @@ def test_table_of_runs_never_cuts_a_number(
     (tmp_path / name).mkdir()
     vc.save(extended.assign_attrs(wall_time=1.0, allowable=limits), tmp_path / name / "result.nc")
     request = RunRequest(tmp_path / f"{name}.yaml")
-    job = Job(request, tmp_path / name, name, Standing.FINISHED, 3, 2.0, 1.0, 1.0)
+    job = Job(request, tmp_path / name, name, RunStage.FINISHED, 3, 2.0, 1.0, 1.0)
     for columns, tables in (("80", 2), ("160", 1)):
         monkeypatch.setenv("COLUMNS", columns)
         print_table([Ended(job, "done", 0)])
@@ -230,7 +230,7 @@ def test_table_of_runs_leaves_the_cell_of_an_older_run_empty(
         (tmp_path / name).mkdir()
         vc.save(run.assign_attrs(wall_time=1.0), tmp_path / name / "result.nc")
         request = RunRequest(tmp_path / f"{name}.yaml")
-        job = Job(request, tmp_path / name, name, Standing.FINISHED, 3, 2.0, 1.0, 1.0)
+        job = Job(request, tmp_path / name, name, RunStage.FINISHED, 3, 2.0, 1.0, 1.0)
         ended.append(Ended(job, "done", 0))
     print_table(ended)
     lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines() if line}

@@ -15,7 +15,7 @@ from viscontact.units.formatting import (
     without_trailing_zeros,
 )
 from viscontact.units.parsing import (
-    Scale,
+    UnitScale,
     parse_any_quantity,
     parse_scale,
     parse_unit,
@@ -55,8 +55,8 @@ def test_ticks_over_hours_are_times_that_clocks_show():
 
 
 def test_digits_of_a_number_stay_in_its_si_value():
-    assert Scale(0.001).si("9.565") == 0.009565
-    assert Scale(1.0, 273.15).si("60") == 333.15
+    assert UnitScale(0.001).si("9.565") == 0.009565
+    assert UnitScale(1.0, 273.15).si("60") == 333.15
 
 
 def test_units_are_factors_and_temperatures_have_an_offset():

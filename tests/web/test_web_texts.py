@@ -7,7 +7,7 @@ from pathlib import Path
 from viscontact.web.cases.case_reader import filled
 from viscontact.web.workspace.naming import _layers, file_stem, label_of
 from viscontact.web.workspace.pictures import on_dark
-from viscontact.web.workspace.problems import Problem, problem_of
+from viscontact.web.workspace.problems import InputProblem, problem_of
 
 
 def test_label_of_a_run_states_what_differs_from_the_first() -> None:
@@ -32,11 +32,11 @@ def test_lightness_is_inverted_on_a_dark_page() -> None:
 
 def test_problem_has_message_key_and_line() -> None:
     found = problem_of("a/case.yaml:6: load.force: cannot read it", Path("a/case.yaml"))
-    assert found == Problem(message="cannot read it", path="load.force", line=6)
+    assert found == InputProblem(message="cannot read it", path="load.force", line=6)
     found = problem_of("a/case.yaml:6: motion: motion.rolling: give it", Path("a/case.yaml")).path
     assert found == "motion.rolling"
     found = problem_of("a/case.yaml: a/pmma.csv: no such file", Path("a/case.yaml"))
-    assert found == Problem(message="pmma.csv: no such file", path="", line=None)
+    assert found == InputProblem(message="pmma.csv: no such file", path="", line=None)
 
 
 def test_empty_values_of_the_form_are_left_out() -> None:

@@ -16,12 +16,12 @@ from viscontact.case.errors import KeyPath
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.motion import AnyMotion
-from viscontact.case.quantities import POSITIVE, Quantity
+from viscontact.case.quantities import POSITIVE, WithUnit
 from viscontact.case.section_choice import alternatives
 from viscontact.units.parsing import parse_quantity
 
-_LENGTH = Quantity("length", POSITIVE)
-_FREQUENCY = Quantity("frequency", POSITIVE)
+_LENGTH = WithUnit("length", POSITIVE)
+_FREQUENCY = WithUnit("frequency", POSITIVE)
 
 #: Sections with aliases: the key that names their kind, and the kinds.
 _SECTIONS: dict[str, tuple[str, dict[str | int, type[BaseModel]]]] = {
@@ -86,7 +86,7 @@ _OF_ROLLERS = ("straight_length", "length")
 
 
 @dataclass
-class Resolution:
+class CanonicalData:
     """Data of a case with canonical keys only."""
 
     data: dict[str, Any]
@@ -110,11 +110,11 @@ class Resolution:
         self.typed[new] = old
 
 
-def resolved(data: dict[str, Any]) -> Resolution:
+def resolved(data: dict[str, Any]) -> CanonicalData:
     """Replace the aliases in the data of a case."""
     if not any(True for _ in _aliases_in(data)):
-        return Resolution(data)
-    found = Resolution(deepcopy(data))
+        return CanonicalData(data)
+    found = CanonicalData(deepcopy(data))
     for path, alias in list(_aliases_in(data)):
         _resolve(found, path, alias)
     return found
@@ -178,7 +178,7 @@ def _is_known(alias: Alias, model: type[BaseModel]) -> bool:
     return alias.canonical in model.model_fields and alias.name not in model.model_fields
 
 
-def _resolve(found: Resolution, path: KeyPath, alias: Alias) -> None:
+def _resolve(found: CanonicalData, path: KeyPath, alias: Alias) -> None:
     section = value_at(found.data, path[:-1])
     target = _target(section, alias)
     canonical = (*path[:-1], *target)

@@ -6,16 +6,16 @@ from typing import Annotated
 
 from pydantic import Field
 
-from viscontact.case.quantities import POSITIVE, Quantity, Section
+from viscontact.case.quantities import POSITIVE, Section, WithUnit
 
-_Force = Annotated[float, Quantity("force", POSITIVE)]
-_Length = Annotated[float, Quantity("length", POSITIVE)]
-_Angle = Annotated[float, Quantity("angle", POSITIVE)]
-_Area = Annotated[float, Quantity("area", POSITIVE)]
-_Stress = Annotated[float, Quantity("pressure", POSITIVE)]
-_LineLoad = Annotated[float, Quantity("line load", POSITIVE)]
-_Energy = Annotated[float, Quantity("energy", POSITIVE)]
-_Power = Annotated[float, Quantity("power", POSITIVE)]
+_Force = Annotated[float, WithUnit("force", POSITIVE)]
+_Length = Annotated[float, WithUnit("length", POSITIVE)]
+_Angle = Annotated[float, WithUnit("angle", POSITIVE)]
+_Area = Annotated[float, WithUnit("area", POSITIVE)]
+_Stress = Annotated[float, WithUnit("pressure", POSITIVE)]
+_LineLoad = Annotated[float, WithUnit("line load", POSITIVE)]
+_Energy = Annotated[float, WithUnit("energy", POSITIVE)]
+_Power = Annotated[float, WithUnit("power", POSITIVE)]
 _Ratio = Annotated[float, Field(gt=0)]
 
 #: Quantities that only moving contacts have, and those that steady motion does not have.

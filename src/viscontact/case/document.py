@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import toml_source, yaml_source
-from viscontact.case.aliases import Resolution, resolved, value_at
+from viscontact.case.aliases import CanonicalData, resolved, value_at
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 from viscontact.case.tolerances import nominal
 
@@ -149,7 +149,7 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
     return _with_canonical_keys(document, resolved(plain.data))
 
 
-def _with_canonical_keys(document: Document, found: Resolution) -> Document:
+def _with_canonical_keys(document: Document, found: CanonicalData) -> Document:
     """Return a document with the resolved data, and with the same keys in its text."""
     if found.data is document.data:
         return document

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from viscontact.case import yaml_source
-from viscontact.case.aliases import Resolution, canonical_path, resolved, value_at
+from viscontact.case.aliases import CanonicalData, canonical_path, resolved, value_at
 from viscontact.case.document import Document
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 from viscontact.case.tolerances import nominal
@@ -70,7 +70,7 @@ def key_path(name: str) -> KeyPath:
 
 
 def _canonical(
-    before: Document, found: Resolution, values: Iterable[KeyPath]
+    before: Document, found: CanonicalData, values: Iterable[KeyPath]
 ) -> dict[KeyPath, Any]:
     """Values of ``--set`` in the resolved data, under canonical keys."""
     canonical, settings = {old: new for new, old in found.typed.items()}, {}

@@ -40,7 +40,7 @@ ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 
 
 @dataclass(frozen=True)
-class Quantity:
+class WithUnit:
     """Annotation of a float that is written with a unit and converted to SI."""
 
     dimension: str
@@ -106,25 +106,25 @@ def _problem(why: str) -> PydanticCustomError:
     return PydanticCustomError("quantity", "{why}", {"why": why})
 
 
-Length = Annotated[float, Quantity("length", POSITIVE)]
-LengthOrInfinite = Annotated[float, Quantity("length", POSITIVE, infinite=True)]
-NotNegativeLength = Annotated[float, Quantity("length", NOT_NEGATIVE)]
-Offset = Annotated[float, Quantity("length")]
-Angle = Annotated[float, Quantity("angle")]
-OpenAngle = Annotated[float, Quantity("angle", POSITIVE)]
-Force = Annotated[float, Quantity("force", NOT_NEGATIVE)]
-Pressure = Annotated[float, Quantity("pressure", NOT_NEGATIVE)]
-Modulus = Annotated[float, Quantity("pressure", POSITIVE)]
-ModulusOrZero = Annotated[float, Quantity("pressure", NOT_NEGATIVE)]
-Compliance = Annotated[float, Quantity("compliance", NOT_NEGATIVE)]
-Viscosity = Annotated[float, Quantity("viscosity", POSITIVE)]
-Fluidity = Annotated[float, Quantity("fluidity", NOT_NEGATIVE)]
-Instant = Annotated[float, Quantity("time", NOT_NEGATIVE)]
-Duration = Annotated[float, Quantity("time", POSITIVE)]
-Speed = Annotated[float, Quantity("speed", POSITIVE)]
-Temperature = Annotated[float, Quantity("temperature", POSITIVE)]
-TemperatureDifference = Annotated[float, Quantity("temperature difference", POSITIVE)]
-MolarEnergy = Annotated[float, Quantity("molar energy", POSITIVE)]
+Length = Annotated[float, WithUnit("length", POSITIVE)]
+LengthOrInfinite = Annotated[float, WithUnit("length", POSITIVE, infinite=True)]
+NotNegativeLength = Annotated[float, WithUnit("length", NOT_NEGATIVE)]
+Offset = Annotated[float, WithUnit("length")]
+Angle = Annotated[float, WithUnit("angle")]
+OpenAngle = Annotated[float, WithUnit("angle", POSITIVE)]
+Force = Annotated[float, WithUnit("force", NOT_NEGATIVE)]
+Pressure = Annotated[float, WithUnit("pressure", NOT_NEGATIVE)]
+Modulus = Annotated[float, WithUnit("pressure", POSITIVE)]
+ModulusOrZero = Annotated[float, WithUnit("pressure", NOT_NEGATIVE)]
+Compliance = Annotated[float, WithUnit("compliance", NOT_NEGATIVE)]
+Viscosity = Annotated[float, WithUnit("viscosity", POSITIVE)]
+Fluidity = Annotated[float, WithUnit("fluidity", NOT_NEGATIVE)]
+Instant = Annotated[float, WithUnit("time", NOT_NEGATIVE)]
+Duration = Annotated[float, WithUnit("time", POSITIVE)]
+Speed = Annotated[float, WithUnit("speed", POSITIVE)]
+Temperature = Annotated[float, WithUnit("temperature", POSITIVE)]
+TemperatureDifference = Annotated[float, WithUnit("temperature difference", POSITIVE)]
+MolarEnergy = Annotated[float, WithUnit("molar energy", POSITIVE)]
 Exponent = Annotated[float, Field(gt=0, le=1)]
 PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
 CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.series_fits.columns import positive_column, require_rows
-from viscontact.identification.overlap import Curve
+from viscontact.identification.overlap import TemperatureCurve
 from viscontact.units.display import Displayable
 
 #: Columns of each kind of test, and whether the first one rises with time.
@@ -77,11 +77,11 @@ class Isotherm(Displayable):
         """True if the points are angular frequencies."""
         return "storage" in self.measured
 
-    def curve(self) -> Curve:
+    def curve(self) -> TemperatureCurve:
         """Return the set over ln(time), or over -ln(angular frequency), without time 0."""
         later = np.flatnonzero(self.points)
         log_times = np.log(self.points[later]) * (-1 if self.oscillates else 1)
         order = np.argsort(log_times)
         names = next(columns for columns, _ in KINDS_OF_TEST if set(columns) == set(self.measured))
         columns = np.array([self.measured[name][later][order] for name in names])
-        return Curve(log_times[order], np.log(columns))
+        return TemperatureCurve(log_times[order], np.log(columns))

@@ -15,14 +15,14 @@ _SCANNED = 41
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class TemperatureCurve:
     """Set of one temperature, increasing in ln(time) or -ln(ω): shapes (n,) and (columns, n)."""
 
     log_times: Floats
     log_columns: Floats
 
 
-def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
+def log_shift(slow: TemperatureCurve, fast: TemperatureCurve) -> tuple[float, float]:
     """Shift of the faster curve in ln(time) onto the slower one, and the mismatch [-].
 
     The mismatch is the root mean square relative difference in the overlap; NaN without one. The
@@ -49,7 +49,7 @@ def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
     return float(found.x), float(np.sqrt(found.fun))
 
 
-def _closed_form_shift(slow: Curve, fast: Curve) -> float:
+def _closed_form_shift(slow: TemperatureCurve, fast: TemperatureCurve) -> float:
     rises = _trend(slow) + _trend(fast) > 0
     evened = [
         isotonic_regression(curve.log_columns[0], increasing=rises).x for curve in (slow, fast)
@@ -77,23 +77,25 @@ def _times_of(values: Floats, log_times: Floats, evened: Floats) -> Floats:
     return np.interp(values, distinct, middles)
 
 
-def _trend(curve: Curve) -> float:
+def _trend(curve: TemperatureCurve) -> float:
     centred = curve.log_times - curve.log_times.mean()
     return float(centred @ curve.log_columns[0])
 
 
-def _overlap(slow: Curve, fast: Curve, shift: float) -> float:
+def _overlap(slow: TemperatureCurve, fast: TemperatureCurve, shift: float) -> float:
     first, last = _common_span(slow, fast, shift)
     return last - first
 
 
-def _common_span(slow: Curve, fast: Curve, shift: float) -> tuple[float, float]:
+def _common_span(
+    slow: TemperatureCurve, fast: TemperatureCurve, shift: float
+) -> tuple[float, float]:
     first = max(slow.log_times[0], fast.log_times[0] + shift)
     last = min(slow.log_times[-1], fast.log_times[-1] + shift)
     return float(first), float(last)
 
 
-def _mismatch(slow: Curve, fast: Curve, shift: float, least: float) -> float:
+def _mismatch(slow: TemperatureCurve, fast: TemperatureCurve, shift: float, least: float) -> float:
     """Mean squared difference over the overlap; inf where that is too short."""
     first, last = _common_span(slow, fast, shift)
     if not last - first > max(least, 0.0):

@@ -12,7 +12,7 @@ from viscontact.backend.arrays import Floats, Integers
 from viscontact.reference.lag_means import LagMean
 from viscontact.reference.profiles import Profile
 from viscontact.reference.rod_history import RodHistory
-from viscontact.reference.rods import Rods, RodState, Step, solve_at_approach, solve_at_force
+from viscontact.reference.rods import Rods, RodState, RodStep, solve_at_approach, solve_at_force
 
 _NO_FORCE = 1e-12  # of the largest force of the history: a smaller one counts as zero
 _RING = 1e-6  # of the largest approach: a wider opening inside the contact makes it a ring
@@ -113,11 +113,11 @@ def march(rods: Rods, steps: LoadSteps, law: LagCompliance) -> Iterator[StepEnd]
 
 def _next_step(
     rods: Rods, history: RodHistory, law: LagCompliance, now: StepEnd, begin: float, end: float
-) -> Step:
+) -> RodStep:
     """Known quantities of the next step."""
     before, duration = now.state, end - begin
     opening = now.displacement + rods.depths - before.approach
-    return Step(
+    return RodStep(
         duration=float(duration),
         before=before.chi,
         open_before=np.maximum(opening, 0.0),
@@ -129,7 +129,7 @@ def _next_step(
 
 
 def _unchanged(
-    rods: Rods, steps: LoadSteps, step: Step, before: RodState, load: float, end: float
+    rods: Rods, steps: LoadSteps, step: RodStep, before: RodState, load: float, end: float
 ) -> RodState:
     """State after a jump of a body with J(0) = 0: unchanged, or refused."""
     approach = load if steps.by_approach else before.approach
@@ -144,7 +144,7 @@ def _unchanged(
 
 
 def _require_circle(
-    rods: Rods, steps: LoadSteps, step: Step, after: RodState, load: float, end: float
+    rods: Rods, steps: LoadSteps, step: RodStep, after: RodState, load: float, end: float
 ) -> None:
     """Refuse contact beyond the last rod, or in a ring."""
     single = len(rods.places) == 1
@@ -166,7 +166,7 @@ def _require_circle(
 def _recorded(
     rods: Rods,
     history: RodHistory,
-    step: Step,
+    step: RodStep,
     before: RodState,
     after: RodState,
     span: tuple[float, float],

@@ -73,7 +73,7 @@ def placed_rods(profile: Profile, deepest: float, elements: int) -> Rods:
 
 
 @dataclass(frozen=True)
-class Step:
+class RodStep:
     """Known quantities of a time step before its final approach is found."""
 
     duration: float  # length, 0 for a jump [s]
@@ -108,7 +108,7 @@ class RodState:
         return np.maximum(self.wanted, 0.0)
 
 
-def solve_at_approach(rods: Rods, step: Step, approach: float) -> RodState:
+def solve_at_approach(rods: Rods, step: RodStep, approach: float) -> RodState:
     """Contact state of all rods at the end of a step, at a given approach [m]."""
     # Loads change evenly over the step, or over its share in contact: a rod that meets the indenter
     # within the step is loaded from there on, one whose load reaches 0 is free from there on.
@@ -130,7 +130,7 @@ def solve_at_approach(rods: Rods, step: Step, approach: float) -> RodState:
     return RodState(approach, wanted, share, reached, front, force)
 
 
-def _front(rods: Rods, step: Step, excess: Floats, wanted: Floats, reached: int) -> float:
+def _front(rods: Rods, step: RodStep, excess: Floats, wanted: Floats, reached: int) -> float:
     """Depth g where the load falls to 0, between the last rod in contact and the next [m]."""
     if reached in (0, len(wanted)):
         return float(rods.depths[-1]) if reached else 0.0
@@ -147,7 +147,7 @@ def _front(rods: Rods, step: Step, excess: Floats, wanted: Floats, reached: int)
     return float(np.clip(front, begin, end))
 
 
-def solve_at_force(rods: Rods, step: Step, force: float, guess: float) -> RodState:
+def solve_at_force(rods: Rods, step: RodStep, force: float, guess: float) -> RodState:
     """Contact state in which the rods carry a force >= 0 [N]; at 0 N they are about to touch."""
     # The force grows with the approach, by 2 a over the compliance: a Newton step with that slope,
     # then the secant method, bracketed.
@@ -173,7 +173,7 @@ def solve_at_force(rods: Rods, step: Step, force: float, guess: float) -> RodSta
     return state
 
 
-def _slope(rods: Rods, step: Step, state: RodState, last: RodState | None) -> float:
+def _slope(rods: Rods, step: RodStep, state: RodState, last: RodState | None) -> float:
     """Estimate of dF/dw, by the secant where two states are in contact [N/m]."""
     if last is not None and last.force > 0 and state.force != last.force:
         return (state.force - last.force) / (state.approach - last.approach)

@@ -16,7 +16,7 @@ import xarray as xr
 from viscontact import __version__
 from viscontact.drawing.svg.html import element
 from viscontact.report import accuracy, drawings, limits
-from viscontact.report.inputs import Input, case_file, inputs
+from viscontact.report.inputs import InputRow, case_file, inputs
 from viscontact.report.measured import measured_lines
 from viscontact.report.page_elements import remark, stacked_table
 from viscontact.report.title_block import file_lines
@@ -141,7 +141,7 @@ def _effort(ds: xr.Dataset) -> str:
     )
 
 
-def _part(title: str, given: Sequence[Input]) -> Element:
+def _part(title: str, given: Sequence[InputRow]) -> Element:
     """Table of a part: one column, or two if values were typed."""
     caption, both = element("caption", title), any(each.typed for each in given)
     rows = (

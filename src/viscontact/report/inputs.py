@@ -32,7 +32,7 @@ _FEW_SPEEDS = 6
 
 
 @dataclass(frozen=True)
-class Input:
+class InputRow:
     """One argument of a part of the case, with its value in a unit, and as it was typed."""
 
     part: str
@@ -41,32 +41,32 @@ class Input:
     typed: str = ""
 
 
-def inputs(ds: xr.Dataset) -> list[Input]:
+def inputs(ds: xr.Dataset) -> list[InputRow]:
     """List the inputs of a run."""
     case = case_of(ds)
     found = [
-        Input(title, name, value)
+        InputRow(title, name, value)
         for key, title in _PARTS.items()
         if isinstance(case.get(key), dict) and case[key].get("kind") != "steady"
         for name, value in argument_rows(case[key])
     ]
     if case and case.get("indenter_material") is None and "indenter" in case:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)
-        found.insert(place, Input(_PARTS["indenter_material"], "law", "rigid"))
+        found.insert(place, InputRow(_PARTS["indenter_material"], "law", "rigid"))
     found += [*_steady(case), *_steps(case)]
     return _beside(found, _typed(FiledCase.of(ds.attrs).case_as_typed))
 
 
-def _typed(case: Mapping[str, Any]) -> Iterator[Input]:
+def _typed(case: Mapping[str, Any]) -> Iterator[InputRow]:
     for key, title in _TYPED_PARTS.items():
         for name, text in typed_rows(case.get(key)):
-            yield Input(title, name, typed=text)
+            yield InputRow(title, name, typed=text)
 
 
-def _beside(computed: list[Input], typed: Iterable[Input]) -> list[Input]:
+def _beside(computed: list[InputRow], typed: Iterable[InputRow]) -> list[InputRow]:
     """Put the typed values beside the computed ones of the same name, the others before these."""
     values = {(each.part, each.name): each.value for each in computed}
-    rows: dict[str, list[Input]] = {part: [] for part in _TYPED_PARTS.values()}
+    rows: dict[str, list[InputRow]] = {part: [] for part in _TYPED_PARTS.values()}
     for each in typed:
         value = values.pop((each.part, each.name), "")
         same = _plain(value) == _plain(each.typed)
@@ -91,31 +91,31 @@ def case_file(ds: xr.Dataset) -> str:
     return beside.read_text(encoding="utf-8", errors="replace")
 
 
-def _steady(case: Mapping[str, Any]) -> Iterator[Input]:
+def _steady(case: Mapping[str, Any]) -> Iterator[InputRow]:
     motion = case.get("motion") or {}
     if motion.get("kind") != "steady":
         return
     speeds = [format_quantity(float(each), "m/s") for each in motion["speed"]]
     few = len(speeds) <= _FEW_SPEEDS
     listed = ", ".join(speeds) if few else f"{len(speeds)}, from {speeds[0]} to {speeds[-1]}"
-    yield Input("Motion", "kind", "steady")
-    yield Input("Motion", "speed" if len(speeds) == 1 else "speeds", listed)
-    yield Input("Motion", "along", str(motion["along"]))
+    yield InputRow("Motion", "kind", "steady")
+    yield InputRow("Motion", "speed" if len(speeds) == 1 else "speeds", listed)
+    yield InputRow("Motion", "along", str(motion["along"]))
     if motion.get("rolling") is not None:
-        yield Input("Motion", "rolling", "yes" if motion["rolling"] else "no, it slides")
+        yield InputRow("Motion", "rolling", "yes" if motion["rolling"] else "no, it slides")
     if "tolerance" in case:
-        yield Input("Motion", "tolerance at each speed", f"{case['tolerance']:g}")
+        yield InputRow("Motion", "tolerance at each speed", f"{case['tolerance']:g}")
 
 
-def _steps(case: Mapping[str, Any]) -> Iterator[Input]:
+def _steps(case: Mapping[str, Any]) -> Iterator[InputRow]:
     times, adaptive = case.get("times") or [], case.get("adaptive")
     if not times:
         return
     start, end = format_quantity(times[0], "s"), format_quantity(times[-1], "s")
     if adaptive is None:
-        yield Input("Time", "steps", f"{len(times)}, from {start} to {end}")
+        yield InputRow("Time", "steps", f"{len(times)}, from {start} to {end}")
     else:
         tolerance = adaptive.get("tolerance", "?")
-        yield Input("Time", "steps", f"chosen by their error, {tolerance} at most, up to {end}")
+        yield InputRow("Time", "steps", f"chosen by their error, {tolerance} at most, up to {end}")
     if "tolerance" in case:
-        yield Input("Time", "tolerance of each instant", f"{case['tolerance']:g}")
+        yield InputRow("Time", "tolerance of each instant", f"{case['tolerance']:g}")

@@ -91,14 +91,14 @@ def _depths(field: xr.Dataset, ds: xr.Dataset, row: int) -> Floats:
 
 
 @dataclass(frozen=True)
-class _Found:
+class _LocatedPeak:
     value: float  # [Pa]
     depth: float  # [m]
     error: float  # of the search in depth [Pa]
     around: Floats  # depths searched last [m]
 
 
-def _largest(field: xr.Dataset, depths: Floats, name: str) -> _Found:
+def _largest(field: xr.Dataset, depths: Floats, name: str) -> _LocatedPeak:
     """Search for the largest of a stress over some depths [m], and then between two of them."""
     at = int(_over(field, depths, name).argmax())
     close = np.linspace(depths[max(at - 1, 0)], depths[min(at + 1, depths.size - 1)], _CLOSE)
@@ -111,7 +111,7 @@ def _largest(field: xr.Dataset, depths: Floats, name: str) -> _Found:
         if bend > 0:
             error = (after - before) ** 2 / (8 * bend)
             depth += float(close[1] - close[0]) * (after - before) / (2 * bend)
-    return _Found(value + error, depth, error, close)
+    return _LocatedPeak(value + error, depth, error, close)
 
 
 def _over(field: xr.Dataset, depths: Floats, name: str) -> Floats:

@@ -12,7 +12,7 @@ from viscontact.tables.creep_tests import STRAIN_UNITS, chosen_level, split_stre
 from viscontact.tables.names import QUANTITIES, Data, Meaning, known_names, meaning
 from viscontact.tables.text import Row, looks_like_number
 from viscontact.units.dimensions import DIMENSIONS
-from viscontact.units.parsing import Scale, parse_scale
+from viscontact.units.parsing import UnitScale, parse_scale
 
 # "time [s]", "time (s)", "time in s", "time / s"; the last two only behind a name that is known.
 _BRACKETS = (
@@ -36,7 +36,7 @@ class Column:
     place: int
     heading: str
     meaning: Meaning
-    scale: Scale
+    scale: UnitScale
     stress: float | None = None
 
     def si(self, number: str) -> float:
@@ -217,7 +217,7 @@ def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) ->
     return stated
 
 
-def _scale(source: str, heading: _Heading, stated: Meaning) -> Scale:
+def _scale(source: str, heading: _Heading, stated: Meaning) -> UnitScale:
     where = f"{source}:{heading.line}: column {heading.text!r}"
     frequency = stated.quantity in ("frequency", "angular_frequency")
     if stated.quantity == "strain":
@@ -226,7 +226,7 @@ def _scale(source: str, heading: _Heading, stated: Meaning) -> Scale:
     if dimension is None and not frequency:
         if heading.unit is not None and heading.unit.lower() not in _NO_UNIT:
             raise ValueError(f"{where}: {stated.quantity} has no unit, got {heading.unit!r}")
-        return Scale(1.0)
+        return UnitScale(1.0)
     if heading.unit is None or (heading.unit in _NO_UNIT and heading.unit != "1"):
         example = DIMENSIONS[dimension or "frequency"].unit
         raise ValueError(
@@ -242,7 +242,7 @@ def _scale(source: str, heading: _Heading, stated: Meaning) -> Scale:
         raise ValueError(f"{where}: {error}") from error
 
 
-def _strain_scale(where: str, heading: _Heading) -> Scale:
+def _strain_scale(where: str, heading: _Heading) -> UnitScale:
     # Without a unit, 0.5 may be 0.5 or 0.5 %.
     if heading.unit not in STRAIN_UNITS:
         got = "it has none" if heading.unit is None else f"got {heading.unit!r}"
@@ -250,23 +250,23 @@ def _strain_scale(where: str, heading: _Heading) -> Scale:
             f"{where}: a strain has one of the units {', '.join(STRAIN_UNITS)}, {got}; write e.g. "
             f"'{heading.name} [%]'"
         )
-    return Scale(STRAIN_UNITS[heading.unit])
+    return UnitScale(STRAIN_UNITS[heading.unit])
 
 
-def _angular(quantity: str, unit: str) -> Scale:
+def _angular(quantity: str, unit: str) -> UnitScale:
     """Scale to rad/s; 1/s is a frequency or an angular frequency by the name of the column."""
     try:
         return parse_scale(unit, "angular frequency")
     except ValueError:
         factor = parse_scale(unit, "frequency").factor
     if quantity == "frequency":
-        return Scale(2 * math.pi * factor)
+        return UnitScale(2 * math.pi * factor)
     if "hz" in unit.lower():
         raise ValueError(
             f"an angular frequency is in rad/s, got {unit!r}: call a frequency in {unit} 'f', or "
             "give the unit rad/s"
         )
-    return Scale(factor)
+    return UnitScale(factor)
 
 
 def _require_some(source: str, found: tuple[Column, ...], left: tuple[str, ...]) -> None:

@@ -14,7 +14,7 @@ from viscontact.tables.names import Data, meaning
 from viscontact.tables.table import Table, read_only
 from viscontact.tables.text import Row, decimal_number
 from viscontact.units.formatting import format_quantity
-from viscontact.units.parsing import Scale, parse_quantity, parse_scale
+from viscontact.units.parsing import UnitScale, parse_quantity, parse_scale
 
 # "stress at 10 h [MPa]", "strain (10 h) [%]", "10 h [MPa]"
 _AT_TIME = re.compile(
@@ -109,7 +109,7 @@ def _curve(place: int, heading: str) -> _Curve | None:
     return _Curve(heading, time, place, unit, stated.quantity if stated else "")
 
 
-def _scale(where: str, curve: _Curve, quantity: str) -> Scale:
+def _scale(where: str, curve: _Curve, quantity: str) -> UnitScale:
     try:
         if quantity == "stress":
             return parse_scale(curve.unit, "pressure")
@@ -117,10 +117,10 @@ def _scale(where: str, curve: _Curve, quantity: str) -> Scale:
             raise ValueError(f"a strain has one of the units {', '.join(STRAIN_UNITS)}")
     except ValueError as error:
         raise ValueError(f"{where}: column {curve.heading!r}: {error}") from error
-    return Scale(STRAIN_UNITS[curve.unit])
+    return UnitScale(STRAIN_UNITS[curve.unit])
 
 
-def _value(path: Path, row: Row, curve: _Curve, scale: Scale, mark: str) -> float:
+def _value(path: Path, row: Row, curve: _Curve, scale: UnitScale, mark: str) -> float:
     try:
         return scale.si(decimal_number(row.cells[curve.place], mark))
     except ValueError as error:

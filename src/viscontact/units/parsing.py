@@ -50,7 +50,7 @@ _NOT_FINITE = re.compile(r"\s*[+-]?\.?(?:nan|inf|infinity)\b.*", re.IGNORECASE |
 
 
 @dataclass(frozen=True)
-class Scale:
+class UnitScale:
     """Conversion of a unit to SI: SI value = factor * number + offset."""
 
     factor: float
@@ -89,10 +89,10 @@ def parse_any_quantity(text: str) -> tuple[float, str]:
 
 
 @functools.lru_cache(maxsize=64)
-def _any_scale(unit: str) -> tuple[Scale, str]:
+def _any_scale(unit: str) -> tuple[UnitScale, str]:
     """Conversion of a unit of any known dimension to SI, and the SI unit."""
     if unit in ("", "%"):
-        return Scale(0.01 if unit else 1.0), "1"
+        return UnitScale(0.01 if unit else 1.0), "1"
     for name, dimension in DIMENSIONS.items():
         with suppress(ValueError):
             return _scale(unit, unit, name), dimension.unit
@@ -112,18 +112,18 @@ def parse_unit(text: str, dimension: str) -> float:
     return _factor(text.strip(), text, DIMENSIONS[dimension])
 
 
-def parse_scale(text: str, dimension: str) -> Scale:
+def parse_scale(text: str, dimension: str) -> UnitScale:
     """Return the conversion of a unit to SI, as `parse_unit`; temperatures may have an offset."""
     return _scale(text.strip(), text, dimension)
 
 
-def _scale(unit: str, text: str, dimension: str) -> Scale:
+def _scale(unit: str, text: str, dimension: str) -> UnitScale:
     wanted = DIMENSIONS[dimension]
     if dimension.startswith("temperature"):
         degrees = _DEGREES.get(unit.lower())
         if degrees is not None:
-            return Scale(degrees[0], degrees[1] if dimension == "temperature" else 0.0)
-    return Scale(_factor(unit, text, wanted))
+            return UnitScale(degrees[0], degrees[1] if dimension == "temperature" else 0.0)
+    return UnitScale(_factor(unit, text, wanted))
 
 
 def _split(text: str, wanted: Dimension) -> tuple[str, str]:

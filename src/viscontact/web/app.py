@@ -19,7 +19,7 @@ from viscontact.case.data_file import is_plain_name
 from viscontact.web.calculator import Calculator
 from viscontact.web.guard import Guard
 from viscontact.web.routes import case_routes, run_routes
-from viscontact.web.workspace.problems import Problem, RequestError
+from viscontact.web.workspace.problems import InputProblem, RequestError
 
 _STATIC = Path(__file__).parent / "static"
 _FIGURES = Path(__file__).parents[1] / "drawing" / "plotly"
@@ -96,7 +96,7 @@ def _misunderstood(request: Request, error: Exception) -> JSONResponse:
     """Answer a request whose parameters are not valid."""
     assert isinstance(error, RequestValidationError)
     found = [
-        Problem(
+        InputProblem(
             f"the request cannot be understood: {'.'.join(map(str, each['loc']))}: {each['msg']}"
         )
         for each in error.errors()

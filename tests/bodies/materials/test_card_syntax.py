@@ -8,7 +8,7 @@ from viscontact.bodies.materials.cards.card import card_units, in_unit
 from viscontact.bodies.materials.cards.numbers import card_digits, card_number
 from viscontact.bodies.materials.cards.prony_terms import Moduli, Terms, relaxing_material
 from viscontact.laws import RelaxationSeries
-from viscontact.units.parsing import Scale
+from viscontact.units.parsing import UnitScale
 
 
 def test_keyword_of_abaqus_has_parameters_and_data_without_comments():
@@ -24,7 +24,7 @@ def test_parameters_of_ansys_are_substituted():
 
 def test_units_of_a_card_are_factors_to_si():
     assert card_units("MPa", "ms", None).time == 0.001
-    assert in_unit(298.15, Scale(1.0, 273.15)) == 25.0
+    assert in_unit(298.15, UnitScale(1.0, 273.15)) == 25.0
 
 
 def test_numbers_of_cards_keep_their_digits():

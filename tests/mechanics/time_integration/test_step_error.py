@@ -9,7 +9,7 @@ import pytest
 
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.loads import ramp, step
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.plan import plan_hereditary_integral
 from viscontact.mechanics.time_integration.step_error import (
@@ -33,7 +33,7 @@ def follow(values, duration=1.0, compliance=FLUID):
     memory = InternalVariables(compliance, FIELD.shape)
     estimates = []
     for k, value in enumerate(values):
-        each = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
+        each = TimeStep(k * duration, duration if k else 0.0, None, smooth=k > 1)
         response = memory.ramp(duration) if k else memory.jump()
         field = value * FIELD
         estimates.append(
@@ -79,9 +79,9 @@ def test_a_first_step_without_a_successor_counts_by_its_change():
     errors = TimeErrors(plan_hereditary_integral(FLUID, np.arange(3.0), 2), step(1.0))
     memory = InternalVariables(FLUID, FIELD.shape)
     for each, value in (
-        (Step(0.0, 0.0, 0.0, smooth=False), 0.0),
-        (Step(1.0, 1.0, 1.0, smooth=False), 1.0),
-        (Step(2.0, 1.0, 2.0, smooth=False), 1.0),
+        (TimeStep(0.0, 0.0, 0.0, smooth=False), 0.0),
+        (TimeStep(1.0, 1.0, 1.0, smooth=False), 1.0),
+        (TimeStep(2.0, 1.0, 2.0, smooth=False), 1.0),
     ):
         response = memory.jump() if each.is_jump else memory.ramp(each.duration)
         measured = errors.of_step(each, LOAD.at(each.time), value * FIELD, response)
@@ -101,7 +101,7 @@ def test_what_touches_first_is_measured_against_what_the_load_will_come_to():
     for load, time in ((step(1.0), 1.0), (ramp(1.0, 10.0), 1.0)):
         errors = TimeErrors(plan_hereditary_integral(FLUID, np.arange(3.0), 2), load)
         memory = InternalVariables(FLUID, FIELD.shape)
-        for each in (Step(0.0, 0.0, 0.0, smooth=False), Step(time, 1.0, 1.0, smooth=False)):
+        for each in (TimeStep(0.0, 0.0, 0.0, smooth=False), TimeStep(time, 1.0, 1.0, smooth=False)):
             response = memory.jump() if each.is_jump else memory.ramp(each.duration)
             measured = errors.of_step(each, load.at(each.time), each.time * FIELD, response)
             errors.after(each, each.time * FIELD, measured)

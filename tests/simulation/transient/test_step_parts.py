@@ -10,7 +10,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Paraboloid
 from viscontact.bodies.loads import Travel
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
 from viscontact.simulation.transient.moving_body import PeriodicBody, cells_seen
@@ -30,7 +30,7 @@ def test_displacement_on_the_larger_grid_is_the_same_in_the_smaller_one() -> Non
 def test_loss_of_a_cycle_is_known_at_its_end() -> None:
     cycles = LoadCycleWork([((0.0, "left"), (2.0, "right"))])
     assert np.isnan(cycles.last_loss)
-    cycles.record_work(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
+    cycles.record_work(TimeStep(2.0, 2.0, 2.0, smooth=False), work=3.0)
     assert cycles.last_loss == 3.0
 
 

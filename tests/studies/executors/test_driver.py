@@ -10,7 +10,7 @@ from typing import Any
 from viscontact.results.run_files import STOP_NAME
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import DONE, RunRequest
 from viscontact.studies.executors.driver import drive
 from viscontact.studies.executors.remote import RemoteTasks
@@ -52,7 +52,7 @@ class Ends:
 
 def job(folder: Path, name: str) -> Job:
     place = folder / name
-    return Job(RunRequest(folder / "case.yaml", place), place, name, Standing.NEW, 1, 1.0, 1.0, 1e8)
+    return Job(RunRequest(folder / "case.yaml", place), place, name, RunStage.NEW, 1, 1.0, 1.0, 1e8)
 
 
 def test_all_runs_of_a_cluster_are_awaited(tmp_path: Path) -> None:

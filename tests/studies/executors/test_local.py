@@ -21,7 +21,7 @@ from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAM
 from viscontact.runs.execution.case_digests import digests_of
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.executors import task as tasks
 from viscontact.studies.executors.driver import drive
@@ -50,7 +50,7 @@ def case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def job(case: Path, name: str, *settings: str, **options: bool) -> Job:
     directory = case.parent / name
     request = RunRequest(case, directory, settings=settings, **options)
-    return Job(request, directory, name, Standing.NEW, 41, 5.0, 1.0, 1e8)
+    return Job(request, directory, name, RunStage.NEW, 41, 5.0, 1.0, 1e8)
 
 
 def contents(directory: Path) -> dict[str, bytes]:

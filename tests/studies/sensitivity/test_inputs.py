@@ -9,7 +9,7 @@ import pytest
 from tests.studies.sensitivity.cases import HERTZ, written
 
 from viscontact.case import read_case
-from viscontact.studies.sensitivity.inputs import Input, input_of, inputs_of
+from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 
 CREEPING = """
 indenter: {shape: sphere, diameter: 20 mm}
@@ -47,14 +47,14 @@ def test_a_number_of_a_table_and_an_alias_can_be_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "number", "unit"),
     [
-        (Input("a.force", "2 kN", 2000.0, "N"), 2.0, "kN"),
-        (Input("a.instant", "5.545e-4 / MPa", 5.545e-10, "1/Pa"), 5.545e-4, "/ MPa"),
-        (Input("a.poisson_ratio", "0.3", 0.3, "1"), 0.3, ""),
+        (CaseNumber("a.force", "2 kN", 2000.0, "N"), 2.0, "kN"),
+        (CaseNumber("a.instant", "5.545e-4 / MPa", 5.545e-10, "1/Pa"), 5.545e-4, "/ MPa"),
+        (CaseNumber("a.poisson_ratio", "0.3", 0.3, "1"), 0.3, ""),
         # The logarithm of a temperature is that of the absolute one.
-        (Input("a.temperature", "20 degC", 293.15, "K"), 293.15, "K"),
+        (CaseNumber("a.temperature", "20 degC", 293.15, "K"), 293.15, "K"),
     ],
 )
-def test_a_step_changes_the_logarithm(given: Input, number: float, unit: str) -> None:
+def test_a_step_changes_the_logarithm(given: CaseNumber, number: float, unit: str) -> None:
     first, _, rest = given.at(0.1).partition(" ")
     assert rest == unit
     assert float(first) == pytest.approx(number * math.exp(0.1), rel=1e-11)

@@ -29,7 +29,7 @@ from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
 from viscontact.runs.directory.lock import DirectoryInUse, locked
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep import many
 
@@ -192,7 +192,7 @@ def test_runs_that_do_not_fit_into_memory_wait_for_one_another(
 
 def job(name: str, memory: float) -> Job:
     request = RunRequest(Path(f"{name}.yaml"))
-    return Job(request, Path(name), name, Standing.NEW, 5, 1.0, 1.0, memory)
+    return Job(request, Path(name), name, RunStage.NEW, 5, 1.0, 1.0, memory)
 
 
 #: The program, whose runs wait for each other after their first steps, and are slow then.

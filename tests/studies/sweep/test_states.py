@@ -12,7 +12,7 @@ import pytest
 from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep.manifest import SweepRun, write_manifest
 from viscontact.studies.sweep.states import (
@@ -83,7 +83,7 @@ def test_state_at_the_end_of_a_command_is_that_of_its_status(
     tmp_path: Path, outcome: str, code: int, expected: State
 ) -> None:
     request = RunRequest(tmp_path / "a.yaml", made(tmp_path / "run", STATE_NAME))
-    job = Job(request, tmp_path / "run", "run", Standing.NEW, 3, 1.0, 1.0, 1.0)
+    job = Job(request, tmp_path / "run", "run", RunStage.NEW, 3, 1.0, 1.0, 1.0)
     assert state_at_end(Ended(job, outcome, code)) is expected
     never = replace(job, directory=tmp_path / "other")
     assert state_at_end(Ended(never, "not begun", 130)) is State.WAITING

@@ -20,7 +20,7 @@ SHOWN_PART, _ROOM = 0.96, 1.35
 
 
 @dataclass(frozen=True, eq=False)
-class Section:
+class Cut:
     """Positions along a section, gap there (NaN: no body) and ends of the body in it [m]."""
 
     position: Floats
@@ -79,7 +79,7 @@ def _deepest(
     return float(deepest[0]), float(deepest[1])
 
 
-def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = POINTS) -> Section:
+def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = POINTS) -> Cut:
     """Section of length `extent` along an axis (0: x, 1: y) at the other coordinate `at` [m]."""
     position = np.linspace(-extent / 2, extent / 2, points)
 
@@ -99,4 +99,4 @@ def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = P
         ends.append(low)
     position = np.sort(np.concatenate([position, ends]))
     gap = gap_at(position)
-    return Section(position, np.where(np.isfinite(gap), gap, np.nan), tuple(ends))
+    return Cut(position, np.where(np.isfinite(gap), gap, np.nan), tuple(ends))

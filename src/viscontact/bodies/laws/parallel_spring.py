@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Complexes, Floats
 from viscontact.bodies.laws.interconversion.cached_inverse import Inverse
-from viscontact.bodies.laws.interconversion.product_integration import Load
+from viscontact.bodies.laws.interconversion.product_integration import Forcing
 from viscontact.bodies.laws.interconversion.volterra import onset
 from viscontact.bodies.laws.law import Law, slowing
 from viscontact.units.numbers import check_fields
@@ -117,7 +117,7 @@ class BesideSpring(Law):
             lambda start, end: spring + self._mean_compliance(start, end),
             _AHEAD * self._onset,
             1,
-            load=Load(
+            load=Forcing(
                 lambda t: spring * self._compliance(t),
                 lambda start, end: spring * self._mean_compliance(start, end),
             ),

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from viscontact.case.loads.levels import Level, read_level
-from viscontact.case.quantities import POSITIVE, Quantity
+from viscontact.case.quantities import POSITIVE, WithUnit
 from viscontact.units.formatting import quoted
 from viscontact.units.parsing import parse_unit
 
@@ -155,7 +155,7 @@ def _level(tokens: Sequence[Token]) -> tuple[Level, int]:
 
 def _time(tokens: Sequence[Token]) -> tuple[float, int]:
     text, used = _quantity(tokens)
-    return Quantity("time", POSITIVE).read(text), used
+    return WithUnit("time", POSITIVE).read(text), used
 
 
 def _rate(tokens: Sequence[Token]) -> tuple[Rate, int]:

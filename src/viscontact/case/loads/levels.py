@@ -10,7 +10,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.bodies.loads.history import Control
-from viscontact.case.quantities import Quantity
+from viscontact.case.quantities import WithUnit
 from viscontact.units.dimensions import DIMENSIONS
 
 #: Example of an approach; that of a length would be too large.
@@ -31,7 +31,7 @@ def read_level(given: Any) -> Level:
     why = ""
     for dimension, control in _DIMENSIONS.items():
         try:
-            return Level(Quantity(dimension).read(given), control)
+            return Level(WithUnit(dimension).read(given), control)
         except PydanticCustomError as error:
             why = why or error.message()
     force = DIMENSIONS["force"]
@@ -64,7 +64,7 @@ ForceOrApproach = Annotated[Level, _LevelQuantity()]
 
 
 @dataclass(frozen=True)
-class _TiltQuantity(Quantity):
+class _TiltQuantity(WithUnit):
     """Annotation of a tilt: an angle, 0 without a unit, or the word for one free of moment."""
 
     def read(self, given: Any) -> Any:

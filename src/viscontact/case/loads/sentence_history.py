@@ -26,7 +26,7 @@ class SentenceError(ValueError):
         self.entry = sentence.entry
 
 
-class Course(NamedTuple):
+class LoadPoints(NamedTuple):
     """Load history by points: prescribed quantity, times [s] and levels [N or m]."""
 
     control: Control
@@ -34,12 +34,12 @@ class Course(NamedTuple):
     levels: list[float]
 
 
-def course_of(sentences: Sequence[Sentence]) -> Course:
+def course_of(sentences: Sequence[Sentence]) -> LoadPoints:
     """Return the history that sentences describe, from time 0 and level 0."""
     way = _Way(_control(sentences))
     for sentence, move in _moves(sentences):
         way.follow(sentence, move)
-    return Course(way.control, [float(t) for t in way.times], [float(v) for v in way.levels])
+    return LoadPoints(way.control, [float(t) for t in way.times], [float(v) for v in way.levels])
 
 
 def _control(sentences: Sequence[Sentence]) -> Control:

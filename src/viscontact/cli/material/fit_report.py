@@ -59,7 +59,7 @@ def report_fit(
         write_section(section, text + "\n")
 
 
-def _from_table(file: Path, arguments: FitArguments) -> tuple[str, Drawing]:
+def _from_table(file: Path, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     table = _read(file, arguments.stress)
     say_chosen(file, table)
     try:
@@ -68,7 +68,7 @@ def _from_table(file: Path, arguments: FitArguments) -> tuple[str, Drawing]:
         refuse(table.located(error))
 
 
-def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, Drawing]:
+def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     try:
         indenter = arguments.indenter_of(file.name)
         return _from_force_curve(arguments.instrument_curve(file), indenter, arguments)
@@ -76,7 +76,7 @@ def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, Drawing]
         refuse(str(error))
 
 
-class Drawing:
+class DeferredFigure:
     """Figure that is drawn only when it is saved, as matplotlib may be missing."""
 
     def __init__(self, name: str, *shown: object, **options: object) -> None:
@@ -89,7 +89,7 @@ class Drawing:
         plot.save_figure(draw(*self._shown, width=width, **self._options), path)
 
 
-def _fitted(table: Table, arguments: FitArguments) -> tuple[str, Drawing]:
+def _fitted(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     """Return the material section and the figure for a table."""
     if "force" in table and "approach" in table:
         return _from_indentation(table, arguments)
@@ -120,12 +120,12 @@ def _fitted(table: Table, arguments: FitArguments) -> tuple[str, Drawing]:
         fit = fit_measured(points, measured, weights=arguments.weights, **options)
     print(table.located(repr(fit)))
     fit = _with_volume(_with_lines(fit, table), arguments)
-    return material_section(fit), Drawing("fitted_series", fit)
+    return material_section(fit), DeferredFigure("fitted_series", fit)
 
 
 def _from_sets(
     table: Table, sets: tuple[Table, ...], arguments: FitArguments
-) -> tuple[str, Drawing]:
+) -> tuple[str, DeferredFigure]:
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
     options = arguments.options(table)
     isotherms = [_isotherm(one) for one in sets]
@@ -142,7 +142,7 @@ def _from_sets(
         fit = fit_master_curve(curve, weights=arguments.weights, **options)
     fit = _with_volume(fit, arguments)
     print(f"\nAt {_celsius(reference)}:\n{fit!r}")
-    drawing = Drawing("master_curve", curve, fit=fit, rules=rules)
+    drawing = DeferredFigure("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
         return material_section(fit), drawing
     wanted = read_kelvin("--temperature", arguments.temperature)
@@ -152,7 +152,7 @@ def _from_sets(
     return material_section(slowed), drawing
 
 
-def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, Drawing]:
+def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     indenter = arguments.indenter_of(table.source.name)
     if arguments.spring_constant is not None or arguments.sensitivity is not None:
         raise ValueError(
@@ -165,14 +165,14 @@ def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, Drawi
 
 def _from_force_curve(
     curve: ForceCurve, indenter: Indenter, arguments: FitArguments
-) -> tuple[str, Drawing]:
+) -> tuple[str, DeferredFigure]:
     """Find the contact point, print it, and fit a law to the indentation."""
     contact = find_contact(curve, indenter)
     print(repr(contact))
     return _from_record(contact.record(), arguments)
 
 
-def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[str, Drawing]:
+def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     poisson_ratio, bulk_modulus = arguments.volume()
     with _warnings_said():
         fit = fit_indentation(
@@ -183,7 +183,7 @@ def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[st
             bulk_modulus=bulk_modulus,
         )
     print(repr(fit))
-    return material_section(fit), Drawing("fitted_indentation", fit)
+    return material_section(fit), DeferredFigure("fitted_indentation", fit)
 
 
 @contextmanager
@@ -275,7 +275,7 @@ def write_section(path: Path, text: str) -> None:
     print(path)
 
 
-def draw_fit(drawing: Drawing, output: Path, width: str | float | None) -> None:
+def draw_fit(drawing: DeferredFigure, output: Path, width: str | float | None) -> None:
     """Save a figure, and print the name of its file."""
     try:
         drawing.save(output, width)

@@ -142,7 +142,7 @@ def _largest(ds: StoredResult, name: str) -> float:
 
 
 @dataclass(frozen=True)
-class _Column:
+class _HistoryColumn:
     """Column of the table: words of its heading, cells and footer."""
 
     head: tuple[str, ...]
@@ -156,7 +156,9 @@ class _Column:
         return max(map(len, (*self.head, *lines, *self.foot.splitlines())))
 
 
-def _columns(ds: StoredResult, names: list[str], rows: Integers, *, errors: bool) -> list[_Column]:
+def _columns(
+    ds: StoredResult, names: list[str], rows: Integers, *, errors: bool
+) -> list[_HistoryColumn]:
     columns, axis = [], run_axis(ds)
     for name in names:
         largest = _largest(ds, name)
@@ -166,11 +168,11 @@ def _columns(ds: StoredResult, names: list[str], rows: Integers, *, errors: bool
         foot = "largest\nerror" if name in AXES else _error_in_percent(largest_error(ds, name))
         cells = _cells(ds, name, rows, unit.factor, errors=errors)
         head = unit.label(name.replace("_", " ")).split()
-        columns.append(_Column(tuple(head), cells, foot))
+        columns.append(_HistoryColumn(tuple(head), cells, foot))
     return columns
 
 
-def _table(ds: StoredResult, columns: list[_Column], *, narrow: bool) -> Table:
+def _table(ds: StoredResult, columns: list[_HistoryColumn], *, narrow: bool) -> Table:
     stated = any(column.foot not in ("", format_error(np.nan)) for column in columns[1:])
     # Narrow enough for nine columns on eighty characters.
     table = Table(

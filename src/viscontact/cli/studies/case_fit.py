@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.cli.material.fit_report import Drawing, draw_fit, write_section
+from viscontact.cli.material.fit_report import DeferredFigure, draw_fit, write_section
 from viscontact.cli.studies.arguments import bounds, by_key, case_of, settings_of
 from viscontact.cli.studies.execution import Records, performed, write_report
 from viscontact.cli.terminal.messages import refuse, say
@@ -46,7 +46,7 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
     text = found.section_text
     print(f"\n{text}", end="")
     if typed["output"] is not None:
-        draw_fit(Drawing("fitted_records", found.curves), typed["output"], width)
+        draw_fit(DeferredFigure("fitted_records", found.curves), typed["output"], width)
     if typed["section"] is not None:
         write_section(typed["section"], text)
     if typed["report"] is not None:

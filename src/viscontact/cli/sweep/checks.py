@@ -21,7 +21,7 @@ from viscontact.results.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import in_use
 from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.studies.sweep.designs import Design
 from viscontact.studies.sweep.extremes import extreme_rows
@@ -103,31 +103,31 @@ def _read(request: RunRequest) -> Case:
         refuse(*error.problems)
 
 
-def _standing(request: RunRequest, directory: Path, case: Case, memory: float | None) -> Standing:
+def _standing(request: RunRequest, directory: Path, case: Case, memory: float | None) -> RunStage:
     """State of a run whose case is read; a run of another case is refused."""
     refuse_no_directory(directory)
     _refuse_in_use(request, directory)
     if not request.resume:
         refuse_occupied(directory, case, overwrite=request.overwrite)
-        return Standing.NEW
+        return RunStage.NEW
     found = _standing_by_names(request, directory)
     with suppress(OSError, UnicodeDecodeError):
-        if found is Standing.NEW or (directory / CASE_NAME).read_text("utf-8") == case.text:
+        if found is RunStage.NEW or (directory / CASE_NAME).read_text("utf-8") == case.text:
             return found
     return checked_run(request, memory).standing()  # compared in detail
 
 
-def _standing_by_names(request: RunRequest, directory: Path) -> Standing:
+def _standing_by_names(request: RunRequest, directory: Path) -> RunStage:
     """State of a run by its files, checked when the run begins."""
     if not request.resume:
-        return Standing.NEW
+        return RunStage.NEW
     if (directory / STATE_NAME).exists():
-        return Standing.STOPPED
+        return RunStage.STOPPED
     with suppress(OSError):
         written = (directory / CASE_NAME).stat().st_mtime_ns
         if (directory / RESULT_NAME).exists() and written >= request.case.stat().st_mtime_ns:
-            return Standing.FINISHED
-    return Standing.NEW
+            return RunStage.FINISHED
+    return RunStage.NEW
 
 
 def _refuse_in_use(request: RunRequest, directory: Path) -> None:

@@ -15,7 +15,7 @@ from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse,
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.studies.executors.driver import Workers, drive
 from viscontact.studies.executors.local import LocalTasks, LocalWorkers
 from viscontact.studies.sweep.states import State, state_at_end
@@ -33,7 +33,7 @@ def execute_many(request: ManyRequest) -> None:
         with before_the_first_step():
             sweep = checked_sweep(request, elsewhere=request.is_elsewhere)
             jobs = sweep.jobs
-            left = [job for job in jobs if job.standing is not Standing.FINISHED]
+            left = [job for job in jobs if job.standing is not RunStage.FINISHED]
             workers = opened.enter_context(_workers(request, left, interruption))
             sweep.recorded.write()
         with shown_runs(left, quiet=quiet) as shown:
@@ -83,7 +83,7 @@ def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> N
 
 
 def _not_marched(job: Job) -> Ended:
-    if job.standing is not Standing.FINISHED:
+    if job.standing is not RunStage.FINISHED:
         return Ended(job, "not begun", INTERRUPTED)
     remove_leftovers(job.directory)
     return Ended(job, "done", DONE)

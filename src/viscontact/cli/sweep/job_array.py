@@ -17,7 +17,7 @@ from viscontact.results.run_files import MANIFEST_NAME, STOP_NAME
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.execution import before_the_first_step
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.studies.sweep.job_array import JobArray, pbs_script, slurm_script
 
 #: Suffixes of scripts: their text, and the command that submits them.
@@ -40,7 +40,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
         refuse("--array and --overwrite: its tasks would not resume; choose another -o DIR")
     with before_the_first_step():
         sweep = checked_sweep(request, elsewhere=True)
-        left = [n for n, job in enumerate(sweep.jobs) if job.standing is not Standing.FINISHED]
+        left = [n for n, job in enumerate(sweep.jobs) if job.standing is not RunStage.FINISHED]
         if not left:
             say(f"{directory}: all {len(sweep.jobs)} runs are finished")
             return

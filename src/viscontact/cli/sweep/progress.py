@@ -65,7 +65,7 @@ class RunsDisplay:
         return ", ".join((f"{self._states[State.DONE]} of {self._count} runs done", *counts))
 
 
-class _Lines(RunsDisplay):
+class _ProgressLines(RunsDisplay):
     """A line for each run that ends, and one at intervals."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
@@ -131,7 +131,7 @@ def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[RunsDisplay]:
             with suppress(OSError):
                 bars.stop()
     else:
-        yield _Lines(jobs)
+        yield _ProgressLines(jobs)
 
 
 def _bars() -> Progress:

@@ -31,7 +31,7 @@ _NAMED = 3
 
 
 @dataclass(frozen=True)
-class _Found:
+class _RunValues:
     """Results of a run: largest values [SI], their error, computing time [s] and warnings."""
 
     over: str  # axis of the result
@@ -44,7 +44,7 @@ class _Found:
 
 
 @dataclass(frozen=True)
-class _Column:
+class _RunColumn:
     """A column of the table: heading, and a cell for each run."""
 
     heading: str
@@ -71,7 +71,7 @@ def print_table(runs: Sequence[Ended]) -> None:
         console.print(f"[yellow]warning:[/] {escape(line)}", highlight=False, soft_wrap=True)
 
 
-def _found(ended: Ended) -> _Found | None:
+def _found(ended: Ended) -> _RunValues | None:
     """Results in the directory of a run; None without any, or of another run."""
     if ended.outcome in ("refused", "not begun"):
         return None
@@ -82,7 +82,7 @@ def _found(ended: Ended) -> _Found | None:
         return None
 
 
-def _of(ds: xr.Dataset) -> _Found:
+def _of(ds: xr.Dataset) -> _RunValues:
     names = shown_scalars(ds, Place.KEY)
     largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in names}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
@@ -92,10 +92,10 @@ def _of(ds: xr.Dataset) -> _Found:
     over = run_axis(ds).name
     judged, seconds = verdicts(ds), float(ds.attrs["wall_time"])
     verdict = ": ".join(filter(None, (overall(judged), deciding(judged).replace("_", " "))))
-    return _Found(over, largest, marked, error, seconds, warnings, verdict)
+    return _RunValues(over, largest, marked, error, seconds, warnings, verdict)
 
 
-def _table(names: Sequence[str], columns: Sequence[_Column], title: str | None = None) -> Table:
+def _table(names: Sequence[str], columns: Sequence[_RunColumn], title: str | None = None) -> Table:
     # A long name goes on in the next line before a number is cut.
     table = Table(
         box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False, title=title, title_justify="right"
@@ -114,12 +114,16 @@ def _width(table: Table, console: Console) -> int:
     return Measurement.get(console, console.options.update(max_width=10_000), table).maximum
 
 
-def _state_columns(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Iterator[_Column]:
-    yield _Column("state", [state_at_end(each).value for each in runs], is_number=False)
-    yield _Column("took", [format_quantity(each.seconds, "s", 2) if each else "" for each in found])
+def _state_columns(
+    runs: Sequence[Ended], found: Sequence[_RunValues | None]
+) -> Iterator[_RunColumn]:
+    yield _RunColumn("state", [state_at_end(each).value for each in runs], is_number=False)
+    yield _RunColumn(
+        "took", [format_quantity(each.seconds, "s", 2) if each else "" for each in found]
+    )
 
 
-def _value_columns(found: Sequence[_Found | None]) -> Iterator[_Column]:
+def _value_columns(found: Sequence[_RunValues | None]) -> Iterator[_RunColumn]:
     """Largest values, with their units in the heading, and the largest of their errors."""
     shown = {name for each in found if each for name in each.largest}
     for name in shown_in(Place.KEY):
@@ -127,20 +131,20 @@ def _value_columns(found: Sequence[_Found | None]) -> Iterator[_Column]:
             largest = max((each.largest.get(name, 0.0) for each in found if each), default=0.0)
             unit = readable_unit(SCALARS[name].units, largest)
             heading = "\n".join([*name.split("_"), f"[{unit.symbol}]"])
-            yield _Column(heading, [_value(each, name, unit) if each else "" for each in found])
+            yield _RunColumn(heading, [_value(each, name, unit) if each else "" for each in found])
     errors = [math.nan if each is None else each.error for each in found]
     if not all(map(math.isnan, errors)):
         texts = ["" if math.isnan(each) else format_percent(each) for each in errors]
-        yield _Column("largest\nerror", texts)
+        yield _RunColumn("largest\nerror", texts)
 
 
-def _verdict_columns(found: Sequence[_Found | None]) -> Iterator[_Column]:
+def _verdict_columns(found: Sequence[_RunValues | None]) -> Iterator[_RunColumn]:
     worst = [each.verdict if each else "" for each in found]
     if any(worst):
-        yield _Column("verdict", worst, is_number=False)
+        yield _RunColumn("verdict", worst, is_number=False)
 
 
-def _value(found: _Found, name: str, unit: ReadableUnit) -> str:
+def _value(found: _RunValues, name: str, unit: ReadableUnit) -> str:
     """Largest value in the unit of its column; empty where an older result lacks the scalar."""
     if name not in found.largest:
         return ""
@@ -148,7 +152,7 @@ def _value(found: _Found, name: str, unit: ReadableUnit) -> str:
     return format_supported(found.largest[name] / unit.factor, error)
 
 
-def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:
+def _warnings(runs: Sequence[Ended], found: Sequence[_RunValues | None]) -> list[str]:
     """Each warning once, with the names of its runs."""
     concerned: dict[str, list[str]] = {}
     for ended, each in zip(runs, found, strict=True):

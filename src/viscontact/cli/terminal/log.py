@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from viscontact.cli.terminal.messages import say
 
 
-class _Lines(logging.Handler):
+class _LineHandler(logging.Handler):
     """Handler that prints each message as a line."""
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -22,7 +22,7 @@ def logged(verbose: int) -> Iterator[None]:
     if not verbose:
         yield
         return
-    log, lines = logging.getLogger("viscontact"), _Lines()
+    log, lines = logging.getLogger("viscontact"), _LineHandler()
     before = log.level
     log.addHandler(lines)
     log.setLevel(logging.INFO if verbose == 1 else logging.DEBUG)

@@ -16,7 +16,7 @@ from viscontact.bodies.indenters import (
     Roller,
     Sphere,
 )
-from viscontact.bodies.indenters.cross_section import Section
+from viscontact.bodies.indenters.cross_section import Cut
 from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.descriptions import describe
 from viscontact.units.formatting import format_compact, readable_unit
@@ -28,7 +28,7 @@ _KEPT = "\N{NO-BREAK SPACE}"
 
 def facts(
     indenter: Indenter,
-    sections: tuple[Section, Section],
+    sections: tuple[Cut, Cut],
     levels: Sequence[float],
     contact: tuple[float, float, float, float] | None,
     shaded: str,
@@ -65,7 +65,7 @@ def length(value: float, digits: int = 4) -> str:
     return _signed(f"{format_compact(float(unit(value)), digits)} {unit.symbol}")
 
 
-def _names(indenter: Indenter, along: Section) -> Iterator[str]:
+def _names(indenter: Indenter, along: Cut) -> Iterator[str]:
     """Names and sizes of the parts of a body."""
     if isinstance(indenter, CombinedIndenter):
         yield from _names(indenter.parts[0], along)
@@ -112,7 +112,7 @@ def _drop_note(roller: Roller, edge: float) -> str:
     return f"profile drop at x = ±{length(near)}: {receded}"
 
 
-def _ends(sections: tuple[Section, Section]) -> Iterator[str]:
+def _ends(sections: tuple[Cut, Cut]) -> Iterator[str]:
     """Ends of the body, and the directions in which it continues beyond the drawing."""
     cuts = dict(zip("xy", sections, strict=True))
     ends = [f"{axis} = {_places(cut)}" for axis, cut in cuts.items() if cut.ends]
@@ -123,7 +123,7 @@ def _ends(sections: tuple[Section, Section]) -> Iterator[str]:
         yield f"continues beyond the drawing along {' and '.join(beyond)}"
 
 
-def _places(section: Section) -> str:
+def _places(section: Cut) -> str:
     # The middle of an even mesh is zero up to rounding.
     least = 1e-6 * float(section.position[-1])
     ends = [end if abs(end) > least else 0.0 for end in section.ends]

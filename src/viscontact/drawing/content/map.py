@@ -16,7 +16,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.compared_runs import Runs, headed_snapshots, runs_of
 from viscontact.drawing.content.panel import Axis, Units
 from viscontact.drawing.content.rim import rim_curves
-from viscontact.drawing.content.scale import Scale, pressure_scale
+from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, field_times
@@ -109,7 +109,7 @@ class Maps:
         unit = units("m", self.window.x, self.window.y)
         return Axis("x", unit, self.window.x), Axis("y", unit, self.window.y)
 
-    def scale(self, units: Units = readable_unit) -> Scale:
+    def scale(self, units: Units = readable_unit) -> ColourScale:
         """Scale of the pressure of all maps."""
         fields = [each.pressure for each in self.snapshots]
         low, high = min(map(np.min, fields)), max(map(np.max, fields))

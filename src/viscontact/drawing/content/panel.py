@@ -85,7 +85,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Band:
+class ShadedRange:
     """Range along the horizontal axis [SI], such as that of most samples."""
 
     x: Floats
@@ -113,7 +113,7 @@ class Panel:
     x: Axis
     y: Axis
     curves: tuple[Curve, ...] = ()
-    bands: tuple[Band, ...] = ()
+    bands: tuple[ShadedRange, ...] = ()
     marks: tuple[Mark, ...] = ()
     shaded: tuple[float, float] | None = None  # range on the horizontal axis [SI]
     title: str = ""

@@ -20,7 +20,7 @@ CELLS, AREAS = (0.18, 1.0), (0.0, 0.62)
 
 
 @dataclass(frozen=True, eq=False)
-class Scale:
+class ColourScale:
     """Range and levels of a quantity, with their unit, and the colours that show it."""
 
     quantity: str
@@ -51,14 +51,14 @@ def pressure_scale(
     quantity: str = "Pressure",
     most: int = 10,
     units: Units = readable_unit,
-) -> Scale:
+) -> ColourScale:
     """Scale of a pressure or a stress from the least to the largest [Pa], with 0."""
     low, unit = min(low, 0.0), units("Pa", low, high)
     # `ordinary` is the largest pressure that does not depend on the mesh [Pa], if others do: levels
     # up to the peak would concentrate at the edge.
     top = high if ordinary is None else ordinary
     levels = round_levels(low / unit.factor, top / unit.factor, most) * unit.factor
-    return Scale(quantity, unit, (low, high), levels, ordinary is not None, low < 0)
+    return ColourScale(quantity, unit, (low, high), levels, ordinary is not None, low < 0)
 
 
 def round_levels(low: float, high: float, most: int) -> Floats:

@@ -6,7 +6,16 @@ import numpy as np
 import xarray as xr
 
 from viscontact.drawing.content.along_run import steps_grow
-from viscontact.drawing.content.panel import FIRST, SECOND, TEXT, Axis, Band, Curve, Mark, Panel
+from viscontact.drawing.content.panel import (
+    FIRST,
+    SECOND,
+    TEXT,
+    Axis,
+    Curve,
+    Mark,
+    Panel,
+    ShadedRange,
+)
 from viscontact.results.run_axis import SPEED, TIME
 from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS
@@ -67,5 +76,5 @@ def scatter_panels(table: xr.Dataset) -> list[Panel]:
         y = Axis.of(SCALARS[name].label, SCALARS[name].units, one["band"].values)
         case = Curve(places, one["nominal"].values, "case", TEXT, "dashed")
         curves = (Curve(places, middle, "median"), case)
-        panels.append(Panel(x, y, curves, (Band(places, low, high, "5 to 95 %"),)))
+        panels.append(Panel(x, y, curves, (ShadedRange(places, low, high, "5 to 95 %"),)))
     return panels

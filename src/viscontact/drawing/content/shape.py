@@ -12,7 +12,7 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.cross_section import (
     POINTS,
     SHOWN_PART,
-    Section,
+    Cut,
     cut,
     lines_through,
 )
@@ -32,13 +32,13 @@ _TRUE = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class DrawnShape:
     """An indenter over a part of the surface around the origin."""
 
     x: Floats  # mesh of the plan [m]
     y: Floats
     gap: Floats  # on the mesh, shape (nx, ny), infinite where there is no body [m]
-    sections: tuple[Section, Section]  # along x and y
+    sections: tuple[Cut, Cut]  # along x and y
     through: tuple[float, float]  # x of the section along y, and y of that along x [m]
 
     @property
@@ -59,7 +59,7 @@ class Shape:
 
 def shape_of(
     indenter: Indenter, size: tuple[float, float], mesh: int, points: int = POINTS
-) -> Shape:
+) -> DrawnShape:
     """Shape on extents [m], with numbers of points of plan and section; ValueError if empty."""
     x, y = (np.linspace(-extent / 2, extent / 2, mesh) for extent in size)
     gap = indenter.gap(x[:, None], y)
@@ -71,7 +71,7 @@ def shape_of(
     at_x, at_y = lines_through(indenter, x, y, gap)
     along = cut(indenter, size[0], at_y, 0, points)
     across = cut(indenter, size[1], at_x, 1, points)
-    return Shape(x, y, gap, (along, across), (at_x, at_y))
+    return DrawnShape(x, y, gap, (along, across), (at_x, at_y))
 
 
 def stretch_note(what: str, stretch: float) -> str:

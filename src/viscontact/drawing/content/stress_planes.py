@@ -25,7 +25,7 @@ _EQUAL = 1e-5
 
 
 @dataclass(frozen=True)
-class Section:
+class StressPlane:
     """Von Mises stress on the plane across the contact through its largest pressure."""
 
     time: float  # [s]
@@ -65,7 +65,7 @@ class Section:
 
 def grouped_sections(
     source: StressSource, snapshots: list[Snapshot], progress: Progress | None = None
-) -> list[list[Section]]:
+) -> list[list[StressPlane]]:
     """Sections at the instants with contact; those of a group have common axes."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     widths = [_half_width(snapshot) for snapshot in touching]
@@ -79,7 +79,7 @@ def grouped_sections(
 
 def stress_sections(
     source: StressSource, snapshots: list[Snapshot], progress: Progress | None = None
-) -> list[Section]:
+) -> list[StressPlane]:
     """Sections at the given instants with contact, all to one depth."""
     # Below small spots they are computed again to smaller depths, and `progress` begins again.
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
@@ -104,14 +104,14 @@ def _sections_down_to(
     depths: Floats,
     aside: float = np.inf,
     progress: Progress | None = None,
-) -> list[Section]:
+) -> list[StressPlane]:
     """Sections to some depths [m] and to each side of the largest pressure [m]."""
     half_width = max(_half_width(snapshot) for snapshot in touching)
     # The instants of one plane together: their influence coefficients are the same.
     planes: dict[tuple[float | None, float | None], list[int]] = {}
     for index, snapshot in enumerate(touching):
         planes.setdefault(_plane(snapshot), []).append(index)
-    found: dict[int, Section] = {}
+    found: dict[int, StressPlane] = {}
     for number, ((x, y), members) in enumerate(planes.items()):
         own = [touching[index] for index in members]
         places = [int(np.flatnonzero(source.stored == each.time)[0]) for each in own]
@@ -154,7 +154,7 @@ def _section(
     depths: Floats,
     stress: Floats,
     aside: float,
-) -> Section:
+) -> StressPlane:
     """The part near the contact of the stresses on the plane of an instant."""
     left, right, front, back = snapshot.extent()
     length, width = _extents(snapshot)
@@ -163,7 +163,7 @@ def _section(
     middle = (front + back) / 2 if is_long else (left + right) / 2
     peak = across[_place_of_peak(snapshot)[is_long]]
     near = (np.abs(across - middle) <= _ASIDE * half_width) & (np.abs(across - peak) <= aside)
-    return Section(
+    return StressPlane(
         snapshot.time,
         across[near],
         depths,

@@ -10,7 +10,7 @@ import plotly.graph_objects as go
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.map import BodyPlace, Map, Maps
-from viscontact.drawing.content.scale import CELLS, Scale
+from viscontact.drawing.content.scale import CELLS, ColourScale
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.run_axis import TIME
 from viscontact.results.snapshots import labels_of
@@ -112,7 +112,7 @@ def map_remarks(maps: Maps) -> str:
 
 
 def _frames(
-    maps: Maps, look: Look, scale: Scale, reference: Maps | None
+    maps: Maps, look: Look, scale: ColourScale, reference: Maps | None
 ) -> Iterator[tuple[list[Part], Part]]:
     """Yield what differs between the instants: parts of the traces, and of the layout."""
     shape, headings = _shape(maps, around=130, most=600), _headings(maps, look)
@@ -142,7 +142,7 @@ def _headings(maps: Maps, look: Look) -> list[str]:
     return [f"{axis.symbol}{look.quantity(each.time, axis.unit)}" for each in maps.snapshots]
 
 
-def _note(shown: Map, scale: Scale) -> str:
+def _note(shown: Map, scale: ColourScale) -> str:
     """Largest pressure, with ``>`` in front if it depends on the mesh."""
     if not shown.snapshot.touching:
         return "No contact"
@@ -178,7 +178,7 @@ def _plane(maps: Maps, look: Look) -> Part:
     return {"xaxis": x, "yaxis": y | {"scaleanchor": "x", "scaleratio": maps.window.stretch}}
 
 
-def _colour_bar(scale: Scale, look: Look) -> Part:
+def _colour_bar(scale: ColourScale, look: Look) -> Part:
     return {
         "orientation": "h",
         "thickness": 10,

@@ -13,8 +13,8 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.bodies.loads import HarmonicHistory, LoadHistory
 from viscontact.drawing.content.look import ORANGE
-from viscontact.drawing.svg.svg_axes import Scale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import Mark, panel
+from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
+from viscontact.drawing.svg.svg_panel import Stroke, panel
 
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.
@@ -68,10 +68,10 @@ def load_drawings(load: LoadHistory) -> list[Element]:
         high = 1.0
     x = linear("time", "s", -_BEFORE * end, end)
     if load.kinks[-1] == 0:  # the drawing's end means nothing
-        x = Scale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
+        x = AxisScale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
     name = "share of the largest load" if load.control == "mixed" else load.control
     y = linear(name, load.unit, low - 0.04 * (high - low), high + 0.06 * (high - low), 3)
-    return [panel(f"{name} over time", x, y, [Mark(times, levels)], aside=_aside(load))]
+    return [panel(f"{name} over time", x, y, [Stroke(times, levels)], aside=_aside(load))]
 
 
 def _aside(load: LoadHistory) -> str:
@@ -105,15 +105,15 @@ def _curve(
     times = np.geomspace(*span, _POINTS)
     values = of(times)
     good = values[np.isfinite(values)]
-    marks = [Mark(times, values)]
+    marks = [Stroke(times, values)]
     if rows is not None:
         some = slice(None, None, math.ceil(len(rows[0]) / _MOST_DOTS))
-        marks.append(Mark(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
+        marks.append(Stroke(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
     x = logarithmic("time", "s", *span, each_with_unit=True)
     return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks, aside=aside)
 
 
-def _upward(symbol: str, unit: str, values: Floats) -> Scale:
+def _upward(symbol: str, unit: str, values: Floats) -> AxisScale:
     """The axis for values above zero."""
     low, high = float(values.min()), float(values.max())
     if values[-1] > _DECADES * values[0]:  # what flows; what relaxes goes to zero on a linear one

@@ -11,8 +11,8 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.look import BLUE, ORANGE
 from viscontact.drawing.svg.overview import Overview
-from viscontact.drawing.svg.svg_axes import Scale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import Mark, panel
+from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
+from viscontact.drawing.svg.svg_panel import Stroke, panel
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.results.argument_table import in_plain_words
 from viscontact.results.formatting import format_percent
@@ -87,7 +87,7 @@ def indentation_fit_overview(fit: IndentationFit) -> Overview:
         (f"misses the {other} by", f"{format_percent(fit.residual)} of the largest (rms)"),
     ]
     times, some = fit.record.times, _some(fit.record.times.size)
-    marks = [Mark(times[some], fit.measured[some], "dots", ORANGE), Mark(times, fit.fitted)]
+    marks = [Stroke(times[some], fit.measured[some], "dots", ORANGE), Stroke(times, fit.fitted)]
     both = np.concatenate([fit.measured, fit.fitted])
     drawn = panel(f"{other} over time", _axis("time", "s", times), _axis(other, unit, both), marks)
     return Overview("Fit of an indentation", rows, [drawn])
@@ -161,14 +161,14 @@ def _scatter(
         some = _some(at.size, max(4, _DOTS // len(sets)))
         # Neighbouring sets differ.
         colour = BLUE if index % 2 else ORANGE
-        marks.append(Mark(at[some], values[some], "dots", colour))
+        marks.append(Stroke(at[some], values[some], "dots", colour))
     if curve is not None:
-        marks.append(Mark(*curve))
+        marks.append(Stroke(*curve))
     values = np.concatenate([each for _, each in sets])
     return panel(name, x, _upward(name, values), marks)
 
 
-def _upward(name: str, values: Floats) -> Scale:
+def _upward(name: str, values: Floats) -> AxisScale:
     low, high = float(values.min()), float(values.max())
     if high > _DECADES * low:
         return logarithmic(name, _UNITS[name], 0.8 * low, 1.2 * high)
@@ -177,11 +177,11 @@ def _upward(name: str, values: Floats) -> Scale:
 
 def _lines(head: str, x: Floats, along: tuple[str, str], y: Floats, unit: str) -> Element:
     some = _some(x.size, 2 * _POINTS)
-    marks = [Mark(x[some], y[some], colour=ORANGE)]
+    marks = [Stroke(x[some], y[some], colour=ORANGE)]
     return panel(head, _axis(*along, x), _axis(head.split()[0], unit, y), marks)
 
 
-def _axis(name: str, unit: str, values: Floats) -> Scale:
+def _axis(name: str, unit: str, values: Floats) -> AxisScale:
     low, high = float(min(values.min(), 0.0)), float(values.max())
     room = 0.06 * ((high - low) or 1.0)
     return linear(name, unit, low - room, high + room, 3)

@@ -11,8 +11,8 @@ import numpy as np
 from viscontact.backend.arrays import Integers
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import Map, Maps
-from viscontact.drawing.content.scale import CELLS, Scale
-from viscontact.drawing.svg.svg_panel import Cells, Mark, map_panel
+from viscontact.drawing.content.scale import CELLS, ColourScale
+from viscontact.drawing.svg.svg_panel import ColouredCells, Stroke, map_panel
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import format_compact
 
@@ -25,7 +25,7 @@ _ARROW = 0.15
 def map_drawing(maps: Maps) -> Element:
     """Draw the last map: the pressure in bands between its levels, and the outline."""
     scale, (x, y) = maps.scale(), maps.centres(_MOST)
-    cells = Cells(x, y, _bands(maps, scale), scale.colours(len(scale.levels) - 1, *CELLS))
+    cells = ColouredCells(x, y, _bands(maps, scale), scale.colours(len(scale.levels) - 1, *CELLS))
     low, high = (format_compact(float(each)) for each in scale.unit(scale.levels[[0, -1]]))
     instant = labels_of(maps.snapshots)[-1]
     return map_panel(
@@ -37,20 +37,20 @@ def map_drawing(maps: Maps) -> Element:
     )
 
 
-def _bands(maps: Maps, scale: Scale) -> Integers:
+def _bands(maps: Maps, scale: ColourScale) -> Integers:
     """Numbers of the bands between levels that cells lie in, -1 without contact."""
     cells = maps.cells(len(maps.maps) - 1, _MOST)
     bands = np.searchsorted(scale.levels, cells, side="right") - 1
     return np.where(np.isfinite(cells), np.clip(bands, 0, len(scale.levels) - 2), -1)
 
 
-def _marks(maps: Maps, shown: Map) -> Iterator[Mark]:
+def _marks(maps: Maps, shown: Map) -> Iterator[Stroke]:
     """Yield the outline, where it does not cover the pressure, and the moving body."""
     for curve in [] if maps.many_spots else shown.outline:
         x, y = curve[:: math.ceil(len(curve) / _POINTS)].T
-        yield Mark(x, y, "rim")
+        yield Stroke(x, y, "rim")
     if shown.body is not None:
         (x, y), arrow = shown.body.axis, shown.body.arrow(1.0, _ARROW * np.ptp(maps.window.x))
-        yield Mark([x], [y], "dots", ORANGE)
+        yield Stroke([x], [y], "dots", ORANGE)
         if arrow is not None:
-            yield Mark([x, x + arrow[0]], [y, y + arrow[1]], colour=ORANGE)
+            yield Stroke([x, x + arrow[0]], [y, y + arrow[1]], colour=ORANGE)

@@ -13,8 +13,8 @@ from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import maps_at
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.pressure_map import map_drawing
-from viscontact.drawing.svg.svg_axes import Scale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import Mark, panel
+from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
+from viscontact.drawing.svg.svg_panel import Stroke, panel
 from viscontact.results.formatting import format_scalar
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
@@ -79,13 +79,13 @@ def _course(ds: xr.Dataset) -> Element:
     places, area = run_axis(ds).values(ds), ds["contact_area"].values
     errors = errors_of(ds, "contact_area")
     y = linear("area", "m2", 0.0, 1.1 * float(area.max()), 3)
-    marks = [Mark(places, area)]
+    marks = [Stroke(places, area)]
     if np.isfinite(errors).all():
-        marks += [Mark(places, area + s * errors, dashed=True) for s in (-1.0, 1.0)]
+        marks += [Stroke(places, area + s * errors, dashed=True) for s in (-1.0, 1.0)]
     return panel("contact area", _along(ds), y, marks)
 
 
-def _along(ds: xr.Dataset) -> Scale:
+def _along(ds: xr.Dataset) -> AxisScale:
     axis, over = along_run([ds]), run_axis(ds)
     start, end = axis.limits or (0.0, 1.0)
     if axis.scale == "linear":
@@ -116,9 +116,9 @@ def _section(ds: xr.Dataset) -> list[Element]:
     half = min(max(half, float(position[-1]) / 50), float(position[-1]))
     x = linear("xy"[axis], "m", -half, half)
     y = linear("pressure", "Pa", 0.0, 1.1 * max(float(line.max()) for line in lines), 3)
-    marks = [Mark(position, lines[-1])]
+    marks = [Stroke(position, lines[-1])]
     aside = ""
     if len(lines) > 1 and ds.sizes[over] > 1:
-        marks.insert(0, Mark(position, lines[0], colour=ORANGE, dashed=True))
+        marks.insert(0, Stroke(position, lines[0], colour=ORANGE, dashed=True))
         aside = f"dashed: {run_axis(ds).place(ds[over].values[0])}"
     return [panel(f"along {'xy'[axis]}", x, y, marks, aside=aside)]

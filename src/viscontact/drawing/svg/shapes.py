@@ -7,10 +7,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from viscontact.bodies.indenters import Indenter
-from viscontact.bodies.indenters.cross_section import Section
+from viscontact.bodies.indenters.cross_section import Cut
 from viscontact.drawing.content.shape import natural_size, shape_of, stretch_note
 from viscontact.drawing.svg.svg_axes import linear
-from viscontact.drawing.svg.svg_panel import ROOM, Mark, panel
+from viscontact.drawing.svg.svg_panel import ROOM, Stroke, panel
 
 _POINTS, _MESH = 241, 121
 
@@ -27,12 +27,12 @@ def indenter_drawings(indenter: Indenter) -> list[Element]:
     return [_section(first, "x", "along x"), _section(second, "y", "along y")]
 
 
-def _section(section: Section, along: str, heading: str) -> Element:
+def _section(section: Cut, along: str, heading: str) -> Element:
     half, top = float(section.position[-1]), section.top
     x = linear(along, "m", -half, half)
     y = linear("gap", "m", -0.16 * top, top, most=3)
-    plane = Mark(np.array([-half, half]), np.zeros(2), "ground")
-    body = Mark(section.position, section.gap, "body")
+    plane = Stroke(np.array([-half, half]), np.zeros(2), "ground")
+    body = Stroke(section.position, section.gap, "body")
     across, up = ROOM
     stretch = (up / (1.16 * top)) / (across / (2 * half))
     return panel(heading, x, y, [plane, body], aside=stretch_note("heights", stretch))

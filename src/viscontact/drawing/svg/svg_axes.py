@@ -17,7 +17,7 @@ _MOST_DECADES = 3
 
 
 @dataclass(frozen=True)
-class Scale:
+class AxisScale:
     """Scale of an axis, linear or logarithmic."""
 
     label: str  # quantity with its unit
@@ -34,7 +34,7 @@ class Scale:
         return np.asarray((at - self.low) / (self.high - self.low))
 
 
-def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> Scale:
+def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> AxisScale:
     """Linear axis between two ends, `low` < `high` [SI]."""
     shown = readable_unit(unit, low, high)
     step = round_step((high - low) / shown.factor / most)
@@ -43,12 +43,12 @@ def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> 
     ticks = tuple(
         ((number * shown.factor - low) / (high - low), _number(number)) for number in numbers
     )
-    return Scale(_labelled(quantity, shown.symbol), low, high, ticks)
+    return AxisScale(_labelled(quantity, shown.symbol), low, high, ticks)
 
 
 def logarithmic(
     quantity: str, unit: str, low: float, high: float, *, each_with_unit: bool = False
-) -> Scale:
+) -> AxisScale:
     """Logarithmic axis between two ends, 0 < `low` < `high` [SI], with ticks at decades."""
     shown = readable_unit(unit, math.sqrt(low * high))
     ends = math.log10(low), math.log10(high)
@@ -70,7 +70,7 @@ def logarithmic(
             for place, text in clock.items()
         )
     label = quantity if each_with_unit else _labelled(quantity, shown.symbol)
-    return Scale(label, *ends, ticks, logarithmic=True)
+    return AxisScale(label, *ends, ticks, logarithmic=True)
 
 
 def _clock(low: float, high: float) -> dict[float, str]:

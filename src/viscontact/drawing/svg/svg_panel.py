@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.drawing.content.look import BLUE
 from viscontact.drawing.svg.html import element
-from viscontact.drawing.svg.svg_axes import Scale, linear
+from viscontact.drawing.svg.svg_axes import AxisScale, linear
 
 _Path = list[tuple[float, float]]
 
@@ -32,7 +32,7 @@ _FLAT = 0.03
 
 
 @dataclass(frozen=True)
-class Mark:
+class Stroke:
     """Curve over the axes."""
 
     x: ArrayLike  # points [SI]; a gap where one is not finite
@@ -44,7 +44,7 @@ class Mark:
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class ColouredCells:
     """Cells over the axes, in colours by their bands."""
 
     x: Floats  # centres at equal distances, but for the last [SI], shape (nx,)
@@ -55,11 +55,11 @@ class Cells:
 
 def panel(
     heading: str,
-    x: Scale,
-    y: Scale,
-    marks: Iterable[Mark],
+    x: AxisScale,
+    y: AxisScale,
+    marks: Iterable[Stroke],
     *,
-    cells: Cells | None = None,
+    cells: ColouredCells | None = None,
     aside: str = "",
     height: int = _HEIGHT,
 ) -> Element:
@@ -88,9 +88,9 @@ def panel(
 def map_panel(
     heading: str,
     limits: tuple[tuple[float, float], tuple[float, float]],
-    cells: Cells,
+    cells: ColouredCells,
     *,
-    marks: Iterable[Mark] = (),
+    marks: Iterable[Stroke] = (),
     aside: str = "",
 ) -> Element:
     """Map between limits of x and y [m], in true shape if it is not very low."""
@@ -111,8 +111,8 @@ def map_panel(
 
 @dataclass(frozen=True)
 class _Frame:
-    x: Scale
-    y: Scale
+    x: AxisScale
+    y: AxisScale
     height: int
 
     @property
@@ -125,7 +125,7 @@ class _Frame:
     def up(self, places: Floats) -> Floats:
         return self.bottom - places * (self.bottom - _TOP)
 
-    def areas(self, cells: Cells) -> Iterable[Element]:
+    def areas(self, cells: ColouredCells) -> Iterable[Element]:
         """The cells of each colour, those next to each other in a row as one stroke."""
         across, up = self.across(self.x.place(cells.x)), self.up(self.y.place(cells.y))
         wide, high = (
@@ -143,7 +143,7 @@ class _Frame:
                 path = "".join(strokes)
                 yield element("path", d=path, shape_rendering="crispEdges", **look)
 
-    def drawn(self, mark: Mark) -> Iterable[Element]:
+    def drawn(self, mark: Stroke) -> Iterable[Element]:
         if mark.kind == "rim":
             across, up = self.across(self.x.place(mark.x)), self.up(self.y.place(mark.y))
             path = _path(list(zip(across.tolist(), up.tolist(), strict=True)))
@@ -163,12 +163,12 @@ class _Frame:
             near = inside & (_beside(y <= 1.0) & _beside(y >= 0.0))
             yield self._outlined([_thinned(across[run], up[run]) for run in _runs(near)], mark)
 
-    def _filled(self, runs: list[_Path], mark: Mark) -> Element:
+    def _filled(self, runs: list[_Path], mark: Stroke) -> Element:
         edge = _TOP if mark.kind == "body" else self.bottom
         closed = "".join(_path(run) + f"V{edge:g}H{run[0][0]:.1f}Z" for run in runs)
         return element("path", d=closed, fill_opacity="0.16" if mark.kind == "body" else "0.07")
 
-    def _outlined(self, runs: list[_Path], mark: Mark) -> Element:
+    def _outlined(self, runs: list[_Path], mark: Stroke) -> Element:
         is_body = mark.kind == "body"
         return element(
             "path",

@@ -140,7 +140,7 @@ def _solve_from(
 
 
 @dataclass(frozen=True)
-class _Search:
+class _PatchMotion:
     """Motion that a search on a patch has found, and its cost."""
 
     motion: Floats
@@ -151,7 +151,7 @@ class _Search:
 
 def _search_on(
     patch: Patch, problem: ContactProblem, start: Guess, tolerance: float, max_iterations: int
-) -> _Search:
+) -> _PatchMotion:
     """Search from a guess, whose pressure becomes that found on the patch, 0 outside."""
     search = BoundedCG(problem.within(patch), patch, start.within(patch))
     search.run(tolerance, max_iterations)
@@ -165,7 +165,9 @@ def _search_on(
         pressure[outside] = 0.0
     for outside in (slice(patch.columns.start), slice(patch.columns.stop, None)):
         pressure[:, outside] = 0.0
-    return _Search(search.iterate.motion, search.stagnated, search.iterations, search.convolutions)
+    return _PatchMotion(
+        search.iterate.motion, search.stagnated, search.iterations, search.convolutions
+    )
 
 
 def _is_balanced(

@@ -82,7 +82,7 @@ def part_of(progress: Progress | None, index: int, count: int) -> Progress | Non
 
 
 @dataclass(frozen=True, eq=False)
-class _Lines:
+class _LinesByDistance:
     """Lines of cells by ascending distance from a plane, those of one distance together."""
 
     distances: Floats  # [m], of the plane from the lines; equally spaced
@@ -90,7 +90,7 @@ class _Lines:
     odd: Floats  # difference of the pressures of both sides [Pa]
 
 
-def _lines_beside(pressure: Floats, grid: Grid, y: float) -> _Lines:
+def _lines_beside(pressure: Floats, grid: Grid, y: float) -> _LinesByDistance:
     """Lines of cells beside the plane of given y, without those that bear nothing."""
     count, dy = grid.shape[1], grid.cell_size[1]
     beside = (y - grid.y[0]) / dy
@@ -106,7 +106,7 @@ def _lines_beside(pressure: Floats, grid: Grid, y: float) -> _Lines:
     steps, twice = steps[order], round(2 * part)
     if abs(2 * part - twice) > 2 * _ALIGNED:
         fields = pressure[:, :, order]
-        return _Lines(np.asarray((steps + part) * dy), fields, fields)
+        return _LinesByDistance(np.asarray((steps + part) * dy), fields, fields)
     # 2. Both sides together, if they are alike.
     halves = 2 * steps + twice
     nearest_half = int(np.abs(halves).min())
@@ -117,11 +117,11 @@ def _lines_beside(pressure: Floats, grid: Grid, y: float) -> _Lines:
         fields = pressure[:, :, order[side]]
         even[:, :, places[side]] += fields
         odd[:, :, places[side]] += sign * fields
-    return _Lines((np.arange(even.shape[2]) + nearest_half / 2) * dy, even, odd)
+    return _LinesByDistance((np.arange(even.shape[2]) + nearest_half / 2) * dy, even, odd)
 
 
 def _kernel(
-    grid: Grid, lines: _Lines, reach: int, depth: float, response: StressResponse
+    grid: Grid, lines: _LinesByDistance, reach: int, depth: float, response: StressResponse
 ) -> Floats:
     """Stress per unit pressure at distances of 0 to `reach` cells; (6, reach + 1, lines)."""
     (nx, ny), (dx, dy) = grid.shape, grid.cell_size

@@ -26,9 +26,9 @@ from viscontact.bodies.surfaces import indenter_of
 from viscontact.bodies.surfaces.topographies import is_topography
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.problem.series_body import span_of
-from viscontact.mechanics.problem.surface import Surface, follows_span, surface_of
+from viscontact.mechanics.problem.surface import SurfaceTerms, follows_span, surface_of
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
-from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, Step, plan_steps
+from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, TimeStep, plan_steps
 from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.mechanics.time_integration.run_times import run_instants
@@ -112,7 +112,7 @@ class Problem:
         return tuple(chain.from_iterable(each))
 
     @cached_property
-    def surface(self) -> Surface:
+    def surface(self) -> SurfaceTerms:
         """Creep functions and frequency responses of both bodies together."""
         has_times = self.times is not None or self._steps_over_cells
         if not (has_times and any(map(follows_span, self.bodies))):
@@ -186,7 +186,7 @@ class Problem:
         return largest_load(self.load, self.end)
 
     @cached_property
-    def planned_steps(self) -> tuple[Step, ...]:
+    def planned_steps(self) -> tuple[TimeStep, ...]:
         """Steps through the given times; not for adaptive steps."""
         return plan_steps(self.instants, self.history, self.step_ratio)
 

@@ -95,7 +95,7 @@ class Separation:
 def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
     """Terms of the response of layers over times of interest [s]; ValueError if none come close."""
     series, deviation = series_body(body, span)
-    found = _Search(series).best()
+    found = _Collocation(series).best()
     if series is body:
         return found
     # Creep functions of materials are those of the laws themselves, as the responses depend little
@@ -141,7 +141,7 @@ class _Choice:
         return len(self.materials) + len(self.waves)
 
 
-class _Search:
+class _Collocation:
     """Choice of creep functions and collocation points for one body."""
 
     def __init__(self, body: Layered) -> None:

@@ -66,7 +66,7 @@ class SurfaceTerm:
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class SurfaceTerms:
     """Terms of the surfaces of both bodies together."""
 
     terms: tuple[SurfaceTerm, ...]  # the first is one that short waves see
@@ -105,7 +105,7 @@ class Surface:
         return SummedResponse(parts, tuple(j / local for j in creep))
 
 
-def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> Surface:
+def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> SurfaceTerms:
     """Terms of the bodies that deform; `span` is that of the times of interest [s]."""
     terms: list[SurfaceTerm] = []
     for body in bodies:
@@ -114,7 +114,7 @@ def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> 
     layered = [body for body in bodies if isinstance(body, Layered)]
     separated = [separate(body, span) for body in layered if as_elastic(body) is None]
     error = max((each.error for each in separated), default=0.0)
-    return Surface(tuple(terms), error)
+    return SurfaceTerms(tuple(terms), error)
 
 
 def _with_term(terms: list[SurfaceTerm], new: SurfaceTerm) -> list[SurfaceTerm]:

@@ -18,7 +18,7 @@ import scipy
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.materials.compliance import ContactCompliance
-from viscontact.mechanics.time_integration.fixed_steps import Step, snap_to_kink
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep, snap_to_kink
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_error import ISOLATED_STEP_SHARE
@@ -84,7 +84,7 @@ class AdaptiveSteps:
         self._stops = sorted((requested | inner) - {0.0})
         self._end = max(self._stops)
         self._time, self._duration = 0.0, 0.0
-        self._step: Step | None = Step(0.0, 0.0, 0.0, smooth=False)
+        self._step: TimeStep | None = TimeStep(0.0, 0.0, 0.0, smooth=False)
         self._growth = MAX_FACTOR
 
     @property
@@ -100,7 +100,7 @@ class AdaptiveSteps:
             return math.ceil(way / self._duration)
         return math.ceil(math.log1p((growth - 1) * way / self._duration) / math.log(growth))
 
-    def next_step(self) -> Step | None:
+    def next_step(self) -> TimeStep | None:
         """Next step; None at the end."""
         return self._step
 
@@ -139,13 +139,13 @@ class AdaptiveSteps:
         self._time, self._duration, self._growth = (
             restart_data[name] for name in ("time", "duration", "growth")
         )
-        self._step = None if restart_data["step"] is None else Step(**restart_data["step"])
+        self._step = None if restart_data["step"] is None else TimeStep(**restart_data["step"])
 
-    def _advance(self, step: Step) -> None:
+    def _advance(self, step: TimeStep) -> None:
         """Move to the end of an accepted step, and choose the next one."""
         self._time = step.time
         if step.before_jump:
-            self._step = Step(step.time, 0.0, step.time, smooth=False)
+            self._step = TimeStep(step.time, 0.0, step.time, smooth=False)
         elif self._time >= self._end:
             self._step = None
         else:
@@ -157,7 +157,7 @@ class AdaptiveSteps:
                 self._duration = max(self._first_duration(), before)
             self._step = self._next(smooth=not after_kink)
 
-    def _next(self, smooth: bool) -> Step:
+    def _next(self, smooth: bool) -> TimeStep:
         """Step of about the current duration, up to the next stop at most."""
         stop = next(stop for stop in self._stops if stop > self._time)
         way = stop - self._time
@@ -170,7 +170,7 @@ class AdaptiveSteps:
         time = stop if parts <= 1 else self._marked(self._time + duration)
         duration = duration if parts <= 1 else time - self._time
         jumps = parts <= 1 and stop in self._jumps
-        return Step(time, duration, None if jumps else time, smooth, before_jump=jumps)
+        return TimeStep(time, duration, None if jumps else time, smooth, before_jump=jumps)
 
     def _marked(self, time: float) -> float:
         """The last mark of a step up to a time, or the time without one [s]."""

@@ -25,7 +25,7 @@ MAX_STEPS = 1_000_000
 
 
 @dataclass(frozen=True)
-class Step:
+class TimeStep:
     """One time step."""
 
     time: float  # end of the step [s]
@@ -45,7 +45,7 @@ class Step:
         return "left" if self.before_jump else "right"
 
 
-def plan_steps(times: Floats, load: LoadHistory, step_ratio: float = 1.0) -> tuple[Step, ...]:
+def plan_steps(times: Floats, load: LoadHistory, step_ratio: float = 1.0) -> tuple[TimeStep, ...]:
     """Plan steps to requested times [s] and, before the last, to kinks, jumps and touches.
 
     A time that differs from a kink by rounding is taken as the kink. Steps longer than `step_ratio`
@@ -56,7 +56,7 @@ def plan_steps(times: Floats, load: LoadHistory, step_ratio: float = 1.0) -> tup
     return tuple(_steps(wanted, load))
 
 
-def step_ends(steps: Iterable[Step]) -> Floats:
+def step_ends(steps: Iterable[TimeStep]) -> Floats:
     """Ends of steps, a jump's twice [s]."""
     return np.array([step.time for step in steps])
 
@@ -64,7 +64,7 @@ def step_ends(steps: Iterable[Step]) -> Floats:
 class FixedSteps:
     """Planned steps, taken one after the other."""
 
-    def __init__(self, steps: tuple[Step, ...]) -> None:
+    def __init__(self, steps: tuple[TimeStep, ...]) -> None:
         self._steps = steps
         requested = [step.requested is not None for step in steps]
         #: Number of requested times among the first steps.
@@ -76,7 +76,7 @@ class FixedSteps:
         """Number of requested times that remain."""
         return self._requested_counts[-1] - self._requested_counts[self._taken]
 
-    def next_step(self) -> Step | None:
+    def next_step(self) -> TimeStep | None:
         """Next step; None at the end."""
         return self._steps[self._taken] if self._taken < len(self._steps) else None
 
@@ -141,12 +141,12 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
         yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()
 
 
-def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[Step]:
+def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[TimeStep]:
     """Steps to these times, the first a jump at time 0, of size zero under a gradual start."""
     # Where bodies come to touch, the pressure has a kink.
     kinks, jumps = {*load.kinks.tolist(), *load.touches.tolist()}, set(load.jumps.tolist())
     begin = 0.0
-    yield Step(0.0, 0.0, wanted.get(0.0), smooth=False)
+    yield TimeStep(0.0, 0.0, wanted.get(0.0), smooth=False)
     for instant, requested in wanted.items():
         if instant == 0:
             continue
@@ -157,11 +157,11 @@ def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[Ste
 
 def _up_to(
     instant: float, duration: float, requested: float | None, smooth: bool, *, jumping: bool
-) -> Iterator[Step]:
+) -> Iterator[TimeStep]:
     """Step to a time, and the jump there."""
-    yield Step(instant, duration, None if jumping else requested, smooth, before_jump=jumping)
+    yield TimeStep(instant, duration, None if jumping else requested, smooth, before_jump=jumping)
     if jumping:
-        yield Step(instant, 0.0, requested, smooth=False)
+        yield TimeStep(instant, 0.0, requested, smooth=False)
 
 
 def snap_to_kink(time: float, kinks: Floats) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_shape import FieldMap
 
@@ -85,7 +85,7 @@ class HereditaryIntegral(ABC):
         """Continue from restart data of the same law and shape."""
 
 
-def response_to(step: Step, memory: HereditaryIntegral) -> HereditaryResponse:
+def response_to(step: TimeStep, memory: HereditaryIntegral) -> HereditaryResponse:
     """Response of a hereditary integral to a jump or to a step in time."""
     return memory.jump() if step.is_jump else memory.ramp(step.duration, smooth=step.smooth)
 

@@ -20,7 +20,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.loads import LoadHistory, LoadPoint
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import HereditaryResponse
 from viscontact.mechanics.time_integration.internal_variables import ramp_weights
 from viscontact.mechanics.time_integration.plan import HereditaryPlan
@@ -91,7 +91,7 @@ class TimeErrors:
 
     def of_step(
         self,
-        step: Step,
+        step: TimeStep,
         point: LoadPoint,
         values: Floats,
         response: HereditaryResponse,
@@ -120,7 +120,7 @@ class TimeErrors:
             relative *= 1 - (1 - FORGOTTEN_ERROR_WEIGHT) * forgotten
         return StepError(interpolation_error, relative, size, level, travel, rate)
 
-    def after(self, step: Step, values: Floats, error: StepError) -> float:
+    def after(self, step: TimeStep, values: Floats, error: StepError) -> float:
         """Accept a step, and return the error of pressure after it over the largest [-]."""
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
@@ -178,7 +178,7 @@ class TimeErrors:
 
     def _interpolation_error(
         self,
-        step: Step,
+        step: TimeStep,
         rate: Floats,
         contact: Bools,
         travel: float,
@@ -221,7 +221,7 @@ class TimeErrors:
         self._pressure_error, self._jumped = -float(self._term_errors.sum()) / compliance, False
         self._term_errors += step.new * self._pressure_error
 
-    def _rate_over(self, step: Step, value: Floats, before: Floats) -> Floats:
+    def _rate_over(self, step: TimeStep, value: Floats, before: Floats) -> Floats:
         """Mean rate of a field over a step."""
         rate = np.empty(value.shape)
 

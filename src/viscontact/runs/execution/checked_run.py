@@ -15,7 +15,7 @@ from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 
 
@@ -31,11 +31,11 @@ class CheckedRun:
         """Return the run with the check of its directory's lock."""
         return replace(self, recorded=replace(self.recorded, check=check))
 
-    def standing(self) -> Standing:
+    def standing(self) -> RunStage:
         """Return whether the run is new, stopped or finished; refuse it in all other cases."""
         return standing(self.request, self.recorded, self.prepared.case)
 
-    def job(self, standing: Standing) -> Job:
+    def job(self, standing: RunStage) -> Job:
         """Return the run as one of several."""
         recorded = self.recorded
         directory, run = recorded.directory, recorded.run

@@ -20,7 +20,7 @@ from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.resuming import refuse_changed
 from viscontact.runs.execution.run_directory import reserved, write_case
 from viscontact.runs.execution.stop_requests import StopRequests
-from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.job import RunStage
 from viscontact.runs.processes.request import INTERRUPTED, RunRequest
 from viscontact.simulation.transient.state_generator import Progress
 
@@ -48,12 +48,12 @@ def execute_checked(checked: CheckedRun, monitor: Monitor) -> tuple[Path, bool]:
         # Checked before anything is created, and again when the directory is locked.
         standing = checked.standing()
     directory = checked.recorded.directory
-    if standing is not Standing.FINISHED:
+    if standing is not RunStage.FINISHED:
         if message := awaited_lease(directory):
             monitor.say(message)
         with reserved(directory) as check:
             standing = checked.standing()
-            if standing is not Standing.FINISHED:
+            if standing is not RunStage.FINISHED:
                 remove_failure(directory)
                 _run(checked.with_lock(check), standing, monitor)
                 return directory, True
@@ -61,10 +61,10 @@ def execute_checked(checked: CheckedRun, monitor: Monitor) -> tuple[Path, bool]:
     return directory, False
 
 
-def _run(checked: CheckedRun, standing: Standing, monitor: Monitor) -> None:
+def _run(checked: CheckedRun, standing: RunStage, monitor: Monitor) -> None:
     """Compute the run from its beginning or its last saved step; the directory is locked."""
     with before_the_first_step():
-        if standing is Standing.NEW:
+        if standing is RunStage.NEW:
             record = _new_record(checked, monitor)
         else:
             record = _resumed_record(checked, monitor)

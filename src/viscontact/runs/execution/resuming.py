@@ -20,7 +20,7 @@ from viscontact.runs.execution.run_directory import (
     refuse_no_directory,
     refuse_occupied,
 )
-from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.job import RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import parse_quantity
@@ -31,19 +31,19 @@ _MAX_CHANGES = 12
 _IRRELEVANT = ("title", "report", "allowable")
 
 
-def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
+def standing(request: RunRequest, recorded: Recorded, case: Case) -> RunStage:
     """Return whether the run of a directory is new, stopped or finished; refuse it otherwise."""
     directory = recorded.directory
     refuse_no_directory(directory)
     if not request.resume:
         refuse_occupied(directory, case, overwrite=request.overwrite)
-        return Standing.NEW
+        return RunStage.NEW
     stored = _stored(directory)
     is_complete = isinstance(stored, StoredRun) and stored.complete
     if isinstance(stored, StoredRun) and is_complete and stored.case == recorded.run.case:
-        return Standing.FINISHED
+        return RunStage.FINISHED
     if (directory / STATE_NAME).exists() and is_of_a_run(directory):
-        return Standing.STOPPED
+        return RunStage.STOPPED
     if isinstance(stored, str):
         refuse(f"{stored}; replace it with --overwrite, or choose another directory with -o DIR")
     if stored is not None and is_complete:
@@ -54,7 +54,7 @@ def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
             "it with --overwrite, or choose another directory with -o DIR"
         )
     refuse_occupied(directory, case, overwrite=False)
-    return Standing.NEW
+    return RunStage.NEW
 
 
 def refuse_changed(directory: Path, case: Case, changes: Iterable[Difference]) -> NoReturn:

@@ -13,7 +13,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 
 from viscontact.runs.processes.job import Job
-from viscontact.runs.processes.progress import Course
+from viscontact.runs.processes.progress import RunProgress
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, RESUMABLE, STOPPED
 
 
@@ -79,7 +79,7 @@ class Child:
 
     def __init__(self, job: Job, spare: RunProcess | None = None) -> None:
         self.job = job
-        self.course = Course(job)
+        self.course = RunProgress(job)
         self._asked = False
         words = list(replace(job.request, output=job.directory, quiet=True).words())
         if spare is not None and not spare.begin(words):

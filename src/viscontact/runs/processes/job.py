@@ -9,7 +9,7 @@ from pathlib import Path
 from viscontact.runs.processes.request import RunRequest
 
 
-class Standing(Enum):
+class RunStage(Enum):
     """State of a run in its directory."""
 
     NEW = "new"
@@ -24,7 +24,7 @@ class Job:
     request: RunRequest
     directory: Path
     name: str  # among the other runs
-    standing: Standing
+    standing: RunStage
     instants: int | None  # their number; None where the run chooses its steps
     end: float  # last instant [s]
     work: float  # cells times steps, a relative measure of the computing time

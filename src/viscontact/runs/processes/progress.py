@@ -10,10 +10,10 @@ from typing import Any
 
 from viscontact.results.run_files import PROGRESS_NAME
 from viscontact.runs.directory.progress_log import reached_in
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 
 
-class Course:
+class RunProgress:
     """Progress of a run, made before its process is started."""
 
     def __init__(self, job: Job) -> None:
@@ -25,7 +25,7 @@ class Course:
         self._job, self._path = job, job.directory / PROGRESS_NAME
         self._file, self._read = 0, 0
         # Lines of an earlier run, which this one replaces, do not count.
-        self._earlier = None if job.standing is Standing.STOPPED else self._marks()
+        self._earlier = None if job.standing is RunStage.STOPPED else self._marks()
         self.look()
 
     @property

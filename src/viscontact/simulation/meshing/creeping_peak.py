@@ -30,7 +30,7 @@ from viscontact.mechanics.time_integration.default_times import (
     default_end,
     steps_of_one_cell,
 )
-from viscontact.mechanics.time_integration.fixed_steps import Step, plan_steps, step_ends
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep, plan_steps, step_ends
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryResponse,
     response_to,
@@ -68,7 +68,7 @@ class ContactGrowth:
     # y, and the peak of the elastic pressure, are powers of it, and 1 at its largest value.
 
     load: LoadHistory
-    steps: tuple[Step, ...]
+    steps: tuple[TimeStep, ...]
     compliance: SeriesCompliance  # J(t) [1/Pa]
     largest: float  # reference of the largest contact
     extents: tuple[float, float]  # exponents of the extents along x and y [-]

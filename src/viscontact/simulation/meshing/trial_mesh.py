@@ -135,7 +135,7 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
+class _TrialSolution:
     """Solution on one mesh: values of `MESH_QUANTITIES`, and the scales of their errors."""
 
     open_gap: Floats
@@ -149,7 +149,7 @@ class _Found:
     cells_across: int
 
 
-def _least_changes(found: _Found, at_straight_end: Bools, end_excess: Floats) -> Floats:
+def _least_changes(found: _TrialSolution, at_straight_end: Bools, end_excess: Floats) -> Floats:
     """Smallest changes that count, however well two meshes agree by chance; (2, quantities)."""
     least = np.zeros((2, len(MESH_QUANTITIES)))
     scatter = np.where(at_straight_end, END_SCATTER, RIM_SCATTER)
@@ -165,7 +165,7 @@ def _least_changes(found: _Found, at_straight_end: Bools, end_excess: Floats) ->
     return least
 
 
-def _end_excess(found: _Found) -> Floats:
+def _end_excess(found: _TrialSolution) -> Floats:
     """Relative excess of the peak near the body's ends along x and along y [-]."""
     peak = max(float(found.pressure.max()), TINY)
     farther = [
@@ -180,7 +180,7 @@ def _found(
     grid: Grid,
     tolerance: float,
     start: Floats | None = None,
-) -> _Found:
+) -> _TrialSolution:
     """Solve a contact on one mesh, starting from a pressure [Pa] if one is given."""
     indenter, point = pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
@@ -209,7 +209,7 @@ def _found(
     ):
         least[[MESH_QUANTITIES.index(name) for name in names]] = LEAST_LEVER * scales
     tiny[MESH_QUANTITIES.index("approach")] = displacement
-    return _Found(
+    return _TrialSolution(
         open_gap,
         found.pressure,
         found.in_contact,

@@ -25,7 +25,7 @@ from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
-from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, Step
+from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.simulation.transient.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.transient.observer import Observer
@@ -51,7 +51,7 @@ StepEnds = Callable[[int, float, float], Floats]
 class _SolvedStep:
     """A step that has been solved but not accepted, its state, and the observer after it."""
 
-    step: Step
+    step: TimeStep
     trial: TrialStep
     state: ContactState
     observer: Observer
@@ -83,7 +83,7 @@ class EventSearch:
         self._observer = Observer(self._run, warns=False)
         self.states: list[ContactState] = []  # at the ends of the steps, without fields
         self.reach = (0.0, 0.0)  # of the contact from the middle of the grid, along x and y [m]
-        self._accept(self._solved(Step(0.0, 0.0, 0.0, smooth=False)))
+        self._accept(self._solved(TimeStep(0.0, 0.0, 0.0, smooth=False)))
 
     def carry_out(self) -> MixedHistory:
         """March to the end of the program; EventError if a condition is never met."""
@@ -134,7 +134,7 @@ class EventSearch:
         ends = [begin, *inside.tolist(), end]
         return FixedSteps(
             tuple(
-                Step(after, after - before, after, smooth=before > begin)
+                TimeStep(after, after - before, after, smooth=before > begin)
                 for before, after in itertools.pairwise(ends)
             )
         )
@@ -160,7 +160,7 @@ class EventSearch:
         reach = _reach(self._run, solved.state)
         self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
 
-    def _solved(self, step: Step) -> _SolvedStep:
+    def _solved(self, step: TimeStep) -> _SolvedStep:
         trial = self._stepper.trial(step)
         if trial.outcome is Outcome.NOT_CONVERGED:
             raise ConvergenceError(not_converged(self._run, step, trial.solution))
@@ -180,8 +180,8 @@ class EventSearch:
                 return _excess(condition, crossed.state)
             return _excess(condition, self._solved(_until(time)).state)
 
-        def _until(time: float) -> Step:
-            return Step(time, time - begin, time, step.smooth)
+        def _until(time: float) -> TimeStep:
+            return TimeStep(time, time - begin, time, step.smooth)
 
         tolerance = self._event_tolerance * step.duration
         met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))

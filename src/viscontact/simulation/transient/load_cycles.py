@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from viscontact.bodies.loads.history import Cycle, LoadInstant
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 
 
@@ -19,7 +19,7 @@ class LoadCycleWork:
         self._begun = 0.0 if cycles and cycles[0][0] == (0.0, "left") else math.nan
         self.last_loss = math.nan
 
-    def record_work(self, step: Step, work: float) -> None:
+    def record_work(self, step: TimeStep, work: float) -> None:
         """Record the work [J] at the end of a step where a cycle ends or begins."""
         if self._cycles and _meets(step, self._cycles[0][1]):
             self.last_loss = work - self._begun
@@ -37,7 +37,7 @@ class LoadCycleWork:
         self._begun, self.last_loss = restart_data["begun"], restart_data["last_loss"]
 
 
-def _meets(step: Step, moment: LoadInstant) -> bool:
+def _meets(step: TimeStep, moment: LoadInstant) -> bool:
     """True if a step ends at a (time, side); without a jump there, on both sides."""
     time, side = moment
     other = (step.before_jump and side == "right") or (step.is_jump and side == "left")

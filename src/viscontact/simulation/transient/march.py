@@ -11,7 +11,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.state import ContactState, Outcome
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.transient.grid_enlargement import (
     FREE,
@@ -78,7 +78,7 @@ class March:
         self._domain.keep_patch((first_row, last_row, first_column, last_column))
         self.done = restart_data["done"]
 
-    def _advance(self) -> tuple[Step, TrialStep]:
+    def _advance(self) -> tuple[TimeStep, TrialStep]:
         """Solve the next step; repeat it on a larger grid, or shorter, where necessary."""
         # Predict, solve, check, and repeat until the grid holds the contact and the step control
         # accepts the error (Hairer, Norsett & Wanner, Solving ODEs I, II.4).
@@ -93,7 +93,7 @@ class March:
                 return step, trial
             _LOG.debug("step to t = %.6g s: error %.2g, repeated", step.time, trial.error.relative)
 
-    def _outgrows(self, step: Step, trial: TrialStep) -> bool:
+    def _outgrows(self, step: TimeStep, trial: TrialStep) -> bool:
         """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
         if not self._run.grows:
             return False
@@ -123,7 +123,7 @@ class March:
             self._failure = not_converged(self._run, step, trial.solution)
         return self._complete(step, trial)
 
-    def _complete(self, step: Step, trial: TrialStep) -> ContactState | None:
+    def _complete(self, step: TimeStep, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
@@ -149,7 +149,7 @@ def domain_of(run: RunSetup) -> ContactDomain:
     )
 
 
-def refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
+def refuse_rim(run: RunSetup, step: TimeStep, solution: StepSolution) -> None:
     """Raise DomainError if there is pressure in the outermost cells."""
     reached = zip(overrun(solution.pressure), run.grid.periodic, strict=True)
     if not any(over and not repeats for over, repeats in reached):
@@ -161,7 +161,7 @@ def refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
     )
 
 
-def _too_large(run: RunSetup, step: Step) -> str:
+def _too_large(run: RunSetup, step: TimeStep) -> str:
     return (
         f"grid: the contact outgrows {format_quantity(run.grid.size[0], 'm')} x "
         f"{format_quantity(run.grid.size[1], 'm')} at t = {format_quantity(step.time, 's', 6)}, "
@@ -170,7 +170,7 @@ def _too_large(run: RunSetup, step: Step) -> str:
     )
 
 
-def not_converged(run: RunSetup, step: Step, solution: ContactSolution) -> str:
+def not_converged(run: RunSetup, step: TimeStep, solution: ContactSolution) -> str:
     """Return the message about a step whose contact was not solved."""
     return (
         f"the contact solver stopped at t = {format_quantity(step.time, 's', 6)} with residual "

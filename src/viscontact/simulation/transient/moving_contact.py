@@ -13,7 +13,7 @@ from viscontact.mechanics.contact.resistance import (
     resistance_by_displacement,
     resistance_by_slope,
 )
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.motion import (
     edge_warnings,
@@ -40,7 +40,7 @@ class StandingContact:
     def continue_on(self, run: RunSetup) -> None:
         """Continue on a larger grid, as on any other."""
 
-    def evaluate(self, step: Step, solution: StepSolution) -> dict[str, float]:
+    def evaluate(self, step: TimeStep, solution: StepSolution) -> dict[str, float]:
         """Return no scalars."""
         return {}
 
@@ -74,7 +74,7 @@ class MovingContact:
         """Continue the same run on a larger grid."""
         self._run = run
 
-    def evaluate(self, step: Step, solution: StepSolution) -> dict[str, float]:
+    def evaluate(self, step: TimeStep, solution: StepSolution) -> dict[str, float]:
         """Return the scalars at the end of a step, as in the result; add its work and heat."""
         motion = self._run.problem.motion
         position = np.array(self._run.position_at(step.time))
@@ -104,7 +104,7 @@ class MovingContact:
             "heat": self._heat,
         }
 
-    def _resistance_at(self, step: Step, solution: StepSolution) -> tuple[float, float]:
+    def _resistance_at(self, step: TimeStep, solution: StepSolution) -> tuple[float, float]:
         """Resistance [N] in the form that is more accurate for the material and the speed."""
         grid, extents = self._run.grid, self._half_extents(solution)
         indenter, motion = self._run.indenter_at(step.time), self._run.problem.motion
@@ -146,7 +146,7 @@ class MovingContact:
         most = self._run.problem.surface.most_creeping
         return self._run.plans[most].prony_approximation
 
-    def _pace(self, step: Step, solution: StepSolution, way: float) -> None:
+    def _pace(self, step: TimeStep, solution: StepSolution, way: float) -> None:
         """Keep way and duration of a step of the moving body that counts for the accuracy."""
         extent = max(self._half_extents(solution))
         if way > 0 and extent > 0 and extent >= LARGE_CONTACT * self._extent:

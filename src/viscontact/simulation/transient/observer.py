@@ -16,7 +16,7 @@ from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
 from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.state import ContactState, Outcome
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
@@ -75,7 +75,7 @@ class Observer:
         if self._before is not None:
             self._before = enlargement.solution(self._before)
 
-    def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
+    def evaluate(self, step: TimeStep, point: LoadPoint, solution: StepSolution) -> ContactState:
         """Return the state at the end of a step, still without warnings."""
         if self._run.position_at(step.time) != self._position:
             self._set_geometry(self._run, step.time)
@@ -173,7 +173,7 @@ class Observer:
             self._largest = None
         return self._spots_at_largest
 
-    def _collect_warnings(self, step: Step, solution: StepSolution, rim: Rim) -> None:
+    def _collect_warnings(self, step: TimeStep, solution: StepSolution, rim: Rim) -> None:
         problem = self._run.problem
         found = data_warnings(step.time, problem.measured_until, problem.ends_first)
         if solution.outcome is not Outcome.NO_CONTACT:
@@ -220,7 +220,7 @@ class Observer:
 
 
 def _state(
-    step: Step,
+    step: TimeStep,
     solution: StepSolution,
     rim: Rim,
     work: float,

@@ -33,7 +33,7 @@ from viscontact.mechanics.time_integration.extrapolation import (
     predict,
     shifted,
 )
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import response_to
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.restart_data import RestartData
@@ -90,7 +90,7 @@ class Stepper:
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
 
-    def trial(self, step: Step) -> TrialStep:
+    def trial(self, step: TimeStep) -> TrialStep:
         """Solve a step without accepting it."""
         posed = self._step_problem(step)
         solution, outcome = self._solved(step, posed)
@@ -139,7 +139,7 @@ class Stepper:
             replace(reference, fields=mapped(reference.fields)) for reference in self._references
         ]
 
-    def _step_problem(self, step: Step) -> StepProblem:
+    def _step_problem(self, step: TimeStep) -> StepProblem:
         """Pose a step: load at its end, response of the history, elastic contact to be solved."""
         point = self._run.problem.load.at(step.time, side=step.side)  # step 1
         response, force_response = (
@@ -166,7 +166,7 @@ class Stepper:
             guess = None if moved is None else self._moved_guess(moved, problem)
         return StepProblem(point, response, drive, problem, guess)
 
-    def accept(self, step: Step, trial: TrialStep) -> StepSolution:
+    def accept(self, step: TimeStep, trial: TrialStep) -> StepSolution:
         """Add a solved step to the history (step 5), and return its solution on the whole grid."""
         if trial.outcome is Outcome.NO_CONTACT:
             self._references = []
@@ -203,7 +203,7 @@ class Stepper:
         area = self._domain.symmetry_count * self._domain.grid.cell_area
         return lost[0] * area, lost[1] * area
 
-    def _reference_history(self, step: Step) -> list[ElasticReference]:
+    def _reference_history(self, step: TimeStep) -> list[ElasticReference]:
         """The references that the next one is extrapolated from; after a kink, the last one."""
         return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
 
@@ -240,7 +240,7 @@ class Stepper:
         self._domain.team.each_part(increment, values, history)
         return Guess(values, reference.motion)
 
-    def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:
+    def _moved(self, known: list[ElasticReference], step: TimeStep) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
         run = self._run
         there = np.array(run.position_at(step.time))
@@ -256,7 +256,7 @@ class Stepper:
             moved.append(replace(each, fields=fields))
         return moved
 
-    def _solved(self, step: Step, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
+    def _solved(self, step: TimeStep, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
@@ -281,7 +281,7 @@ class Stepper:
         return bool((problem.open_gap >= plane).all())
 
     def _first_touch(
-        self, step: Step, problem: ContactProblem, *, untouched: bool
+        self, step: TimeStep, problem: ContactProblem, *, untouched: bool
     ) -> ContactSolution:
         """Place a body without force where it just touches the surface; free tilts are kept."""
         tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])

@@ -15,7 +15,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.time_integration.fixed_steps import Step
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryIntegral,
     HereditaryResponse,
@@ -90,7 +90,7 @@ class SurfaceHistory:
             heat, power = heat + lost[0], power + lost[1]
         return heat, power
 
-    def respond(self, step: Step) -> SurfaceStep:
+    def respond(self, step: TimeStep) -> SurfaceStep:
         """Response to a step; sets that of the domain's surface."""
         short_waves = tuple(response.short_waves for response in self._responses)
         found = SurfaceStep(tuple(response_to(step, each) for each in self._integrals), short_waves)

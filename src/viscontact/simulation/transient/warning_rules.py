@@ -9,7 +9,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import Outcome
-from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, Step
+from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, TimeStep
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
 from viscontact.simulation.checks.material import (
@@ -78,7 +78,7 @@ def geometry_of(
 
 
 def contact_change_warnings(
-    problem: Problem, step: Step, *, touched: bool, touches: bool
+    problem: Problem, step: TimeStep, *, touched: bool, touches: bool
 ) -> dict[str, str]:
     """Return warnings, by kind, about a step in which a creeping body gains or loses contact."""
     compliance = problem.surface.creep
@@ -93,7 +93,7 @@ def contact_change_warnings(
 
 
 def loading_warnings(
-    run: RunSetup, step: Step, before: StepSolution | None, after: StepSolution
+    run: RunSetup, step: TimeStep, before: StepSolution | None, after: StepSolution
 ) -> dict[str, str]:
     """Return warnings, by kind, about a step from one solution (None: the first) to the next."""
     if before is None or step.is_jump:
@@ -108,7 +108,7 @@ def loading_warnings(
     return step_warnings(step.duration, max(relative_change(*peaks), relative_change(*forces)))
 
 
-def _levels(problem: Problem, step: Step) -> tuple[float, float, float]:
+def _levels(problem: Problem, step: TimeStep) -> tuple[float, float, float]:
     """The load just after a step's begin, at its end, and the largest of the run [N or m]."""
     load, begin = problem.load, step.time - step.duration * (1 - KINK_TOLERANCE)
     # A clamped tilt can press with no approach at all.

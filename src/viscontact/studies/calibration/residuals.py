@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.studies.calibration.response import Experiment, Mounting, Response
+from viscontact.studies.calibration.response import Experiment, Mounting, RecordRun
 from viscontact.studies.calibration.search import NoResidualsError
 from viscontact.studies.calibration.unknowns import (
     CONTACT_POINT,
@@ -60,7 +60,7 @@ class Residuals:
         return np.concatenate(parts)
 
     def _compared(
-        self, responses: Sequence[Response], outcomes: Sequence[Entry], values: Mapping[str, str]
+        self, responses: Sequence[RecordRun], outcomes: Sequence[Entry], values: Mapping[str, str]
     ) -> list[tuple[Floats, Bools]] | str:
         try:
             return [
@@ -70,10 +70,10 @@ class Residuals:
         except NoResidualsError as error:
             return str(error)
 
-    def _responses(self, values: Mapping[str, str], level: Level) -> list[Response]:
+    def _responses(self, values: Mapping[str, str], level: Level) -> list[RecordRun]:
         of_case = {k: v for k, v in values.items() if not is_of_machine(k)}
         return [
-            Response(each, of_case, self._mounting(each, values, each.drive), level)
+            RecordRun(each, of_case, self._mounting(each, values, each.drive), level)
             for each in self.experiments
         ]
 
@@ -91,7 +91,7 @@ class Residuals:
         return Mounting(point, 1.0 / parse_any_quantity(values[MACHINE_STIFFNESS])[0])
 
     def _one(
-        self, run: Response, outcome: Entry, values: Mapping[str, str]
+        self, run: RecordRun, outcome: Entry, values: Mapping[str, str]
     ) -> tuple[Floats, Bools]:
         """Fitted values of a record, and the mask of the rows that count."""
         if "failure" in outcome:

@@ -65,7 +65,7 @@ class Mounting:
 
 
 @dataclass(frozen=True, eq=False)
-class Response:
+class RecordRun:
     """Run of a test: force and approach at the rows of the record [N, m], without the machine."""
 
     experiment: Experiment

@@ -17,7 +17,7 @@ from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
-from viscontact.runs.processes.progress import Course
+from viscontact.runs.processes.progress import RunProgress
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED
 from viscontact.studies.executors.task import RecordedTask, Task, TaskEnd
 
@@ -30,7 +30,7 @@ class Active:
     """Run that has been submitted, and its progress."""
 
     job: Job
-    course: Course
+    course: RunProgress
     future: Future[TaskEnd]
 
 
@@ -123,7 +123,7 @@ class _Driver:
 
     def _submit(self, job: Job) -> None:
         task = self._task_of(job, self._token)
-        course = Course(job)
+        course = RunProgress(job)
         try:
             future = self._workers.submit(task, job.memory)
         except (OSError, RuntimeError) as error:

@@ -21,7 +21,7 @@ from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.execution import Monitor, execute_checked
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Child
-from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.job import RunStage
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED, RunRequest
 from viscontact.simulation.transient.state_generator import Progress
 
@@ -175,7 +175,7 @@ def _ended(end: CommandError) -> TaskEnd:
 
 def _in_process(checked: CheckedRun, stops: StopRequests) -> TaskEnd:
     """Compute a run in a process of its own, which is resumed once if it is killed."""
-    job = checked.job(Standing.NEW)
+    job = checked.job(RunStage.NEW)
     for _ in range(ATTEMPTS):
         ended = _waited_for(Child(job), stops)
         if ended.word != "killed":

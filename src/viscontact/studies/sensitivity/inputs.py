@@ -21,7 +21,7 @@ NO_INPUTS = ("grid", "time", "output", "tolerance", "report", "allowable", "titl
 
 
 @dataclass(frozen=True)
-class Input:
+class CaseNumber:
     """Number of a case, as it is written there."""
 
     key: str
@@ -37,7 +37,7 @@ class Input:
         return f"{float(number) * math.exp(shift):.12g} {unit}".rstrip()
 
 
-def inputs_of(case: Case) -> list[Input]:
+def inputs_of(case: Case) -> list[CaseNumber]:
     """Return the numbers other than zero of bodies, load and motion, in the order of the case."""
     # Those of a table within the case, such as the points of a load, are left out.
     found = []
@@ -49,7 +49,7 @@ def inputs_of(case: Case) -> list[Input]:
     return found
 
 
-def input_of(case: Case, key: str) -> Input:
+def input_of(case: Case, key: str) -> CaseNumber:
     """Return the number of a case with a key; ValueError if there is none, or it is zero."""
     if key.partition(".")[0] in NO_INPUTS:
         raise ValueError(f"{key}: cells, steps and output of a case are no inputs of the contact")
@@ -83,7 +83,7 @@ def _leaves(data: Any, path: KeyPath, *, deep: bool = False) -> Iterator[tuple[K
         yield path, data
 
 
-def _input(key: str, value: Any) -> Input | None:
+def _input(key: str, value: Any) -> CaseNumber | None:
     """Input of a number with or without unit; None for any other value."""
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         return None
@@ -91,4 +91,4 @@ def _input(key: str, value: Any) -> Input | None:
     found = coordinate(key, "input", [text])
     if not np.issubdtype(found.dtype, np.number):
         return None
-    return Input(key, text, float(found.values[0]), str(found.attrs["units"]))
+    return CaseNumber(key, text, float(found.values[0]), str(found.attrs["units"]))

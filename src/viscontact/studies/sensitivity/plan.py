@@ -17,7 +17,7 @@ from viscontact.studies.cells import coarser, grid_setting, shape_setting
 from viscontact.studies.evaluation import Level
 from viscontact.studies.sensitivity.common_grid import covering
 from viscontact.studies.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
-from viscontact.studies.sensitivity.inputs import Input
+from viscontact.studies.sensitivity.inputs import CaseNumber
 from viscontact.studies.sensitivity.samples import Samples
 from viscontact.studies.sweep.continuation import recorded_runs
 from viscontact.studies.sweep.varied_runs import VariedRun
@@ -36,7 +36,7 @@ _WITHOUT_ERRORS = {"output.errors": "false"}
 class Derivative:
     """Derivative of the outputs by an input: its stencil, and the step in the logarithm."""
 
-    given: Input
+    given: CaseNumber
     stencil: Stencil
     step: float
 
@@ -92,7 +92,7 @@ class Plan:
 def planned(
     path: Path,
     settings: Mapping[str, str],
-    inputs: Sequence[Input],
+    inputs: Sequence[CaseNumber],
     step: float,
     directory: Path | None,
     samples: Samples | None = None,
@@ -152,7 +152,7 @@ def _settings_of(case: Case, grid: Grid) -> dict[Level, Mapping[str, str]]:
 
 
 def _derivative(
-    path: Path, settings: Mapping[str, str], given: Input, step: float
+    path: Path, settings: Mapping[str, str], given: CaseNumber, step: float
 ) -> tuple[Derivative, list[PreparedRun]]:
     """Derivative with the first step and stencil whose outer points the case accepts."""
     tried = [Derivative(given, CENTRAL, step / 2**n) for n in range(HALVINGS + 1)]

@@ -25,7 +25,7 @@ from viscontact.studies.case_values import (
 from viscontact.studies.evaluation import Progress
 from viscontact.studies.executors.chosen import refuse_import_by_a_worker
 from viscontact.studies.scalars import At, require_instant
-from viscontact.studies.sensitivity.inputs import Input, input_of, inputs_of
+from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
 from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned
 from viscontact.studies.sensitivity.result import SensitivityResult
@@ -185,7 +185,7 @@ def sensitivity(  # noqa: PLR0913
     return _computed(plan, outputs, at, notes, place, joint)
 
 
-def _inputs(case: Case, change: Sequence[str] | None) -> list[Input]:
+def _inputs(case: Case, change: Sequence[str] | None) -> list[CaseNumber]:
     if change is None:
         found = inputs_of(case)
         if not found:

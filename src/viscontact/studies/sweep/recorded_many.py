@@ -9,7 +9,7 @@ from pathlib import Path
 
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.child import Ended
-from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
 from viscontact.studies.executors.driver import Active, Workers, case_task, drive
 from viscontact.studies.executors.simulation_task import SimulationTask, change_of_results
@@ -140,7 +140,7 @@ def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:
     case = recipe.case if isinstance(recipe, VariedRun) else Path(run.directory)
     request = RunRequest(case, place, resume=True, settings=run.assignments)
     memory = known_memory(recipe)
-    return Job(request, place, run.name, Standing.STOPPED, None, 0.0, 1.0, memory)
+    return Job(request, place, run.name, RunStage.STOPPED, None, 0.0, 1.0, memory)
 
 
 class _Reports:

@@ -33,7 +33,7 @@ from viscontact.tables import Table, read_table, split_sheet
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity
 from viscontact.web.cases.case_reader import form_values
-from viscontact.web.workspace.problems import Problem, RequestError, without_folder
+from viscontact.web.workspace.problems import InputProblem, RequestError, without_folder
 
 #: Tips by their names, with the dimension of their size.
 _TIPS = {
@@ -102,15 +102,15 @@ def _quantities(asked: CurveFitRequest) -> dict[str, float | None]:
         try:
             found[name] = _read(text, dimension) if text else None
         except ValueError as error:
-            problems.append(Problem(str(error), name))
+            problems.append(InputProblem(str(error), name))
     if not asked.poisson_ratio.strip() and not asked.bulk_modulus.strip():
         problems.append(
-            Problem("give Poisson's ratio, such as 0.5, or a bulk modulus", "poisson_ratio")
+            InputProblem("give Poisson's ratio, such as 0.5, or a bulk modulus", "poisson_ratio")
         )
     if asked.tip not in _TIPS:
-        problems.append(Problem(f"must be one of {', '.join(_TIPS)}", "tip"))
+        problems.append(InputProblem(f"must be one of {', '.join(_TIPS)}", "tip"))
     elif not asked.size.strip():
-        problems.append(Problem("is missing; the size of the tip, such as 5 um", "size"))
+        problems.append(InputProblem("is missing; the size of the tip, such as 5 um", "size"))
     if problems:
         raise RequestError(422, *problems)
     return found
@@ -142,7 +142,7 @@ def _record(
 def _tabulated(table: Table, stiffness: float | None, sensitivity: float | None) -> ForceCurve:
     if stiffness is None:
         why = "a force curve in a table needs the spring constant, such as 0.1 N/m"
-        raise RequestError(422, Problem(why, "spring_constant"))
+        raise RequestError(422, InputProblem(why, "spring_constant"))
     return tabulated_curve(table, stiffness, sensitivity)
 
 
@@ -156,16 +156,16 @@ def _tip(asked: CurveFitRequest) -> Indenter:
     try:
         return kind(parse_quantity(asked.size, dimension))
     except ValueError as error:
-        raise RequestError(422, Problem(str(error), "size")) from error
+        raise RequestError(422, InputProblem(str(error), "size")) from error
 
 
 def _path(name: str, folder: Path) -> Path:
     """Path of an uploaded file, with the sheet or the number of a curve behind it."""
     if not is_plain_name(name.partition("#")[0]) or "/" in name or "\\" in name:
-        raise RequestError(422, Problem("upload the file, and give its name alone", "file"))
+        raise RequestError(422, InputProblem("upload the file, and give its name alone", "file"))
     path = folder / name
     if not split_number(split_sheet(path)[0])[0].is_file():
-        raise RequestError(422, Problem(f"there is no file {name!r}; upload it", "file"))
+        raise RequestError(422, InputProblem(f"there is no file {name!r}; upload it", "file"))
     return path
 
 

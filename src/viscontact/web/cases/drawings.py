@@ -30,14 +30,16 @@ from viscontact.web.workspace.problems import RequestError, case_problems
 
 
 @dataclass(frozen=True)
-class Drawing:
+class Captioned:
     """Figure with its caption; None where nothing can be drawn, as the caption explains."""
 
     figure: Figure | None
     caption: str = ""
 
 
-def drawings(cases: CaseReader, text: str, what: str, width: Width | None = None) -> list[Drawing]:
+def drawings(
+    cases: CaseReader, text: str, what: str, width: Width | None = None
+) -> list[Captioned]:
     """Draw a part of a case, on its own where the rest of the case is not valid."""
     try:
         return _of_case(cases, text, what, width)
@@ -45,18 +47,18 @@ def drawings(cases: CaseReader, text: str, what: str, width: Width | None = None
         alone = _alone(cases.parts(text), what, width)
         if alone is None:
             raise
-        return [Drawing(alone)]
+        return [Captioned(alone)]
 
 
-def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> list[Drawing]:
+def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> list[Captioned]:
     case = cases.case(text)
     try:
         if what == "indenter":
-            return [Drawing(_indenter(*cases.forecast(text), width)), *_spectra(case, width)]
+            return [Captioned(_indenter(*cases.forecast(text), width)), *_spectra(case, width)]
         if what == "load":
             if isinstance(case.load, MixedHistory):  # carried out for the forecast
                 case = cases.forecast(text)[0].case
-            return [Drawing(draw_load(case.load, case.end))]
+            return [Captioned(draw_load(case.load, case.end))]
         return list(_material(case, what, width))
     except CaseError as error:
         raise case_problems(error, case.document.path) from error
@@ -64,12 +66,12 @@ def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> li
         raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
 
 
-def _spectra(case: Case, width: Width | None) -> list[Drawing]:
+def _spectra(case: Case, width: Width | None) -> list[Captioned]:
     """Power spectra of the measured surfaces of a case."""
     return [
-        Drawing(None, f"{surface.name}: no power spectrum is drawn, because points are missing")
+        Captioned(None, f"{surface.name}: no power spectrum is drawn, because points are missing")
         if surface.missing.any()
-        else Drawing(draw_power_spectrum(surface, width=width))
+        else Captioned(draw_power_spectrum(surface, width=width))
         for surface in case.surfaces
     ]
 
@@ -100,16 +102,16 @@ def _indenter(found: PreparedRun, expected: Forecast, width: Width | None) -> Fi
     return draw_indenter(case.indenter, drawn_size(found.run), contact=contact, width=width)
 
 
-def _material(case: Case, what: str, width: Width | None) -> Iterator[Drawing]:
+def _material(case: Case, what: str, width: Width | None) -> Iterator[Captioned]:
     """Fit of a law, or curves of the laws of a body and the fits of its layers."""
     body = _body(case, what)
     if what in case.fits:
-        yield Drawing(fitted_series(case.fits[what], width=width))
+        yield Captioned(fitted_series(case.fits[what], width=width))
         return
-    yield Drawing(_curves(body, case.end, width))
+    yield Captioned(_curves(body, case.end, width))
     for key, fit in case.fits.items():
         if key.startswith(f"{what}."):
-            yield Drawing(fitted_series(fit, width=width), key)
+            yield Captioned(fitted_series(fit, width=width), key)
 
 
 def _body(case: Case, what: str) -> Material | Layered:

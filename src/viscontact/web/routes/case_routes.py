@@ -26,7 +26,7 @@ from viscontact.units.systems import AUTOMATIC, SYSTEM_NAMES, SYSTEMS
 from viscontact.web.calculator import Calculator
 from viscontact.web.cases.case_reader import filled, form_values
 from viscontact.web.cases.curve_fits import CurveFitRequest, fitted_curve
-from viscontact.web.cases.drawings import Drawing, drawings
+from viscontact.web.cases.drawings import Captioned, drawings
 from viscontact.web.runs.run_figures import look_of
 from viscontact.web.workspace.naming import suggested_title
 from viscontact.web.workspace.pictures import PictureChoice, picture
@@ -183,7 +183,7 @@ async def draw(
     return await calculator.do(made, request)
 
 
-def _svg(drawn: Drawing, choice: PictureChoice) -> str:
+def _svg(drawn: Captioned, choice: PictureChoice) -> str:
     return "" if drawn.figure is None else picture(drawn.figure, choice).decode()
 
 

@@ -10,8 +10,8 @@ from viscontact.results.run_axis import RUN_AXES, RunAxis
 from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Child, Ended, RunProcess
-from viscontact.runs.processes.job import Job, Standing
-from viscontact.runs.processes.progress import Course
+from viscontact.runs.processes.job import Job, RunStage
+from viscontact.runs.processes.progress import RunProgress
 from viscontact.runs.processes.request import DONE, INTERRUPTED, RunRequest
 from viscontact.web.runs.live_scalars import LiveScalars
 from viscontact.web.workspace.folder import Folder, RunEntry
@@ -37,7 +37,7 @@ class ManagedRun:
         self._marched: float | None = None
         self._since, self._before = 0.0, 0
         self._started_at = 0.0
-        self.course = Course(self._job(Standing.STOPPED))
+        self.course = RunProgress(self._job(RunStage.STOPPED))
 
     @property
     def label(self) -> str:
@@ -85,7 +85,7 @@ class ManagedRun:
     def start(self, spare: RunProcess | None) -> None:
         """Start the run in a process that waits for one, or note why that failed."""
         saved = (self.directory / STATE_NAME).is_file()
-        job = self._job(Standing.STOPPED if saved else Standing.NEW)
+        job = self._job(RunStage.STOPPED if saved else RunStage.NEW)
         self._pace, self._marched, self._stop_state = None, None, ""
         try:
             self._child = Child(job, spare)
@@ -195,7 +195,7 @@ class ManagedRun:
         if self._marched is None and part >= 1 and self._pace is not None:
             self._marched, self._since = now - self._pace[0], now
 
-    def _job(self, standing: Standing) -> Job:
+    def _job(self, standing: RunStage) -> Job:
         entry, case = self.entry, self._folder.given(self.name)
         request = RunRequest(case, self.directory, resume=True, settings=entry.settings)
         return Job(

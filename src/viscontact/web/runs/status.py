@@ -22,7 +22,7 @@ from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import format_quantity
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.pictures import DAMAGED
-from viscontact.web.workspace.problems import Problem, lines_of, problem_of
+from viscontact.web.workspace.problems import InputProblem, lines_of, problem_of
 
 _STAGES = {"waiting": "waiting", "running": "steps"}
 #: Name of a step of a run.
@@ -104,7 +104,7 @@ def _stage(run: ManagedRun) -> str:
     return "starting" if run.is_at_work and not run.course.instants else _STAGES[run.entry.state]
 
 
-def _problems(run: ManagedRun) -> list[Problem]:
+def _problems(run: ManagedRun) -> list[InputProblem]:
     if run.entry.state != "failed":
         return []
     lines = [line for line in run.entry.said if not line.startswith(_COMMANDS)]

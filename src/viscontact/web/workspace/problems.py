@@ -15,7 +15,7 @@ _KEY = re.compile(r"([A-Za-z_][\w-]*(?:\[\d+\])*(?:\.[A-Za-z_][\w-]*(?:\[\d+\])*
 
 
 @dataclass(frozen=True)
-class Problem:
+class InputProblem:
     """Problem with its message, its key in the case and its line."""
 
     message: str
@@ -26,10 +26,10 @@ class Problem:
 class RequestError(Exception):
     """Refused request, with its problems as the body of the answer."""
 
-    def __init__(self, status: int, *problems: Problem | str) -> None:
+    def __init__(self, status: int, *problems: InputProblem | str) -> None:
         super().__init__(*problems)
         self.status = status
-        found = (Problem(each) if isinstance(each, str) else each for each in problems)
+        found = (InputProblem(each) if isinstance(each, str) else each for each in problems)
         self.body: dict[str, Any] = {"problems": [asdict(each) for each in found]}
 
 
@@ -38,7 +38,7 @@ def case_problems(error: CaseError, path: Path) -> RequestError:
     return RequestError(422, *(problem_of(line, path) for line in error.problems))
 
 
-def problem_of(line: str, path: Path) -> Problem:
+def problem_of(line: str, path: Path) -> InputProblem:
     """Split a message of the command line into message, key and line."""
     number: int | None = None
     if found := re.match(rf"{re.escape(str(path))}:(\d*):? ", line):
@@ -49,7 +49,7 @@ def problem_of(line: str, path: Path) -> Problem:
     # A key that is missing in the file stands behind its section.
     if where and (key := _KEY.match(line)) and key[1].startswith(f"{where}."):
         where, line = key[1], line[key.end() :]
-    return Problem(without_folder(line, path.parent), where, number)
+    return InputProblem(without_folder(line, path.parent), where, number)
 
 
 def without_folder(text: str, folder: Path) -> str:
@@ -57,7 +57,7 @@ def without_folder(text: str, folder: Path) -> str:
     return re.sub(rf"{re.escape(str(folder))}[/\\]", "", text)
 
 
-def lines_of(problems: Iterable[Problem]) -> list[str]:
+def lines_of(problems: Iterable[InputProblem]) -> list[str]:
     """Return problems as lines of text."""
     return [f"{each.path}: {each.message}" if each.path else each.message for each in problems]
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws.interconversion.log_curve import LogCurve
-from viscontact.bodies.laws.interconversion.product_integration import Function, Load, Mean
-from viscontact.bodies.laws.interconversion.volterra import Response, respond, steadied
+from viscontact.bodies.laws.interconversion.product_integration import Forcing, Function, Mean
+from viscontact.bodies.laws.interconversion.volterra import Extrapolated, respond, steadied
 
 # Beyond this many decades after the first node the function equals its final value.
 _MOST_DECADES = 60
@@ -32,14 +32,14 @@ class Inverse:
         trend: int,
         *,
         kinks: Sequence[float] = (),
-        load: Load | None = None,
+        load: Forcing | None = None,
         since: float = 0.0,
     ) -> None:
         self._function, self._mean, self._load = function, mean, load
         self._first, self._trend, self._kinks = first, trend, kinks
         self._since = since
         self._decades = 0
-        self._found: Response
+        self._found: Extrapolated
 
     def __call__(self, t: Floats) -> Floats:
         """Return g at times >= 0 [s], inf included."""

@@ -39,14 +39,14 @@ _POINT = 3e-4
 _AT_ONCE = 16
 
 
-class Load(NamedTuple):
+class Forcing(NamedTuple):
     """Right-hand side r(t), with its mean over intervals."""
 
     at: Function
     mean: Mean
 
 
-_ONE = Load(np.ones_like, lambda start, end: np.ones_like(start))
+_ONE = Forcing(np.ones_like, lambda start, end: np.ones_like(start))
 
 
 class Kernel(NamedTuple):
@@ -61,7 +61,9 @@ class Kernel(NamedTuple):
     bent: Floats
 
 
-def march(function: Function, mean: Mean, nodes: Floats, load: Load | None) -> tuple[float, Floats]:
+def march(
+    function: Function, mean: Mean, nodes: Floats, load: Forcing | None
+) -> tuple[float, Floats]:
     """Return g(0), 0 or inf where g begins as a power, and g at the nodes (or all but the last)."""
     begin, end = function(nodes[[0, -1]])
     steps = np.diff(nodes, prepend=0.0)

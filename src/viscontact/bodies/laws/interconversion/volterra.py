@@ -21,8 +21,8 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws.interconversion.log_curve import Before, LogCurve
 from viscontact.bodies.laws.interconversion.product_integration import (
+    Forcing,
     Function,
-    Load,
     Mean,
     first_exponent,
     march,
@@ -38,7 +38,7 @@ _AHEAD = 1e-5
 _MOST_DECADES = 60
 
 
-class Response(NamedTuple):
+class Extrapolated(NamedTuple):
     """Extrapolated solution on the fine grid; nodes of the coarse one [s], errors there [-]."""
 
     curve: LogCurve
@@ -79,8 +79,8 @@ def respond(
     first: float,
     since: float = 0.0,
     kinks: Sequence[float] = (),
-    load: Load | None = None,
-) -> Response:
+    load: Forcing | None = None,
+) -> Extrapolated:
     """Solve ∫ f(t - t') dg(t') = r(t) for g up to `end` [s]; a later end changes no value.
 
     Before the node `first` [s] g is straight in t, or a power if f is one up to `since` [s];
@@ -100,7 +100,7 @@ def respond(
     node_errors = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
     coarse, fine = coarse[: rough.size], fine[: values.size]
     if at_once not in (0.0, math.inf) or load is not None:
-        return Response(_curve(fine, at_once, values), coarse, node_errors)
+        return Extrapolated(_curve(fine, at_once, values), coarse, node_errors)
     # The beginning as a power leaves this, on any grid; up to there it is known better.
     settled = np.searchsorted(fine, since / 2)  # clear of the kink there
     curve = LogCurve(
@@ -109,7 +109,7 @@ def respond(
         before=-first_exponent(function, first),
         beyond="power",
     )
-    return Response(curve, coarse, node_errors + first / np.maximum(coarse, first))
+    return Extrapolated(curve, coarse, node_errors + first / np.maximum(coarse, first))
 
 
 def _extrapolated(rough: Floats, better: Floats) -> Floats:
@@ -122,7 +122,7 @@ def _extrapolated(rough: Floats, better: Floats) -> Floats:
     return np.asarray(better + np.interp(at_nodes, at_nodes[::2], change / 3))
 
 
-def steadied(found: Response, trend: int, function: Function | None) -> Response:
+def steadied(found: Extrapolated, trend: int, function: Function | None) -> Extrapolated:
     """Return a solution made monotone: growing (trend 1) or falling (-1), with its node errors."""
     # Rounding and extrapolation cause small oscillations. A function that no body of springs and
     # dashpots has, such as a table with kinks, has an inverse that truly oscillates: what is
@@ -146,7 +146,7 @@ def steadied(found: Response, trend: int, function: Function | None) -> Response
     scale = 1.0 / function(found.nodes) if falls and function is not None else at_nodes
     taken_off = np.nan_to_num(np.abs(at_nodes - found.curve(found.nodes)) / scale, nan=np.inf)
     node_errors = np.nan_to_num(found.node_errors, nan=np.inf) + taken_off
-    return Response(curve, found.nodes, np.minimum(node_errors, 1.0) if falls else node_errors)
+    return Extrapolated(curve, found.nodes, np.minimum(node_errors, 1.0) if falls else node_errors)
 
 
 def onset(function: Function, change: float = _FIRST_CHANGE) -> float:

@@ -8,7 +8,7 @@ from decimal import Decimal
 from viscontact.bodies.laws import Shift
 from viscontact.bodies.materials.material import Material
 from viscontact.units.display import Displayable
-from viscontact.units.parsing import Scale, parse_scale, parse_unit
+from viscontact.units.parsing import UnitScale, parse_scale, parse_unit
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,10 @@ class CardUnits:
 
     modulus: float
     time: float
-    temperature: Scale | None
+    temperature: UnitScale | None
     words: str
 
-    def kelvins(self, where: str) -> Scale:
+    def kelvins(self, where: str) -> UnitScale:
         """Return the unit of temperature; ValueError if it is not known."""
         if self.temperature is None:
             raise ValueError(
@@ -69,7 +69,7 @@ def card_units(modulus_unit: str, time_unit: str, temperature_unit: str | None) 
     )
 
 
-def in_unit(kelvins: float, scale: Scale) -> float:
+def in_unit(kelvins: float, scale: UnitScale) -> float:
     """Return a temperature [K] as a number in another unit."""
     above = Decimal(repr(kelvins)) - Decimal(repr(scale.offset))
     return float(above / Decimal(repr(scale.factor)))

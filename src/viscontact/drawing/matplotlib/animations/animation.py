@@ -18,9 +18,9 @@ from viscontact.drawing.content.along_run import along_run, suits_log_time, with
 from viscontact.drawing.content.history import drawn_scalars, history_panel, needed_variables
 from viscontact.drawing.content.map import BodyPlace, Map, body_of
 from viscontact.drawing.content.notes import peak_note
-from viscontact.drawing.content.scale import Scale, pressure_scale
+from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.window import Window, window_over
-from viscontact.drawing.matplotlib.animations.sheet import Sheet, new_sheet
+from viscontact.drawing.matplotlib.animations.sheet import AnimationSheet, new_sheet
 from viscontact.drawing.matplotlib.histories.history import draw_histories
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.log_time import BEFORE_FIRST
@@ -86,7 +86,7 @@ class _Scene:
     read: Callable[[int], Snapshot]
     place: Callable[[float], BodyPlace] | None  # of a moving body at an instant [s]
     window: Window
-    scale: Scale
+    scale: ColourScale
     along: Literal["x", "y"]
     note: str
     top: float  # of the section, the largest pressure of all instants [Pa]
@@ -241,7 +241,7 @@ def _place_on_axis(instants: Floats, run: xr.Dataset) -> Floats:
 
 
 def _stage(
-    sheet: Sheet, scene: _Scene, run: xr.Dataset, names: list[str]
+    sheet: AnimationSheet, scene: _Scene, run: xr.Dataset, names: list[str]
 ) -> Callable[[float], None]:
     """Draw the fixed parts; return a function that draws the rest at an instant."""
     curve, edges = _set_up_fields(sheet, scene)
@@ -280,7 +280,7 @@ def _stage(
     return show
 
 
-def _set_up_fields(sheet: Sheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
+def _set_up_fields(sheet: AnimationSheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
     """Prepare map and section; return its empty curve, and markers of leading and trailing edge."""
     window, unit = scene.window, scene.scale.unit
     show_window(sheet.surface, window)

@@ -18,7 +18,7 @@ STEP = 0.04
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class AnimationSheet:
     """Empty panels of an animation, fixed in place; with is_long the section is below the map."""
 
     figure: Figure
@@ -29,7 +29,7 @@ class Sheet:
     is_long: bool
 
 
-def new_sheet(window: Window, width: float, histories: int, along: str) -> Sheet:
+def new_sheet(window: Window, width: float, histories: int, along: str) -> AnimationSheet:
     """Page of some width [inch]: map, section along x that shares its axis, and histories below."""
     is_long = window.height_to_width < 0.6
     width = STEP * round(width / STEP)
@@ -57,4 +57,4 @@ def new_sheet(window: Window, width: float, histories: int, along: str) -> Sheet
     each = width / histories
     wide = each - _LEFT - 0.12
     curves = [panel(_LEFT + n * each, upper + 0.15, wide, _CURVES) for n in range(histories)]
-    return Sheet(figure, surface, bar, section, curves, is_long)
+    return AnimationSheet(figure, surface, bar, section, curves, is_long)

@@ -14,9 +14,9 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from viscontact.bodies.indenters import Indenter
-from viscontact.bodies.indenters.cross_section import Section
+from viscontact.bodies.indenters.cross_section import Cut
 from viscontact.drawing.content.indenter_facts import facts, in_lines, length
-from viscontact.drawing.content.shape import Shape, shape_of, stretch_note
+from viscontact.drawing.content.shape import DrawnShape, shape_of, stretch_note
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.units.formatting import ReadableUnit, readable_unit
@@ -97,7 +97,7 @@ def _panels(width: float) -> tuple[Figure, NDArray[np.object_]]:
 
 def _draw_section(
     axes: Axes,
-    shape: Shape,
+    shape: DrawnShape,
     number: int,
     unit: ReadableUnit,
     contact: tuple[float, float, float, float] | None,
@@ -136,7 +136,7 @@ def _draw_section(
 
 def _draw_plan(
     axes: Axes,
-    shape: Shape,
+    shape: DrawnShape,
     unit: ReadableUnit,
     contact: tuple[float, float, float, float] | None,
 ) -> None:
@@ -156,7 +156,7 @@ def _draw_plan(
     style.add_heading(axes, "plan")
 
 
-def _draw_body(axes: Axes, shape: Shape, unit: ReadableUnit) -> None:
+def _draw_body(axes: Axes, shape: DrawnShape, unit: ReadableUnit) -> None:
     """Fill the area of the body, with contour lines of the gap and the outline of its end."""
     x, y, solid = unit(shape.x), unit(shape.y), np.isfinite(shape.gap)
     there = solid.T.astype(float)
@@ -200,7 +200,7 @@ def _add_facts(axes: Axes, texts: Iterator[str]) -> None:
 
 
 def _add_stretch_notes(
-    figure: Figure, panels: NDArray[np.object_], sections: tuple[Section, Section]
+    figure: Figure, panels: NDArray[np.object_], sections: tuple[Cut, Cut]
 ) -> None:
     """Note the exaggeration of heights, and of y in the plan, once the layout is known."""
     figure.draw_without_rendering()

@@ -18,7 +18,7 @@ from viscontact.drawing.content.compared_runs import runs_of
 from viscontact.drawing.content.history import drawn_scalars, history_panel, needed_variables
 from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.matplotlib.layout import style
-from viscontact.drawing.matplotlib.layout.error_band import Band, legend_entries
+from viscontact.drawing.matplotlib.layout.error_band import ErrorBand, legend_entries
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, grid_of_panels
 from viscontact.results.variables import MESH_DEPENDENT
@@ -137,9 +137,9 @@ def _figure(runs: Mapping[str, xr.Dataset], names: Sequence[str], width: Width |
     return figure
 
 
-def draw_histories(axes: Sequence[Axes], panels: Sequence[Panel]) -> list[Band]:
+def draw_histories(axes: Sequence[Axes], panels: Sequence[Panel]) -> list[ErrorBand]:
     """Draw panels of histories, and return their error bands."""
-    bands: list[Band] = []
+    bands: list[ErrorBand] = []
     for each, panel in zip(axes, panels, strict=True):
         # The note stands apart from the quantity that it is about.
         note = panel.note.replace(MESH_DEPENDENT, f"peak {MESH_DEPENDENT}").replace(": ", ":\n")
@@ -157,7 +157,7 @@ def _note_events(figure: Figure, panel: Panel) -> None:
         figure.supxlabel(note, fontsize=style.TICK_SIZE, color=style.FAINT)
 
 
-def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[Band]) -> None:
+def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[ErrorBand]) -> None:
     """Legend of several runs above the panels, and of error bands, below those of several runs."""
     entries = legend_entries(panels[0].get_lines(), names, bands)
     count = len(names) if len(names) > 1 else 0

@@ -25,7 +25,7 @@ _SEEN = 0.4
 
 
 @dataclass(frozen=True, eq=False)
-class Band:
+class ErrorBand:
     """Shaded error of a curve: half width along y, or along x if sideways."""
 
     axes: Axes
@@ -59,7 +59,7 @@ def draw_band(
     colour: str,
     *,
     sideways: bool = False,
-) -> Band | None:
+) -> ErrorBand | None:
     """Shade the error of a curve where it is known and finite; None for no band."""
     known = np.zeros(x.shape, dtype=np.bool_) if error is None else np.isfinite(error) & (error > 0)
     if error is None or not known.any():
@@ -71,10 +71,10 @@ def draw_band(
     low, high = middle - half_width, middle + half_width
     fill = axes.fill_betweenx if sideways else axes.fill_between
     fill(along, low, high, shown, color=colour, alpha=_OPACITY, linewidth=0.0, zorder=1.5)
-    return Band(axes, x, y, np.where(shown, error, np.nan), sideways)
+    return ErrorBand(axes, x, y, np.where(shown, error, np.nan), sideways)
 
 
-def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
+def band_key(bands: Sequence[ErrorBand], colour: str) -> list[tuple[Artist, str]]:
     """Legend entries of error bands, or of bands too narrow to be seen; empty without bands."""
     if not bands:
         return []
@@ -88,7 +88,7 @@ def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
 
 
 def legend_entries(
-    lines: Sequence[Artist], names: Sequence[str], bands: Sequence[Band]
+    lines: Sequence[Artist], names: Sequence[str], bands: Sequence[ErrorBand]
 ) -> list[tuple[Artist, str]]:
     """Legend entries of several runs by name, and of error bands."""
     several = len(names) > 1

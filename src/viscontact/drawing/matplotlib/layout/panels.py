@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel
 from viscontact.drawing.matplotlib.layout import style
-from viscontact.drawing.matplotlib.layout.error_band import Band, draw_band
+from viscontact.drawing.matplotlib.layout.error_band import ErrorBand, draw_band
 from viscontact.drawing.matplotlib.layout.log_time import label_log_time, set_log_time
 from viscontact.drawing.matplotlib.layout.page import NARROW
 
@@ -57,7 +57,7 @@ def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
     return figure, panels[:count]
 
 
-def draw_panel(axes: Axes, panel: Panel) -> list[Band]:
+def draw_panel(axes: Axes, panel: Panel) -> list[ErrorBand]:
     """Draw a panel, and return the error bands of its curves."""
     style.dress(axes)
     if panel.shaded is not None:
@@ -119,7 +119,7 @@ def scale_along(axes: Axes, axis: Axis) -> None:
         axes.set_xlabel(label)
 
 
-def _errors(axes: Axes, panel: Panel, curve: Curve) -> list[Band]:
+def _errors(axes: Axes, panel: Panel, curve: Curve) -> list[ErrorBand]:
     """Error bars at points, and bands of each branch of a line in turn."""
     x, y, colour = panel.x.unit(curve.x), panel.y.unit(curve.y), style.look_of(curve.ink)["color"]
     errors = [(curve.error, panel.y, False), (curve.error_x, panel.x, True)]

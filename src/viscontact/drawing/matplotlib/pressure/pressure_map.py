@@ -19,7 +19,7 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.compared_runs import Runs
 from viscontact.drawing.content.map import Map, Maps, maps_at
 from viscontact.drawing.content.rim import beyond_period
-from viscontact.drawing.content.scale import AREAS, CELLS, Scale
+from viscontact.drawing.content.scale import AREAS, CELLS, ColourScale
 from viscontact.drawing.content.squared_pressure import squared_pressure
 from viscontact.drawing.content.window import Window
 from viscontact.drawing.matplotlib.layout import style
@@ -127,7 +127,7 @@ def _draw(maps: Maps, width: Width | None, *, in_colours: bool) -> Figure:
     return figure
 
 
-def _draw_cells(axes: Axes, shown: Map, window: Window, scale: Scale) -> None:
+def _draw_cells(axes: Axes, shown: Map, window: Window, scale: ColourScale) -> None:
     """Draw each cell in the colour of its pressure, and those beyond the border of a period."""
     wide, colours = beyond_period(shown.snapshot), _cell_colours(scale).cmap
     axes.pcolormesh(
@@ -165,7 +165,9 @@ def _panels(maps: Maps, wanted: Width | None) -> tuple[Figure, list[Axes]]:
     return figure, panels[:count]
 
 
-def draw_contours(axes: Axes, shown: Map, window: Window, scale: Scale) -> QuadContourSet | None:
+def draw_contours(
+    axes: Axes, shown: Map, window: Window, scale: ColourScale
+) -> QuadContourSet | None:
     """Draw contours and the outline; return the lines, None without contact."""
     if not shown.snapshot.touching:
         return None
@@ -189,14 +191,14 @@ def draw_contours(axes: Axes, shown: Map, window: Window, scale: Scale) -> QuadC
     return lines
 
 
-def _heights(scale: Scale) -> Floats:
+def _heights(scale: ColourScale) -> Floats:
     """Levels of what is contoured: the square of a pressure without tension."""
     # Contours of the square are the same lines, and smooth up to the rim.
     return scale.levels if scale.diverges else scale.levels**2
 
 
 def _label_contours(
-    axes: Axes, lines: QuadContourSet, snapshot: Snapshot, window: Window, scale: Scale
+    axes: Axes, lines: QuadContourSet, snapshot: Snapshot, window: Window, scale: ColourScale
 ) -> None:
     """Label the contours where there is room."""
     pressed = snapshot.pressure[snapshot.in_contact]
@@ -221,20 +223,20 @@ def _touched(snapshot: Snapshot, points: Floats) -> Bools:
     return np.asarray(snapshot.in_contact[i, j])
 
 
-def fill_colour_bar(axes: Axes, scale: Scale) -> None:
+def fill_colour_bar(axes: Axes, scale: ColourScale) -> None:
     """Draw a colour bar for the levels of a scale in separate axes."""
     extend = "max" if scale.is_open else "neither"
     bar = style.figure_of(axes).colorbar(_level_colours(scale), cax=axes, extend=extend)
     style.dress_colour_bar(bar, scale.label)
 
 
-def _level_colours(scale: Scale) -> ScalarMappable:
+def _level_colours(scale: ColourScale) -> ScalarMappable:
     """Colours of the areas between levels."""
     colours = ListedColormap(scale.colours(len(scale.levels) - 1, *AREAS))
     return ScalarMappable(BoundaryNorm(scale.unit(scale.levels), colours.N), colours)
 
 
-def _cell_colours(scale: Scale) -> ScalarMappable:
+def _cell_colours(scale: ColourScale) -> ScalarMappable:
     """Colours of cells."""
     colours = ListedColormap(scale.colours(_COLOURS, *CELLS))
     return ScalarMappable(Normalize(*scale.unit(scale.limits)), colours)

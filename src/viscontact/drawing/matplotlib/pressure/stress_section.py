@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.notes import peak_note
-from viscontact.drawing.content.scale import AREAS, Scale, pressure_scale
-from viscontact.drawing.content.stress_planes import Section, grouped_sections
+from viscontact.drawing.content.scale import AREAS, ColourScale, pressure_scale
+from viscontact.drawing.content.stress_planes import StressPlane, grouped_sections
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.contour_labels import label_contours
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
@@ -113,7 +113,7 @@ def stress_section(
 
 
 def _draw(
-    axes: Axes, section: Section, scale: Scale, length: ReadableUnit
+    axes: Axes, section: StressPlane, scale: ColourScale, length: ReadableUnit
 ) -> tuple[QuadContourSet, QuadContourSet]:
     """Draw filled contours and their lines."""
     across, depths = length(section.across), length(section.depths)

@@ -25,7 +25,7 @@ POOR, GOOD = 0.25, 0.75
 LEAST_GAIN = 7e-4
 
 
-class Response(Protocol):
+class PointValues(Protocol):
     """Values at a point."""
 
     @property
@@ -47,10 +47,10 @@ class Minimum:
 
 
 #: Responses at several points; None where there is none. BudgetSpentError if they are too many.
-Responses = Callable[[Sequence[Floats]], Sequence[Response | None]]
+Responses = Callable[[Sequence[Floats]], Sequence[PointValues | None]]
 
 
-def cost(response: Response | None) -> float:
+def cost(response: PointValues | None) -> float:
     """Largest value, and the penalty of the forbidden ones; inf without values."""
     if response is None:
         return np.inf
@@ -88,7 +88,7 @@ def least_largest(responses: Responses, start: Floats, sizes: Floats, lowest: Fl
 
 
 def _jacobian(
-    responses: Responses, point: Floats, here: Response, sizes: Floats
+    responses: Responses, point: Floats, here: PointValues, sizes: Floats
 ) -> tuple[Floats, Floats]:
     """Derivatives of the values and of the forbidden ones, shape (values, variables)."""
     moved = [point + STEP * sizes * axis for axis in np.eye(len(point))]
@@ -109,7 +109,7 @@ def _jacobian(
 
 
 def _linear_step(
-    here: Response, jacobian: tuple[Floats, Floats], sizes: Floats, radius: float, lowest: Floats
+    here: PointValues, jacobian: tuple[Floats, Floats], sizes: Floats, radius: float, lowest: Floats
 ) -> tuple[Floats, float]:
     """Step to the least largest linear value within a region, and the cost there."""
     count, scale = len(sizes), float(np.abs(here.values).max()) or 1.0
