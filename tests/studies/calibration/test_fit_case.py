@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -10,7 +9,6 @@ from typing import Literal
 
 import numpy as np
 import pytest
-import xarray as xr
 from tests.studies.calibration.experiments import (
     BALL,
     ELASTIC_BALL,
@@ -24,8 +22,10 @@ from tests.studies.calibration.experiments import (
     triangle,
     written,
 )
+from tests.studies.calibration.response_surface import ResponseSurface
 
 import viscontact as vc
+from viscontact.studies.calibration.response import Response
 
 #: Warnings of correlations, and of the sharp edges of the finer runs.
 IGNORED = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -288,25 +288,43 @@ grid: {shape: [48, 40], size: [13.5 mm, 3.6 mm]}
         assert low - error < value < high + error, name
 
 
-def _covered(case: Path, seed: int) -> xr.Dataset:
-    """Parameters whose intervals hold the true values, of a record with 1 % scatter."""
-    times, force = triangle(4.0)
-    depth = pressed_ball(times, force)
-    record = vc.ContactRecord(times, force, depth + noise(seed, depth))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", vc.AccuracyWarning)  # of an interval longer than its range
-        found = vc.fit_case(case, record, OF_ZENER)
-    held = [low < KEYS[name] < high for name, (low, high) in found.intervals.items()]
-    return xr.Dataset({"held": ("parameter", held)})
+#: Values of the records whose fits are counted, and the factor that the ranges go from them.
+_MIDDLE = {
+    "material.shear_modulus": "2 MPa",
+    "material.delayed_modulus": "1 MPa",
+    "material.viscosity": "1 MPa s",
+}
+_FACTOR = 1.5
+_RANGES = {
+    "material.shear_modulus": ("1.3333 MPa", "3 MPa", "log"),
+    "material.delayed_modulus": ("0.66667 MPa", "1.5 MPa", "log"),
+    "material.viscosity": ("0.66667 MPa s", "1.5 MPa s", "log"),
+}
 
 
+@IGNORED  # an interval that is longer than its range
 @pytest.mark.slow
 def test_intervals_hold_the_true_values_of_ninety_records_of_a_hundred(
-    tmp_path: Path, campaign: Callable[[str], None]
+    tmp_path: Path, campaign: Callable[[str], None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    # The force is the drive, so that a run depends on the three values only: interpolation between
+    # 80 runs replaces the 4000 of all fits. The first three records are also fitted by runs, from
+    # far away.
     case = written(tmp_path, BALL)
-    fits = [partial(_covered, case, seed) for seed in range(100)]
-    found = np.array([one["held"].values for one in vc.simulate_many(fits, workers=2)])
+    times, force = triangle(4.0)
+    depth = pressed_ball(times, force)
+    records = [vc.ContactRecord(times, force, depth + noise(seed, depth)) for seed in range(100)]
+    by_runs = [vc.fit_case(case, record, OF_ZENER, workers=1) for record in records[:3]]
+    surface = ResponseSurface(case, records[0], _MIDDLE, _FACTOR)
+    monkeypatch.setattr(Response, "__call__", lambda response: surface(response))
+    fits = [vc.fit_case(case, record, _RANGES, workers=1) for record in records]
+    for run, interpolated in zip(by_runs, fits, strict=False):
+        for key, (low, high) in run.intervals.items():
+            tolerance = 0.1 * (high - low)
+            assert interpolated.intervals[key] == pytest.approx((low, high), rel=0, abs=tolerance)
+    found = np.array(
+        [[low < KEYS[k] < high for k, (low, high) in f.intervals.items()] for f in fits]
+    )
     held = ", ".join(map(str, found.sum(axis=0)))
     campaign(f"fits of a case to 100 records: {held} intervals of 95 % hold the true value")
     assert found.shape == (100, 3)
