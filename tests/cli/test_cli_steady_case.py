@@ -119,7 +119,9 @@ def test_killed_run_is_resumed_to_the_same_bits(folder: Path, finished: Path) ->
 
 @pytest.mark.slow
 def test_runs_killed_at_lines_spread_over_the_recording_are_resumed(tmp_path: Path) -> None:
-    (tmp_path / "case.yaml").write_text(CASE, encoding="utf-8")
+    grid = "grid: {shape: [24, 24], size: [4.4 mm, 4.4 mm]}"  # the lines are those of any grid
+    case = CASE.replace("grid: {tolerance: 0.1}", grid)
+    (tmp_path / "case.yaml").write_text(case, encoding="utf-8")
     program = Path(__file__).parents[1] / "killed_run.py"
     command = [sys.executable, str(program), "lines", str(tmp_path), "1"]
     found = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
