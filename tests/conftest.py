@@ -9,6 +9,10 @@ from collections.abc import Callable, Iterator
 import pytest
 from hypothesis import settings
 
+# As at the command line, and before NumPy is imported: the products are too short for several
+# threads, which take up to thirty times as long when the cores are busy.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from viscontact.studies.executors import local
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
