@@ -20,6 +20,13 @@ def test_point_of_a_logarithmic_range_is_a_quantity_with_its_digits() -> None:
     assert found == "126.19 mm"
 
 
+def test_bounds_of_a_range_keep_all_their_digits() -> None:
+    found = Range("indenter.radius", 1.2345678, 2.3456789, "mm", digits=5)
+    assert found.value(0.0) == "1.2345678 mm"
+    assert found.value(1.0) == "2.3456789 mm"
+    assert found.value(0.5) == "1.7901 mm"
+
+
 def test_point_of_a_choice_is_one_of_its_names() -> None:
     assert Choice("material", ("pmma-paper", "epdm-70-25c")).value(0.5) == "epdm-70-25c"
 
