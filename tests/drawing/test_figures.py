@@ -11,7 +11,11 @@ import pytest
 from synthetic_results import maxwell_sphere
 from viscontact import plot
 from viscontact.drawing.choice import FigureChoice
+from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.figures import TABLE, FigureEntry
+from viscontact.drawing.plotly.run_figures import INTERACTIVE, run_figures
+from viscontact.report.result_chapters import loop_part
+from viscontact.report.still_figures import still_figures
 
 #: Keywords for axes and size, which are no choice on the command line.
 _PAGE = {"axes", "width"}
@@ -25,6 +29,40 @@ def test_each_figure_takes_what_the_table_says(entry: FigureEntry) -> None:
         _, *keywords = signature(getattr(plot, name)).parameters
         assert set(keywords) - _PAGE == set(entry.takes)
         assert "width" in keywords
+
+
+def test_interactive_figures_are_those_of_the_table() -> None:
+    named = [each.interactive for each in TABLE if each.interactive]
+    assert sorted(named) == sorted(INTERACTIVE)
+    for entry in TABLE:
+        assert bool(entry.chapter) == bool(entry.heading)
+        assert entry.chapter not in (None, "spots", "stress") or not entry.interactive
+    run = maxwell_sphere([0.0, 1.0], cells=8)
+    drawn = run_figures(run, maps_over(run))
+    names = [each.layout.meta["name"] for each in drawn["pressure"]]
+    assert names == ["map", "section-x", "section-y", "outlines"]
+    assert not run_figures(run, None)["pressure"]
+
+
+@pytest.mark.parametrize("interactive", ["", "histories"])
+def test_reports_draw_a_new_row_of_the_table(
+    interactive: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = maxwell_sphere([0.0, 1.0], cells=8, fields=False)
+    row = FigureEntry(
+        *("further", "creep"), chapter="loops", heading="Further", interactive=interactive
+    )
+    for module in ("report.still_figures", "drawing.plotly.run_figures"):
+        monkeypatch.setattr(f"viscontact.{module}.TABLE", (*TABLE, row))
+    printed, shown = (
+        [image.get("alt") for part in parts for image in part.iter("img")]
+        for parts in (
+            still_figures(run, "loops"),
+            loop_part(run, run_figures(run, None)["loops"]),
+        )
+    )
+    assert printed == ["Further"]
+    assert shown == ([] if interactive else ["Further"])
 
 
 def test_names_are_known_without_matplotlib() -> None:

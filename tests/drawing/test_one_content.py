@@ -47,8 +47,7 @@ RUNS = {
 def test_histories_are_the_same_in_matplotlib_and_plotly(name: str) -> None:
     run = RUNS[name]
     printed = plot.history(run).axes
-    load, response = histories(run)
-    shown = {each.layout.meta["title"]: each for each in (*load, *response)}
+    shown = {each.layout.meta["title"]: each for each in histories(run)}
     # A page has the extent of the contact and a constant force too.
     beyond = {SCALARS[each].label for each in ("force", "contact_length", "contact_width")}
     labels = {axes.get_ylabel() for axes in printed}
@@ -88,7 +87,7 @@ def test_friction_is_the_same_in_matplotlib_and_plotly() -> None:
     run = vc.steady(ball, rubber, load, [0.1, 1.0], grid=grid, errors=False, fields="none")
     run["friction_coefficient_error"] = 0.1 * run["friction_coefficient"]
     run.attrs["title"] = "ball"
-    (axes,), page = plot.friction(run).axes, friction(run)
+    (axes,), (page,) = plot.friction(run).axes, friction(run)
     lines, curves = axes.get_lines(), [page.data[-1], *page.data[:-1]]  # the result, and limits
     assert len(lines) > 1
     for line, curve in zip(lines, curves, strict=True):

@@ -16,6 +16,7 @@ import viscontact as vc
 from synthetic_sweeps import hertz_sweep
 from viscontact import plot
 from viscontact.cli import main
+from viscontact.drawing.matplotlib.histories.history import history_with_load
 from viscontact.drawing.svg.html import element
 from viscontact.report import pdf
 from viscontact.report.pdf import write_pdf, write_sweep_pdf
@@ -80,10 +81,10 @@ def test_command_writes_the_chapters_and_figures_of_the_page(
 
 def test_the_history_has_a_constant_force(ds: xr.Dataset) -> None:
     held = ds.assign(force=0 * ds["force"] + 0.6)
-    labels = [axes.get_ylabel() for axes in pdf.history_with_load(held).axes]
+    labels = [axes.get_ylabel() for axes in history_with_load(held).axes]
     assert labels[0] == "Force [mN]"
     assert labels[1:] == [axes.get_ylabel() for axes in plot.history(held).axes]
-    assert len(pdf.history_with_load(ds).axes) == len(plot.history(ds).axes) == len(labels)
+    assert len(history_with_load(ds).axes) == len(plot.history(ds).axes) == len(labels)
 
 
 @pytest.mark.slow

@@ -20,10 +20,11 @@ import viscontact as vc
 from drawing.plotly.figure_data import Data, array_of, shown_at, title_of
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
+from viscontact.drawing.content.history import load_names, response_names
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.section import section
-from viscontact.drawing.plotly.histories import history, panel_names
+from viscontact.drawing.plotly.histories import history
 from viscontact.drawing.plotly.parts import plain
 from viscontact.drawing.plotly.pressure_map import MOST_CELLS, pressure_map
 from viscontact.drawing.svg.html import as_script
@@ -309,9 +310,9 @@ def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
     case = json.loads(ds.attrs["case"])
     motion = {"type": "HarmonicHistory", "control": "approach", "mean": 2e-6, "period": 2.0}
     moved = ds.assign_attrs(case=json.dumps(case | {"load": motion}))
-    load, response = panel_names(ds)
+    load, response = load_names(ds), response_names(ds)
     assert (load, "approach" in response) == (["force"], True)
-    load, response = panel_names(moved)
+    load, response = load_names(moved), response_names(moved)
     assert (load, "force" in response) == (["approach"], True)
     assert ("mean", "2 µm") in [(each.name, each.value) for each in inputs(moved)]
 

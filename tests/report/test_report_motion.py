@@ -11,11 +11,12 @@ import xarray as xr
 import viscontact as vc
 from viscontact import plot
 from viscontact.bodies.loads.motion import Motion
+from viscontact.drawing.content.history import load_names, response_names
 from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.section import section
-from viscontact.drawing.plotly.histories import history, panel_names
+from viscontact.drawing.plotly.histories import history
 from viscontact.drawing.plotly.loops import loops
 from viscontact.drawing.plotly.pressure_map import pressure_map
 from viscontact.drawing.plotly.sections import draw_section
@@ -82,7 +83,7 @@ def test_section_along_the_motion_has_leading_and_trailing_edge(moved: xr.Datase
 
 
 def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) -> None:
-    load, response = panel_names(moved)
+    load, response = load_names(moved), response_names(moved)
     assert "position_y" in load
     assert history(moved, "position_y").layout.meta["note"] == ""
     assert {"resistance_y", "friction_coefficient", "motion_work", "heat"} <= set(response)
@@ -98,7 +99,7 @@ def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) ->
 def test_elastic_body_has_no_panels_of_resistance() -> None:
     elastic = vc.Material(vc.Elastic(9e6), poisson_ratio=0.5)
     ds = _run(vc.Travel([0.0, 0.6], y=[0.0, -6e-4]), [0.0, 0.3, 0.6], elastic)
-    _, shown = panel_names(ds)
+    shown = response_names(ds)
     assert not set(shown) & {"resistance_y", "friction_coefficient", "motion_work", "heat"}
 
 

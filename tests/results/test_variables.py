@@ -16,7 +16,8 @@ import xarray as xr
 import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.sweep.table import print_table
-from viscontact.drawing.plotly.histories import histories, panel_names
+from viscontact.drawing.content.history import response_names
+from viscontact.drawing.plotly.histories import histories
 from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState
@@ -139,8 +140,7 @@ def test_new_entry_is_in_summary_card_and_tables(
 
 def test_new_entry_is_in_figures_and_report(extended: xr.Dataset) -> None:
     assert f"{LABEL} [mrad]" in [axes.get_ylabel() for axes in history(extended).axes]
-    load, response = histories(extended)
-    titles = [figure.layout.meta["title"] for figure in (*load, *response)]
+    titles = [figure.layout.meta["title"] for figure in histories(extended)]
     assert f"{LABEL} [mrad]" in titles
     assert re.search(rf"<dt>{LABEL}</dt><dd>300 ± 10", report_page(extended).replace("\xa0", " "))
 
@@ -279,7 +279,7 @@ def test_line_load_is_shown_of_long_contacts_only(ds: xr.Dataset, roller: xr.Dat
         assert ("peak_line_load" in [row.name for row in summary_rows(run)]) == expected
         assert (label.lower() in [row[0] for row in result_overview(run).rows]) == expected
         assert (label in run_data(run)["facts"].values()) == expected
-        assert ("peak_line_load" in panel_names(run)[1]) == expected
+        assert ("peak_line_load" in response_names(run)) == expected
         assert (label in report_page(run)) == expected
         drawn = [axes.get_ylabel() for axes in history(run).axes]
         assert (f"{label} [N/m]" in drawn) == expected

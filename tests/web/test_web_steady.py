@@ -123,7 +123,7 @@ def test_run_over_speed_is_followed_and_shown(client: TestClient) -> None:
     assert array_of(curve["y"]) == pytest.approx(friction["value"], rel=1e-6)
     assert fast["name"] == "limit of fast motion"
     assert figures["scale"] == "log"
-    shown, _, along = figures["surface"]
+    shown, _, along, _ = figures["surface"]
     titles = [frame["layout"]["meta"]["title"] for frame in shown["frames"]]
     assert titles == ["10 mm/s", "100 mm/s", "1 m/s"]
     arrows = [frame["layout"]["annotations"][0] for frame in shown["frames"]]

@@ -1,14 +1,18 @@
-"""Table of figures: the names and what each takes.
+"""Table of figures: their names, what each takes, what draws it, and its place in reports.
 
-A new figure is a row of `TABLE`. The command line and its help, the calculator page,
-`ds.viscontact.plot`, and `FIGURES`, `STEADY_FIGURES` and `COMPARISONS` of `viscontact.plot` read
-it. It imports no plotting library, so that the command line can print the names at once.
+A new figure is a row of `TABLE`. The command line and its help, `ds.viscontact.plot`, `FIGURES`,
+`STEADY_FIGURES` and `COMPARISONS` of `viscontact.plot`, reports in HTML and PDF, and the calculator
+page read it. It imports no plotting library, so that the command line can print the names at once.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
+
+#: Chapters of the report of a run, and of the calculator page, which has interactive figures only;
+#: those of "spots" and "stress" follow a sentence of the report, and are still.
+Chapter = Literal["pressure", "friction", "histories", "loops", "spots", "stress"]
 
 
 @dataclass(frozen=True)
@@ -25,6 +29,11 @@ class FigureEntry:
     at_instants: bool = False  # fields of the stored instants or speeds next to the given ones
     any_time: bool = False  # its times may lie outside the run
     is_animation: bool = False
+    chapter: Chapter | None = None  # None: neither in reports nor on the page
+    heading: str = ""  # in reports and on the page
+    #: Function among those of `drawing/plotly/run_figures.py`. Reports in HTML and the page show
+    #: its figures; without it, reports in HTML have the still figure, as those in PDF do.
+    interactive: str = ""
 
     @property
     def method(self) -> str:
@@ -37,33 +46,80 @@ class FigureEntry:
         return self.function or self.method
 
 
-def _fields(name: str, function: str = "", compare: str = "", *options: str) -> FigureEntry:
+def _fields(
+    name: str, function: str = "", compare: str = "", *options: str, **shown: Any
+) -> FigureEntry:
     """Entry of a figure of fields at single instants or speeds."""
-    return FigureEntry(name, function, compare, "both", ("times", *options), at_instants=True)
+    takes = ("times", *options)
+    return FigureEntry(name, function, compare, "both", takes, at_instants=True, **shown)
 
 
 TABLE = (
-    _fields("pressure-map", "", "compare_pressure_maps", "style"),
-    _fields("pressure-profile", "", "compare_pressure_profiles", "along", "at"),
+    _fields(
+        *("pressure-map", "", "compare_pressure_maps", "style"),
+        **{"chapter": "pressure", "heading": "Pressure", "interactive": "pressure_map"},
+    ),
+    _fields(
+        *("pressure-profile", "", "compare_pressure_profiles", "along", "at"),
+        chapter="pressure",
+        heading="Section through the pressure",
+        interactive="sections",
+    ),
     _fields("pressure-radial"),
-    _fields("line-load", "", "compare_line_loads"),
+    _fields(
+        *("line-load", "", "compare_line_loads"),
+        chapter="pressure",
+        heading="Line load along x: the pressure integrated over y",
+        interactive="line_loads",
+    ),
     _fields("pressure-3d", "pressure_surface", "compare_pressure_surfaces"),
     _fields("surface-3d", "deformed_surface"),
-    _fields("contact-outline", "", "compare_contact_outlines"),
+    _fields(
+        *("contact-outline", "", "compare_contact_outlines"),
+        chapter="pressure",
+        heading="Outline of the contact",
+        interactive="outlines",
+    ),
     FigureEntry("contact-area"),
-    _fields("contact-spots"),
-    FigureEntry("history", compare="compare_histories"),
-    FigureEntry("hysteresis", compare="compare_hysteresis"),
+    _fields("contact-spots", chapter="spots", heading="Contact spots"),
+    FigureEntry(
+        "history",
+        compare="compare_histories",
+        chapter="histories",
+        heading="History",
+        interactive="histories",
+    ),
+    FigureEntry(
+        "hysteresis",
+        compare="compare_hysteresis",
+        chapter="loops",
+        heading="Force over approach",
+        interactive="loops",
+    ),
     FigureEntry("creep", compare="compare_creep", of="both", any_time=True),
     FigureEntry("exact"),
-    _fields("stress-section", "", "", "progress"),
+    _fields("stress-section", "", "", "progress", chapter="stress", heading="Von Mises stress"),
     FigureEntry(
         *("von-mises", "von_mises_history", "compare_von_mises", "time", ("times", "progress")),
         at_instants=True,
     ),
     _fields("indenter"),
-    FigureEntry("friction", of="speed", takes=()),
-    FigureEntry("motion-profile", of="speed", takes=("speeds", "at"), at_instants=True),
+    FigureEntry(
+        "friction",
+        of="speed",
+        takes=(),
+        chapter="friction",
+        heading="Friction coefficient over speed",
+        interactive="friction",
+    ),
+    FigureEntry(
+        "motion-profile",
+        of="speed",
+        takes=("speeds", "at"),
+        at_instants=True,
+        chapter="histories",
+        heading="Pressure along the motion",
+    ),
     FigureEntry("animation", takes=("times", "seconds", "fps"), is_animation=True),
     FigureEntry("response", of="sweep", takes=()),
 )

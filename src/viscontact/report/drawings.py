@@ -14,7 +14,7 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.layers import creeping_laws
 from viscontact.drawing.content.law_curves import curve_times
-from viscontact.drawing.matplotlib import creep_curve, draw_indenter, friction
+from viscontact.drawing.matplotlib import creep_curve, draw_indenter
 from viscontact.drawing.matplotlib.layout.saving import as_svg
 from viscontact.drawing.svg.curves import law_drawings
 from viscontact.drawing.svg.html import element
@@ -34,11 +34,6 @@ def geometry(ds: xr.Dataset) -> Element:
     """Drawing of the indenter, with the largest contact shaded."""
     wide = drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
     return _both(wide, partial(_small_sections, ds))
-
-
-def friction_curve(ds: xr.Dataset) -> Element:
-    """Friction coefficient over speed with its limits, or why it is not drawn."""
-    return drawn(partial(friction, ds), "Friction coefficient over speed")
 
 
 def is_drawn_from_fields(ds: xr.Dataset) -> bool:

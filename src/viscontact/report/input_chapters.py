@@ -74,8 +74,9 @@ def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def speed_table(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield the friction curve of a result over speed, and the table of its chief scalars."""
-    yield element("figure", drawings.friction_curve(ds), class_="single")
+    """Yield the table of the chief scalars of a result over speed; nothing over time."""
+    if run_axis(ds) is not SPEED:
+        return
     names = ["friction_coefficient", f"resistance_{ds.attrs.get('along', 'y')}"]
     names += [name for name in ("peak_pressure", "contact_area", "approach") if is_shown(ds, name)]
     heads = ["speed", *(SCALARS[name].label.lower() for name in names)]

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 import xarray as xr
-from plotly.graph_objects import Figure
 
-from viscontact.drawing.content.map import Maps, maps_if_any
-from viscontact.drawing.plotly.histories import histories
-from viscontact.drawing.plotly.loops import loops
-from viscontact.drawing.plotly.pressure_map import outlines, pressure_map
-from viscontact.drawing.plotly.sections import sections
+from viscontact.drawing.content.map import maps_if_any
+from viscontact.drawing.figures import Chapter as FigureChapter
+from viscontact.drawing.plotly.run_figures import run_figures
 from viscontact.drawing.svg.html import element
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.html_page import html_page
-from viscontact.report.spots_chapter import spots_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
@@ -90,22 +86,21 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         )
     ds = in_order(ds)
     maps = maps_if_any(ds)
-    over_run = *histories(ds), loops(ds)
-    drawn = [*_over_surface(ds, maps), *chain(*over_run)]
+    figures = run_figures(ds, maps)
+    shown: dict[FigureChapter, Iterable[Element]] = {
+        "pressure": result_chapters.pressure_part(ds, maps, figures["pressure"]),
+        "friction": result_chapters.friction_part(ds, figures["friction"]),
+        "histories": result_chapters.history_part(ds, figures["histories"]),
+        "loops": result_chapters.loop_part(ds, figures["loops"]),
+    }
     name = result_chapters.heading_of(ds, label)
-    return html_page(name, _body(name, ds, maps, over_run), drawn)
-
-
-def _over_surface(ds: xr.Dataset, maps: Maps | None) -> list[Figure]:
-    """Figures of the pressure, from top to bottom; none without fields."""
-    return [] if maps is None else [pressure_map(maps), *sections(ds, maps), outlines(maps)]
+    return html_page(name, _body(name, ds, shown), [*chain(*figures.values())])
 
 
 def _body(
-    name: str, ds: xr.Dataset, maps: Maps | None, over_run: tuple[list[Figure], ...]
+    name: str, ds: xr.Dataset, shown: Mapping[FigureChapter, Iterable[Element]]
 ) -> Iterator[Element]:
-    pressure = result_chapters.pressure_chapter(ds, maps)
-    chapters = run_chapters(ds, pressure, result_chapters.history_chapter(ds, *over_run))
+    chapters = run_chapters(ds, shown)
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
     yield from title_lines(ds)
     yield result_chapters.opening(name, ds, {each.place: each.title for each in chapters})
@@ -122,18 +117,18 @@ class Chapter:
     parts: list[Element]
 
 
-def run_chapters(
-    ds: xr.Dataset, pressure: Iterable[Element], history: Iterable[Element]
-) -> list[Chapter]:
-    """Chapters of a run that have content, with those of pressure and history as given."""
-    axis = run_axis(ds)
-    speeds = () if axis.is_history else input_chapters.speed_table(ds)
+def run_chapters(ds: xr.Dataset, shown: Mapping[FigureChapter, Iterable[Element]]) -> list[Chapter]:
+    """Chapters of a run that have content, with the figures that differ from page to paper."""
+    over_run = shown["histories"], shown["loops"]
     chapters = (
         ("allowable", "Allowable values", verdict_chapter(ds)),
-        ("pressure", "Pressure", pressure),
-        ("spots", "Contact spots", spots_chapter(ds)),
+        ("pressure", "Pressure", shown["pressure"]),
+        ("spots", "Contact spots", result_chapters.spots_chapter(ds)),
         ("stress", "Stress below the surface", stress_chapter(ds)),
-        ("histories", axis.heading, chain(speeds, history)),
+        (
+            *("histories", run_axis(ds).heading),
+            chain(shown["friction"], input_chapters.speed_table(ds), *over_run),
+        ),
         ("inputs", "Inputs", input_chapters.inputs_chapter(ds)),
         ("geometry", "Geometry", input_chapters.geometry_chapter(ds)),
         ("material", "Material", input_chapters.material_chapter(ds)),

@@ -3,39 +3,27 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
+from collections.abc import Iterable, Iterator
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
-import numpy as np
 import typst
 import xarray as xr
 from matplotlib import get_data_path
-from matplotlib.figure import Figure
 
 from viscontact import __version__
-from viscontact.drawing.matplotlib import (
-    contact_outline,
-    hysteresis,
-    line_load,
-    motion_profile,
-    pressure_map,
-    pressure_profile,
-)
-from viscontact.drawing.matplotlib.histories.history import history_with_load
+from viscontact.drawing.figures import Chapter
 from viscontact.drawing.svg.html import element
 from viscontact.report import result_chapters
-from viscontact.report.drawings import drawn
 from viscontact.report.page import run_chapters
 from viscontact.report.pdf_content import blocks
+from viscontact.report.still_figures import still_figures
 from viscontact.report.sweep_page import sweep_content
 from viscontact.report.title_block import title_lines
 from viscontact.results.filed_case import FiledCase, started_at
 from viscontact.results.run_axis import in_order, run_axis
-from viscontact.results.shown_scalars import is_long
 
 
 def write_pdf(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
@@ -86,32 +74,7 @@ def _author(ds: xr.Dataset) -> str:
 def _run(ds: xr.Dataset, name: str) -> Iterator[Element]:
     yield from title_lines(ds)
     yield result_chapters.opening(name, ds, {})
-    history = _history(ds) if run_axis(ds).is_history else _over_speed(ds)
-    for each in run_chapters(ds, _pressure(ds), history):
+    chapters: tuple[Chapter, ...] = ("pressure", "friction", "histories", "loops")
+    for each in run_chapters(ds, {chapter: still_figures(ds, chapter) for chapter in chapters}):
         yield element("h2", each.title)
         yield from each.parts
-
-
-def _pressure(ds: xr.Dataset) -> Iterator[Element]:
-    yield _figure(pressure_map, ds, "Pressure")
-    yield element("h3", "Section through the pressure")
-    yield _figure(pressure_profile, ds, "Section through the pressure")
-    if is_long(ds) and "line_load" in ds:
-        yield element("h3", "Line load along x: the pressure integrated over y")
-        yield _figure(line_load, ds, "Line load")
-    yield element("h3", "Outline of the contact")
-    yield _figure(contact_outline, ds, "Outline of the contact")
-
-
-def _history(ds: xr.Dataset) -> Iterator[Element]:
-    yield _figure(history_with_load, ds, "History")
-    if "loss_per_cycle" in ds and np.isfinite(ds["loss_per_cycle"].values).any():
-        yield _figure(hysteresis, ds, "Force over approach")
-
-
-def _over_speed(ds: xr.Dataset) -> Iterator[Element]:
-    yield _figure(motion_profile, ds, "Pressure along the motion")
-
-
-def _figure(draw: Callable[..., Figure], ds: xr.Dataset, about: str) -> Element:
-    return drawn(partial(draw, ds), about)

@@ -14,21 +14,25 @@ import xarray as xr
 from plotly.graph_objects import Figure
 
 from viscontact.drawing.content.along_run import along_run
+from viscontact.drawing.content.history import load_names
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Lines, line_load, section
+from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC
 from viscontact.drawing.plotly.pressure_map import map_remarks
 from viscontact.drawing.svg.html import element
 from viscontact.report.limits import notices
 from viscontact.report.page_elements import remark
 from viscontact.report.section_csv import lines_csv
+from viscontact.report.still_figures import still_figures
+from viscontact.results.contact_spots import last_spots
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.last_cycle_values import worst_notes
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.run_axis import run_axis
-from viscontact.results.shown_scalars import is_long, shown_labels
+from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
 from viscontact.units.formatting import format_quantity
@@ -63,8 +67,8 @@ def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
     )
 
 
-def pressure_chapter(ds: xr.Dataset, maps: Maps | None) -> Iterator[Element]:
-    """Yield map, sections and outlines, or why there are none."""
+def pressure_part(ds: xr.Dataset, maps: Maps | None, figures: list[Figure]) -> Iterator[Element]:
+    """Yield map, sections and other figures of the pressure, or why there are none."""
     if maps is None:
         yield remark(_without_fields(ds))
         return
@@ -78,8 +82,11 @@ def pressure_chapter(ds: xr.Dataset, maps: Maps | None) -> Iterator[Element]:
     unit = maps.window.unit
     sections = (_lines(maps, each, f"{title}, {each.place(unit)}") for each, title in lines.items())
     yield element("div", *sections, class_="pair")
-    if is_long(ds):
-        yield _lines(maps, line_load(maps), "Line load along x: the pressure integrated over y")
+    own = {"map", *(each.name for each in lines)}
+    if maps.is_long:
+        load = line_load(maps)
+        yield _lines(maps, load, entry_of("line-load").heading)
+        own.add(load.name)
     yield element(
         "p",
         f"Bold: the {maps.snapshots[0].axis.row} of the slider.",
@@ -91,14 +98,27 @@ def pressure_chapter(ds: xr.Dataset, maps: Maps | None) -> Iterator[Element]:
         ),
         class_="faint",
     )
-    yield element("h3", "Outline of the contact")
-    yield element("figure", element("div", "", id="outlines", class_="plot"))
+    for about in (each.layout.meta for each in figures if each.layout.meta["name"] not in own):
+        yield element("h3", about["title"])
+        yield element("figure", element("div", "", id=about["name"], class_="plot"))
+    yield from still_figures(ds, "pressure", beside_interactive=True)
 
 
-def history_chapter(
-    ds: xr.Dataset, load: list[Figure], response: list[Figure], loops: list[Figure]
-) -> Iterator[Element]:
-    """Yield the panels of load and motion, of the contact's response, and loops."""
+def spots_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield number and sizes of the contact spots; nothing for a contact of one spot."""
+    if found := last_spots(ds):
+        yield element("p", f"{found.text[0].upper()}{found.text[1:]}.")
+        yield from still_figures(ds, "spots")
+
+
+def friction_part(ds: xr.Dataset, figures: list[Figure]) -> Iterator[Element]:
+    """Yield friction over speed; over a single one its point, or why there is no friction."""
+    yield from (element("figure", panel(each), class_="single") for each in figures)
+    yield from still_figures(ds, "friction", beside_interactive=bool(figures))
+
+
+def history_part(ds: xr.Dataset, figures: list[Figure]) -> Iterator[Element]:
+    """Yield the panels of load and motion, and of the contact's response."""
     csv = io.StringIO()
     write_history(ds, csv)
     yield element(
@@ -106,6 +126,17 @@ def history_chapter(
         _scale_button(ds),
         _download("Download the history (CSV)", "history.csv", csv.getvalue()),
         class_="downloads",
+    )
+    if figures:
+        yield from _load_and_response(ds, figures)
+    yield from still_figures(ds, "histories", beside_interactive=True)
+
+
+def _load_and_response(ds: xr.Dataset, figures: list[Figure]) -> Iterator[Element]:
+    given = {f"history-{name}" for name in load_names(ds)}
+    load, response = (
+        [each for each in figures if (each.layout.meta["name"] in given) == is_load]
+        for is_load in (True, False)
     )
     yield element("h3", "Load" if motion_axis(ds) is None else "Load and motion")
     yield element("div", *map(panel, load), class_="panels")
@@ -117,9 +148,14 @@ def history_chapter(
     for number, event in enumerate(recorded_events(ds), start=1):
         legend += f"Dotted line {number}: {event.text}. "
     yield remark(legend + "All numbers are in the CSV file, in SI units.")
-    if loops:
+
+
+def loop_part(ds: xr.Dataset, figures: list[Figure]) -> Iterator[Element]:
+    """Yield loops of a run."""
+    if figures:
         yield element("h3", "Loops")
-        yield element("div", *map(_loop, loops), class_="panels")
+        yield element("div", *map(_loop, figures), class_="panels")
+    yield from still_figures(ds, "loops", beside_interactive=True)
 
 
 def _facts(ds: xr.Dataset) -> Element:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from xml.etree.ElementTree import Element
 
 import xarray as xr
 
-from viscontact.drawing.matplotlib import stress_section
 from viscontact.drawing.svg.html import element
-from viscontact.report.drawings import drawn
+from viscontact.report.still_figures import still_figures
 from viscontact.results.formatting import format_with_error
 from viscontact.results.peak_stress import PeakStress, peak_stress
 from viscontact.results.recorded_case import is_layered
@@ -25,8 +23,7 @@ def stress_chapter(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the von Mises stress below the largest pressure; nothing where it cannot be shown."""
     if found := stress_below(ds):
         yield element("p", stress_text(ds, found))
-        drawing = drawn(partial(stress_section, ds, times=[found.place]), "Von Mises stress")
-        yield element("figure", drawing, class_="single")
+        yield from still_figures(ds, "stress", times=[found.place])
 
 
 def stress_below(ds: xr.Dataset) -> PeakStress | None:

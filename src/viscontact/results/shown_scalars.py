@@ -45,6 +45,11 @@ def lacks_datum(ds: Result) -> bool:
     return bool(approach.size and np.isnan(approach).all())
 
 
+def has_friction(ds: Result) -> bool:
+    """Test for friction over speed, which has a figure of its own."""
+    return "speed" in ds.dims and bool((ds["friction_coefficient"].values > 0).any())
+
+
 def shown_scalars(ds: Result, place: Place) -> list[str]:
     """Names of the scalars of a result that are shown in a place, in its order."""
     return [name for name in shown_in(place, ds) if is_shown(ds, name)]

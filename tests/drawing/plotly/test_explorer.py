@@ -69,7 +69,7 @@ def test_in_a_narrow_cell_every_panel_has_the_whole_width() -> None:
 def test_the_map_contains_the_outline_of_the_reference() -> None:
     small, large = (maps_over(roller(times=times)) for times in ((0.0, 0.1), (100.0, 1000.0)))
     for one, other in ((small, large), (large, small)):
-        figure = pressure_map(one, LIGHT, other)
+        figure = pressure_map(one.beside(other), LIGHT)
         for frame in figure.frames:
             for letter in "xy":
                 low, high = figure.layout[f"{letter}axis"].range

@@ -23,11 +23,6 @@ _ROUND = (Paraboloid, Sphere, Roller)
 _SAMPLES, _ROOM = 60, 2.0
 
 
-def has_friction(run: xr.Dataset) -> bool:
-    """Tell whether a result has friction over speed."""
-    return "speed" in run.dims and bool((run[NAME].values > 0).any())
-
-
 def friction_panel(
     run: xr.Dataset, units: Units = readable_unit, reference: xr.Dataset | None = None
 ) -> Panel:

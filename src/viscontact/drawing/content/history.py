@@ -24,7 +24,7 @@ from viscontact.results.recorded_case import across_period, is_prescribed, presc
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.run_axis import run_axis
-from viscontact.results.shown_scalars import shown_scalars
+from viscontact.results.shown_scalars import has_friction, shown_scalars
 from viscontact.results.stated_errors import (
     NOT_DRAWN,
     drawn_values,
@@ -62,7 +62,9 @@ def needed_variables(run: xr.Dataset) -> list[str]:
 
 
 def load_names(run: xr.Dataset) -> list[str]:
-    """Names of the scalars that are prescribed, for a page."""
+    """Names of the scalars that are prescribed, for a page; none over a single speed."""
+    if _has_one_speed(run):
+        return []
     names = [name for name in shown_in(Place.LOAD, run) if name == "force" or _varies(run, name)]
     if not run_axis(run).is_history:
         names = ["force"]  # a constant load
@@ -73,11 +75,19 @@ def load_names(run: xr.Dataset) -> list[str]:
 
 def response_names(run: xr.Dataset) -> list[str]:
     """Names of the scalars that answer the load, for a page: without idle ones."""
+    # A table has the values at a single speed, and friction over speed is a figure of its own.
+    if _has_one_speed(run):
+        return []
     answer = {"approach": "force"} if prescribes_approach(run) else {}
-    shown = shown_scalars(run, Place.RESPONSE)
+    own = ["friction_coefficient"] if has_friction(run) else []
+    shown = [name for name in shown_scalars(run, Place.RESPONSE) if name not in own]
     if not run_axis(run).is_history:
         shown.append(f"eccentricity_{motion_axis(run)}")  # the contact lies ahead of the axis
     return [answer.get(name, name) for name in shown if not is_idle(run, name)]
+
+
+def _has_one_speed(run: xr.Dataset) -> bool:
+    return run.sizes.get("speed") == 1
 
 
 def is_idle(run: xr.Dataset, name: str) -> bool:

@@ -19,6 +19,7 @@ from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
+from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import Snapshot, field_times
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.units.formatting import readable_unit
@@ -83,6 +84,8 @@ class Maps:
     maps: tuple[Map, ...]
     window: Window  # part of the surface that contains every contact
     stored: int = 0  # number of instants with fields in the result
+    is_long: bool = False  # a contact whose line load is of use
+    reference: Maps | None = None  # compared with them
 
     @property
     def snapshots(self) -> tuple[Snapshot, ...]:
@@ -174,11 +177,12 @@ class Maps:
         """Maps with a long contact shown at most so many times longer than wide."""
         return replace(self, window=window_around(self.snapshots, slender=slender))
 
-    def beside(self, other: Maps | None) -> Maps:
-        """Maps in a window that contains the contacts of other maps, too."""
-        if other is None:
+    def beside(self, reference: Maps | None) -> Maps:
+        """Maps in a window that contains the contacts of a reference, too."""
+        if reference is None:
             return self
-        return replace(self, window=window_around([*self.snapshots, *other.snapshots]))
+        window = window_around([*self.snapshots, *reference.snapshots])
+        return replace(self, window=window, reference=reference)
 
 
 def maps_at(results: Runs, times: ArrayLike | None, figure: str, *, count: int = 1) -> Maps:
@@ -197,7 +201,8 @@ def maps_over(run: xr.Dataset) -> Maps:
     """Maps at instants over a whole run, at most `MOST_INSTANTS`."""
     stored = field_times(run, "map")
     chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
-    return replace(maps_at(run, stored[chosen], "map"), stored=stored.size)
+    maps = maps_at(run, stored[chosen], "map")
+    return replace(maps, stored=stored.size, is_long=is_long(run))
 
 
 def maps_if_any(run: xr.Dataset) -> Maps | None:

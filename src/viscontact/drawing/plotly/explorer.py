@@ -12,7 +12,7 @@ from viscontact.drawing.content.look import DARK, LIGHT, Look
 from viscontact.drawing.content.map import Maps, maps_over
 from viscontact.drawing.plotly.parts import Part, template_of
 from viscontact.drawing.plotly.pressure_map import pressure_map
-from viscontact.drawing.plotly.sections import sections
+from viscontact.drawing.plotly.sections import line_loads, sections
 from viscontact.results.run_axis import in_order
 from viscontact.results.snapshots import labels_of
 from viscontact.units.systems import AUTOMATIC, SYSTEMS
@@ -77,9 +77,8 @@ def explore(
     if width is not None and not width >= _LEAST_WIDTH:
         raise ValueError(f"width: wanted {_LEAST_WIDTH} pixels or more, got {width}")
     look = replace(DARK if dark else LIGHT, system=units)
-    ds = in_order(result)
-    maps = maps_over(ds)
-    figures = [pressure_map(maps, look), *sections(ds, maps, look)]
+    maps = maps_over(in_order(result))
+    figures = [pressure_map(maps, look), *sections(maps, look), *line_loads(maps, look)]
     return _together(figures, maps, look, width)
 
 

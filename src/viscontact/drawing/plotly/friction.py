@@ -14,11 +14,16 @@ from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Curve, Panel
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.run_axis import SPEED
+from viscontact.results.shown_scalars import has_friction
 from viscontact.units.formatting import format_compact
 
 
-def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = None) -> go.Figure:
-    """Draw the friction coefficient over speed with its limits; both axes are logarithmic."""
+def friction(
+    ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = None
+) -> list[go.Figure]:
+    """Draw the friction coefficient over speeds, if there is any; both axes are logarithmic."""
+    if not has_friction(ds) or ds.sizes["speed"] < 2:
+        return []
     panel = friction_panel(ds, look.unit, reference)
     results = [curve for curve in panel.curves if curve.look == "joined"]
     limits = [curve for curve in panel.curves if curve.look != "joined"]
@@ -28,10 +33,11 @@ def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = 
         ::-1
     ]
     lowest, highest = panel.y.limits or (0.1, 1.0)
-    return drawn(
+    meta = {"name": "friction", "title": panel.y.label, "note": ""}
+    figure = drawn(
         traces,
         look,
-        {"name": "friction", "title": panel.y.label},
+        meta,
         showlegend=len(traces) > 1,
         legend={"orientation": "h", "x": 0, "y": 1.0, "yanchor": "bottom"},
         margin={"l": 50, "r": 24, "t": 34, "b": 42},
@@ -41,6 +47,7 @@ def friction(ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = 
             **_log_ticks(np.array([lowest, highest])),
         },
     )
+    return [figure]
 
 
 def _limit(panel: Panel, curve: Curve, look: Look) -> Part:

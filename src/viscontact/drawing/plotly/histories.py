@@ -58,18 +58,9 @@ def history(
 
 def histories(
     ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = None
-) -> tuple[list[go.Figure], list[go.Figure]]:
-    """Draw what is prescribed, and what answers: a figure for each scalar, without idle tilts."""
-    load, response = panel_names(ds)
-    return (
-        [history(ds, name, look, reference) for name in load],
-        [history(ds, name, look, reference) for name in response],
-    )
-
-
-def panel_names(ds: xr.Dataset) -> tuple[list[str], list[str]]:
-    """Names of the scalars that are prescribed, and of those that answer."""
-    return load_names(ds), response_names(ds)
+) -> list[go.Figure]:
+    """Draw what is prescribed, and what answers: a figure for each scalar that has a panel."""
+    return [history(ds, name, look, reference) for name in (*load_names(ds), *response_names(ds))]
 
 
 def _styles(ds: xr.Dataset, panel: Panel, look: Look) -> list[Part]:

@@ -11,6 +11,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.map import BodyPlace, Map, Maps
 from viscontact.drawing.content.scale import CELLS, ColourScale
+from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.run_axis import TIME
 from viscontact.results.snapshots import labels_of
@@ -25,13 +26,12 @@ _OUTLINES, _OUTLINES_OF_MANY = 5, 2
 _ARROW, _COLOURS = 34, 17
 
 
-def pressure_map(maps: Maps, look: Look = LIGHT, reference: Maps | None = None) -> go.Figure:
+def pressure_map(maps: Maps, look: Look = LIGHT) -> go.Figure:
     """Draw the pressure over the surface, a frame each instant or speed; outline of a reference."""
-    maps = maps.beside(reference)
     (x, y), scale = maps.axes(look.unit), maps.scale(look.unit)
     frames: list[Part] = [
         {"name": str(index), "traces": list(range(len(traces))), "data": traces, "layout": layout}
-        for index, (traces, layout) in enumerate(_frames(maps, look, scale, reference))
+        for index, (traces, layout) in enumerate(_frames(maps, look, scale))
     ]
     at_x, at_y = maps.centres(MOST_CELLS)
     low, high = scale.unit(scale.limits).tolist()
@@ -50,7 +50,7 @@ def pressure_map(maps: Maps, look: Look = LIGHT, reference: Maps | None = None) 
         "colorbar": _colour_bar(scale, look),
     }
     styles: list[Part] = [heat, _rim_style(look)]
-    if reference is not None:
+    if maps.reference is not None:
         styles.append(
             _rim_style(look) | {"line": {"color": look.warm, "width": 1.6, "dash": "dash"}}
         )
@@ -79,7 +79,8 @@ def outlines(maps: Maps, look: Look = LIGHT) -> go.Figure:
         }
         for index in _outlined(maps)
     ]
-    meta = {"name": "outlines"} | _shape(maps, around=120, most=440)
+    heading = entry_of("contact-outline").heading
+    meta = {"name": "outlines", "title": heading} | _shape(maps, around=120, most=440)
     return drawn(
         lines,
         look,
@@ -111,12 +112,10 @@ def map_remarks(maps: Maps) -> str:
     return " ".join(said)
 
 
-def _frames(
-    maps: Maps, look: Look, scale: ColourScale, reference: Maps | None
-) -> Iterator[tuple[list[Part], Part]]:
+def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[Part], Part]]:
     """Yield what differs between the instants: parts of the traces, and of the layout."""
     shape, headings = _shape(maps, around=130, most=600), _headings(maps, look)
-    unit = maps.axes(look.unit)[0].unit
+    unit, reference = maps.axes(look.unit)[0].unit, maps.reference
     for index, each in enumerate(maps.maps):
         z = numbers(scale.unit(maps.cells(index, MOST_CELLS).T))
         shown = [each]

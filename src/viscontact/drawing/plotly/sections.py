@@ -3,49 +3,40 @@
 from __future__ import annotations
 
 import plotly.graph_objects as go
-import xarray as xr
 
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Along, Lines, line_load, section
+from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
-from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import ReadableUnit
 
 
-def sections(
-    ds: xr.Dataset, maps: Maps, look: Look = LIGHT, reference: Maps | None = None
-) -> list[go.Figure]:
-    """Draw the sections along x and y and, of a long contact, the line load; see `draw_section`."""
-    figures = [draw_section(maps, "x", look, reference), draw_section(maps, "y", look, reference)]
-    return [*figures, draw_line_load(maps, look, reference)] if is_long(ds) else figures
+def sections(maps: Maps, look: Look = LIGHT) -> list[go.Figure]:
+    """Draw the sections along x and y."""
+    return [draw_section(maps, "x", look), draw_section(maps, "y", look)]
 
 
-def draw_section(
-    maps: Maps, along: Along, look: Look = LIGHT, reference: Maps | None = None
-) -> go.Figure:
+def draw_section(maps: Maps, along: Along, look: Look = LIGHT) -> go.Figure:
     """Draw the pressure along x or y at every instant, that of a reference dashed."""
     lines, unit = section(maps, along), maps.axes(look.unit)[0].unit
     titles = [f"Along {along}, {lines.place(unit, at)}" for at in lines.crossings]
-    others = None if reference is None else section(reference, along)
-    return _curves(maps, look, lines, titles, reference, others)
+    others = None if maps.reference is None else section(maps.reference, along)
+    return _curves(maps, look, lines, titles, others)
 
 
-def draw_line_load(maps: Maps, look: Look = LIGHT, reference: Maps | None = None) -> go.Figure:
-    """Draw the line load along x at every instant, with a frame that emphasises each."""
-    titles = ["Line load along x: the pressure integrated over y"] * len(maps.maps)
-    others = None if reference is None else line_load(reference)
-    return _curves(maps, look, line_load(maps), titles, reference, others)
+def line_loads(maps: Maps, look: Look = LIGHT) -> list[go.Figure]:
+    """Draw the line load along x at every instant, with a frame for each, if it is of use."""
+    if not maps.is_long:
+        return []
+    titles = [entry_of("line-load").heading] * len(maps.maps)
+    others = None if maps.reference is None else line_load(maps.reference)
+    return [_curves(maps, look, line_load(maps), titles, others)]
 
 
 def _curves(
-    maps: Maps,
-    look: Look,
-    lines: Lines,
-    titles: list[str],
-    reference: Maps | None,
-    others: Lines | None,
+    maps: Maps, look: Look, lines: Lines, titles: list[str], others: Lines | None
 ) -> go.Figure:
     """Draw a curve for each instant: all of them thin, and in each frame one of them bold."""
     within = maps.inside["xy".index(lines.along)]
@@ -72,8 +63,8 @@ def _curves(
     frames: list[Part] = []
     for index, each in enumerate(maps.snapshots):
         parts: list[Part] = []
-        if reference is not None and others is not None:
-            values = others.values[reference.nearest(each.time)]
+        if maps.reference is not None and others is not None:
+            values = others.values[maps.reference.nearest(each.time)]
             parts.append({"x": numbers(length(others.positions)), "y": numbers(unit(values))})
         parts.append({"y": thin[index]["y"], "name": thin[index]["name"]})
         if len(styles) > len(parts):

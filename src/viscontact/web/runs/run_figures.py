@@ -6,18 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 import xarray as xr
-from plotly.graph_objects import Figure
 
 from viscontact.drawing.content.along_run import along_run
-from viscontact.drawing.content.friction import has_friction
 from viscontact.drawing.content.look import DARK, LIGHT, Look
 from viscontact.drawing.content.map import maps_if_any
-from viscontact.drawing.plotly.friction import friction
-from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC, history, panel_names
-from viscontact.drawing.plotly.loops import loops
+from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC
 from viscontact.drawing.plotly.parts import plain
-from viscontact.drawing.plotly.pressure_map import map_remarks, pressure_map
-from viscontact.drawing.plotly.sections import sections
+from viscontact.drawing.plotly.pressure_map import map_remarks
+from viscontact.drawing.plotly.run_figures import run_figures as interactive_figures
 from viscontact.results.run_axis import in_order, run_axis
 from viscontact.units.systems import SYSTEMS
 from viscontact.web.workspace.problems import RequestError
@@ -36,34 +32,18 @@ def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None)
     other = None if reference is None else in_order(reference)
     if other is not None and run_axis(other) is not run_axis(ds):
         other = None
-    maps, others = maps_if_any(ds), None if other is None else maps_if_any(other)
-    surface: list[Figure] = []
-    if maps is not None:
-        surface = [pressure_map(maps, look, others), *sections(ds, maps, look, others)]
+    others = None if other is None else maps_if_any(other)
+    maps = maps_if_any(ds)
+    maps = None if maps is None else maps.beside(others)
+    figures = interactive_figures(ds, maps, look, other)
+    drawn = {chapter: [plain(each) for each in found] for chapter, found in figures.items()}
     return {
-        "surface": list(map(plain, surface)),
-        "start": 0 if maps is None else maps.start,
-        "remarks": "" if maps is None else map_remarks(maps.beside(others)),
-        "friction": plain(friction(ds, look, other)) if _has_curve(ds) else None,
-        "histories": [plain(each) for each in _histories(ds, look, other)],
+        **{"surface": drawn["pressure"], "start": 0 if maps is None else maps.start},
+        "remarks": "" if maps is None else map_remarks(maps),
+        "friction": next(iter(drawn["friction"]), None),
+        **{"histories": drawn["histories"], "loops": drawn["loops"]},
         "scale": _scale(ds, look, other),
-        "loops": [plain(each) for each in loops(ds, look, other)],
     }
-
-
-def _has_curve(ds: xr.Dataset) -> bool:
-    """Tell whether a result has a curve of friction over speed."""
-    return has_friction(ds) and ds.sizes["speed"] > 1
-
-
-def _histories(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> list[Figure]:
-    """Histories without what has a figure of its own; none over a single speed."""
-    if not run_axis(ds).is_history and ds.sizes["speed"] < 2:
-        return []
-    load, response = panel_names(ds)
-    left_out = "friction_coefficient" if _has_curve(ds) else ""
-    names = [name for name in (*load, *response) if name != left_out]
-    return [history(ds, name, look, reference) for name in names]
 
 
 def _scale(ds: xr.Dataset, look: Look, reference: xr.Dataset | None) -> str | None:

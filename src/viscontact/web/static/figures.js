@@ -56,7 +56,9 @@ async function drawAnswer(request, shown, reference) {
 
 function drawSurface({ surface, start, remarks }, row, isSame) {
   place("map-chapter").hidden = !surface.length;
-  for (const name of ["map", "section-x", "section-y", "line-load"]) {
+  const placed = ["map", "section-x", "section-y", "line-load"];
+  drawPanels(place("surface-panels"), surface.filter(({ layout }) => !placed.includes(layout.meta.name)));
+  for (const name of placed) {
     const figure = surface.find(({ layout }) => layout.meta.name === name);
     if (name === "line-load") place(name).parentElement.hidden = !figure;
     if (figure) draw(place(name), figure); else clear(place(name));

@@ -6,10 +6,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from viscontact.drawing.content.friction import friction_panel, has_friction
+from viscontact.drawing.content.friction import friction_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.results.shown_scalars import has_friction
 
 
 def friction(

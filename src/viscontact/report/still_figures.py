@@ -1,0 +1,53 @@
+"""Still figures of the chapters of a report, as the table of figures has them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from viscontact.drawing import matplotlib
+from viscontact.drawing.content.loop import has_force_loop
+from viscontact.drawing.figures import TABLE, Chapter
+from viscontact.drawing.matplotlib.histories.history import history_with_load
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.svg.html import element
+from viscontact.report.drawings import drawn
+from viscontact.results.run_axis import run_axis
+from viscontact.results.shown_scalars import is_long
+
+#: Pixels of an inch.
+_PIXELS = 96
+#: Tests of a result for figures that are of use for some results only.
+_OF_USE: dict[str, Callable[[xr.Dataset], bool]] = {
+    "line-load": lambda ds: is_long(ds) and "line_load" in ds,
+    "hysteresis": has_force_loop,
+}
+#: Functions that differ from those of the command line.
+_OWN: dict[str, Callable[..., Figure]] = {"history": history_with_load}
+
+
+def still_figures(
+    ds: xr.Dataset, chapter: Chapter, *, beside_interactive: bool = False, **how: Any
+) -> Iterator[Element]:
+    """Yield the figures of a chapter with headings, if some precede; or those not interactive."""
+    entries = [
+        each
+        for each in TABLE
+        if each.chapter == chapter
+        and each.of in ("both", run_axis(ds).name)
+        and not (beside_interactive and each.interactive)
+        and _OF_USE.get(each.name, bool)(ds)
+    ]
+    for number, entry in enumerate(entries):
+        if number or beside_interactive:
+            yield element("h3", entry.heading)
+        draw = _OWN.get(entry.name) or getattr(matplotlib, entry.drawn_by)
+        drawing = drawn(partial(draw, ds, **how), entry.heading)
+        widths = [float(image.get("width", 0)) for image in drawing.iter("img")]
+        is_narrow = all(width <= round(_PIXELS * style.ONE_COLUMN) for width in widths)
+        yield element("figure", drawing, **({"class": "single"} if is_narrow else {}))
