@@ -54,8 +54,8 @@ class Ink:
 
     # "run" is one of several different things, by its number from 0; "ordered" one of a sequence,
     # by its place from 0 (first) to 1 (last); "fit" what was fitted to measured points; "pale"
-    # what is set aside.
-    kind: Literal["run", "ordered", "fit", "faint", "pale", "text"] = "run"
+    # what is set aside; "temperature" one of several, by its place from 0 (cold) to 1 (warm).
+    kind: Literal["run", "ordered", "fit", "faint", "pale", "text", "temperature"] = "run"
     place: float = 0
 
 
@@ -102,7 +102,7 @@ class Mark:
     place: float
     axis: Literal["x", "y"] = "x"
     text: str = ""
-    look: Literal["line", "dashed", "dotted"] = "line"
+    look: Literal["line", "dashed", "dotted", "tick"] = "line"  # a tick is at the border only
     ink: Ink = FAINT
 
 

@@ -149,9 +149,18 @@ def _branches(along: Floats) -> list[Any]:
 
 
 def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
-    look: dict[str, Any] = {"linestyle": _MARKS[mark.look], "linewidth": style.THIN_LINE}
+    look: dict[str, Any] = {"linestyle": _MARKS.get(mark.look), "linewidth": style.THIN_LINE}
     look["color"] = style.look_of(mark.ink)["color"]
-    if mark.axis == "x":
+    if mark.look == "tick":
+        how: dict[str, Any] = {
+            "marker": "|",
+            "markersize": 9,
+            "linestyle": "none",
+            "clip_on": False,
+        }
+        at, border = float(panel.x.unit(mark.place)), axes.get_xaxis_transform()
+        axes.plot([at], [0.0], color=look["color"], transform=border, **how)
+    elif mark.axis == "x":
         axes.axvline(float(panel.x.unit(mark.place)), **look)
     else:
         axes.axhline(float(panel.y.unit(mark.place)), **look)

@@ -10,9 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, TypeVar
 
+import numpy as np
+from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colorbar import Colorbar
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from viscontact.drawing.content.look import INSTANTS, LIGHT, RUNS, shades
@@ -34,6 +37,8 @@ _ROW, _FEW_ROWS = 0.18, 3
 _Entry = TypeVar("_Entry")
 
 INK, FAINT, LINE, BODY = LIGHT.ink, LIGHT.faint, LIGHT.blue, LIGHT.warm
+#: Cold to warm, without the palest end of plasma, which is hard to see on white.
+TEMPERATURES = LinearSegmentedColormap.from_list("sets", colormaps["plasma"](np.linspace(0, 0.85)))
 #: Background of a range.
 SHADE = "#eef2f6"
 _RUN_DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)))
@@ -165,6 +170,8 @@ def look_of(ink: Ink) -> dict[str, Any]:
         return line | {"color": RUNS[number % len(RUNS)], "linestyle": dashes}
     if ink.kind == "ordered":
         return line | {"color": shades(INSTANTS, 1, LIGHT.late * ink.place)[0]}
+    if ink.kind == "temperature":
+        return line | {"color": TEMPERATURES(ink.place)}
     if ink.kind == "pale":
         return line | {"color": FAINT, "alpha": 0.6}
     return line | {"color": {"fit": BODY, "faint": FAINT, "text": INK}[ink.kind]}
