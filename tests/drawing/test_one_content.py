@@ -11,14 +11,18 @@ from synthetic_results import maxwell_sphere
 from synthetic_sweeps import hertz_sweep
 from viscontact import plot
 from viscontact.drawing.content.history import drawn_scalars, history_panel
+from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import Loop, cycle_panel
+from viscontact.drawing.content.panel import Axis, Curve, Panel
 from viscontact.drawing.plotly.friction import friction
 from viscontact.drawing.plotly.histories import histories
 from viscontact.drawing.plotly.indentation_fits import fit_over_time, force_over_approach
+from viscontact.drawing.plotly.panel_over_run import panel_over_run
 from viscontact.drawing.plotly.responses import responses
 from viscontact.identification import IndentationRecord, fit_indentation
 from viscontact.indenters import Sphere
 from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import ReadableUnit
 
 
 def _run(*, singular: bool = False, swings: bool = False) -> xr.Dataset:
@@ -160,3 +164,15 @@ def test_a_panel_is_the_same_alone_and_beside_others() -> None:
         beside = history_panel({"one": run, "two": run}, name)
         assert alone.y == beside.y
         assert [curve.ink.place for curve in beside.curves] == [0, 1]
+
+
+def test_any_panel_over_time_is_drawn_by_plotly_on_both_scales() -> None:
+    instants, areas = np.array([0.0, 1.0, 10.0]), np.array([0.0, 1e-6, 2e-6])
+    x = Axis("Time", ReadableUnit("s", 1.0), (0.0, 10.0), "time", 1.0, has_choice=True)
+    curve = Curve(instants, areas, error=0.1 * areas)
+    panel = Panel(x, Axis.of("Contact area", "m2", areas), (curve,))
+    figure = panel_over_run(panel, LIGHT, "area", ["a", "b", "c"])
+    assert figure.layout.meta["title"] == panel.y.label
+    assert figure.data[-1].y.tolist() == [0.0, 1.0, 2.0]
+    assert [frame.name for frame in figure.frames] == ["linear", "log"]
+    assert figure.frames[0].data[-1].x.tolist() == instants.tolist()

@@ -18,7 +18,7 @@ from viscontact.drawing.content.history import load_names
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Lines, line_load, section
 from viscontact.drawing.figures import entry_of
-from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC
+from viscontact.drawing.plotly.panel_over_run import LINEAR, LOGARITHMIC
 from viscontact.drawing.plotly.pressure_map import map_remarks
 from viscontact.drawing.svg.html import element
 from viscontact.report.limits import notices

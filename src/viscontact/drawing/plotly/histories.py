@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
 
-from viscontact.backend.arrays import Singles
 from viscontact.drawing.content.history import history_panel, load_names, response_names
 from viscontact.drawing.content.look import LIGHT, Look
-from viscontact.drawing.content.panel import Curve, Panel
-from viscontact.drawing.plotly.parts import Part, drawn, numbers, words
-from viscontact.drawing.plotly.run_scale import part_along, places_along
+from viscontact.drawing.plotly.panel_over_run import panel_over_run
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS
-
-#: Names of the frames of a linear and a logarithmic axis.
-LINEAR, LOGARITHMIC = "linear", "log"
 
 
 def history(
@@ -25,35 +18,13 @@ def history(
 ) -> go.Figure:
     """Draw a scalar over time or speed with its error band, and the same of a reference dashed."""
     panel = history_panel({"": ds}, name, look.unit, reference)
-    frames: list[Part] = [
-        {
-            "name": LOGARITHMIC if log else LINEAR,
-            "traces": list(range(len(panel.curves) + 1)),
-            "data": _positions(panel, log=log),
-            # A part that was enlarged on one scale is elsewhere on the other.
-            "layout": {
-                "xaxis": part_along(panel.x, log=log),
-                "uirevision": LOGARITHMIC if log else LINEAR,
-                "shapes": _event_lines(panel, look, log=log),
-            },
-        }
-        for log in ((False, True) if panel.x.has_choice else (False,))
+    axis, units = run_axis(ds), SCALARS[name].units
+    values, errors = ds[name].values.tolist(), errors_of(ds, name).tolist()
+    hover = [
+        f"{axis.place(place)}: {look.text(value, error, units)}"
+        for place, value, error in zip(axis.values(ds).tolist(), values, errors, strict=True)
     ]
-    shown = frames[panel.x.scale != "linear"]
-    limits = panel.y.limits
-    return drawn(
-        [style | part for style, part in zip(_styles(ds, panel, look), shown["data"], strict=True)],
-        look,
-        {"name": f"history-{name}", "title": panel.y.label, "note": panel.note},
-        frames=frames if len(frames) > 1 else (),
-        **shown["layout"],
-        yaxis={
-            "range": [0.0, 1.0] if limits is None else panel.y.unit(limits).tolist(),
-            "showticklabels": not panel.in_place,
-        },
-        hovermode="x",
-        annotations=[words(panel.in_place, look)] if panel.in_place else [],
-    )
+    return panel_over_run(panel, look, f"history-{name}", hover)
 
 
 def histories(
@@ -61,77 +32,3 @@ def histories(
 ) -> list[go.Figure]:
     """Draw what is prescribed, and what answers: a figure for each scalar that has a panel."""
     return [history(ds, name, look, reference) for name in (*load_names(ds), *response_names(ds))]
-
-
-def _styles(ds: xr.Dataset, panel: Panel, look: Look) -> list[Part]:
-    """Curves and band without their positions: the reference first, the result on top."""
-    shade = {"mode": "lines", "fill": "toself", "fillcolor": look.band, "line": {"width": 0}}
-    curve, *others = panel.curves
-    line = {"color": look.blue, "width": 2}
-    dashed = {"color": look.warm, "width": 2, "dash": "dash"}
-    hover = _hover(ds, panel.name, look)
-    return [
-        *(_line(panel, other, dashed) | {"hoverinfo": "skip"} for other in others),
-        shade | {"y": _band(panel, curve), "hoverinfo": "skip"},
-        _line(panel, curve, line) | {"text": hover, "hovertemplate": "%{text}<extra></extra>"},
-    ]
-
-
-def _line(panel: Panel, curve: Curve, line: Part) -> Part:
-    marked = "lines+markers" if curve.look == "joined" else "lines"
-    return {
-        "y": numbers(panel.y.unit(curve.y)),
-        "mode": "markers" if curve.y.size < 2 else marked,
-        "line": line,
-        "marker": {"color": line["color"], "size": 5},
-    }
-
-
-def _positions(panel: Panel, *, log: bool) -> list[Part]:
-    """Positions along the axis of what `_styles` returns."""
-    places = [places_along(panel.x, curve.x, log=log) for curve in panel.curves]
-    parts = _parts(panel.curves[0])
-    edges = [[*places[0][part], *places[0][part][::-1], np.nan] for part in parts]
-    band = np.concatenate(edges or [[]])
-    return [{"x": numbers(each)} for each in (*places[1:], band, places[0])]
-
-
-def _event_lines(panel: Panel, look: Look, *, log: bool) -> list[Part]:
-    """Dotted lines at the events of a load program, with their numbers from 1."""
-    line = {"color": look.faint, "width": 1, "dash": "dot"}
-    label = {"textangle": 0, "textposition": "end", "xanchor": "right", "yanchor": "top"}
-    label["font"] = {"size": 10, "color": look.faint}
-    return [
-        {
-            **{"type": "line", "yref": "paper", "y0": 0, "y1": 1, "layer": "below", "line": line},
-            **{"x0": place, "x1": place, "label": label | {"text": str(number)}},
-        }
-        for number, mark in enumerate(panel.marks, start=1)
-        for place in places_along(panel.x, np.array([mark.place]), log=log).tolist()
-    ]
-
-
-def _band(panel: Panel, curve: Curve) -> Singles:
-    """Edges of the band: a closed polygon for each run of instants whose error is known."""
-    error = np.nan if curve.error is None else curve.error
-    low, high = (panel.y.unit(curve.y + sign * error) for sign in (-1, 1))
-    edges = [[*high[part], *low[part][::-1], np.nan] for part in _parts(curve)]
-    return numbers(np.concatenate(edges or [[]]))
-
-
-def _parts(curve: Curve) -> list[slice]:
-    """Runs of two instants or more whose error is known."""
-    if curve.error is None:
-        return []
-    known = np.isfinite(curve.y) & np.isfinite(curve.error)
-    changes = np.flatnonzero(np.diff([False, *known, False]))
-    return [slice(a, b) for a, b in changes.reshape(-1, 2).tolist() if b - a > 1]
-
-
-def _hover(ds: xr.Dataset, name: str, look: Look) -> list[str]:
-    axis, units = run_axis(ds), SCALARS[name].units
-    values, errors = ds[name].values.tolist(), errors_of(ds, name).tolist()
-    return [
-        f"{axis.place(place)}: {look.text(value, error, units)}"
-        for place, value, error in zip(axis.values(ds).tolist(), values, errors, strict=True)
-    ]

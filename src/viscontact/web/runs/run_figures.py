@@ -10,7 +10,7 @@ import xarray as xr
 from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.look import DARK, LIGHT, Look
 from viscontact.drawing.content.map import maps_if_any
-from viscontact.drawing.plotly.histories import LINEAR, LOGARITHMIC
+from viscontact.drawing.plotly.panel_over_run import LINEAR, LOGARITHMIC
 from viscontact.drawing.plotly.parts import plain
 from viscontact.drawing.plotly.pressure_map import map_remarks
 from viscontact.drawing.plotly.run_figures import run_figures as interactive_figures

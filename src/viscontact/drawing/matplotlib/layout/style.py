@@ -156,11 +156,6 @@ def time_colours(count: int) -> list[str]:
     return LIGHT.instants(count)
 
 
-def run_styles(count: int) -> list[dict[str, Any]]:
-    """Colour and dashes for each of several runs, distinct also in grey print."""
-    return [look_of(Ink(place=number)) for number in range(count)]
-
-
 def look_of(ink: Ink) -> dict[str, Any]:
     """Colour, dashes and width of a line."""
     line: dict[str, Any] = {"linestyle": "-", "linewidth": LINE_WIDTH}
