@@ -12,7 +12,7 @@ from scipy.stats import qmc
 
 import viscontact as vc
 from viscontact.studies.calibration.preparation import experiment_of
-from viscontact.studies.calibration.response import Mounting, Response
+from viscontact.studies.calibration.response import Mounting, RecordRun
 from viscontact.studies.case_values import case_with
 from viscontact.studies.evaluation import Entry, Level
 from viscontact.units.parsing import parse_any_quantity
@@ -45,8 +45,8 @@ class ResponseSurface:
         self._coarse = _fitted(points, coarse, _DEGREE)
         self._ratio = _fitted(points[:_RATIO_RUNS], own - coarse[:_RATIO_RUNS], _RATIO_DEGREE)
 
-    def __call__(self, response: Response) -> Entry:
-        """Force and approach of a run [N, m], in place of `Response.__call__`."""
+    def __call__(self, response: RecordRun) -> Entry:
+        """Force and approach of a run [N, m], in place of `RecordRun.__call__`."""
         factors = [
             parse_any_quantity(response.values[key])[0] / middle
             for key, (middle, _) in self._middle.items()
@@ -66,7 +66,7 @@ class ResponseSurface:
             key: f"{float(middle * factor)!r} {unit}"
             for (key, (middle, unit)), factor in zip(self._middle.items(), factors, strict=True)
         }
-        found = Response(self._test, values, Mounting(), level)()
+        found = RecordRun(self._test, values, Mounting(), level)()
         return np.array(found["approach"])[self._force > 0]
 
 

@@ -25,7 +25,7 @@ from tests.studies.calibration.experiments import (
 from tests.studies.calibration.response_surface import ResponseSurface
 
 import viscontact as vc
-from viscontact.studies.calibration.response import Response
+from viscontact.studies.calibration.response import RecordRun
 
 #: Warnings of correlations, and of the sharp edges of the finer runs.
 IGNORED = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -316,7 +316,7 @@ def test_intervals_hold_the_true_values_of_ninety_records_of_a_hundred(
     records = [vc.ContactRecord(times, force, depth + noise(seed, depth)) for seed in range(100)]
     by_runs = [vc.fit_case(case, record, OF_ZENER, workers=1) for record in records[:3]]
     surface = ResponseSurface(case, records[0], _MIDDLE, _FACTOR)
-    monkeypatch.setattr(Response, "__call__", lambda response: surface(response))
+    monkeypatch.setattr(RecordRun, "__call__", lambda response: surface(response))
     fits = [vc.fit_case(case, record, _RANGES, workers=1) for record in records]
     for run, interpolated in zip(by_runs, fits, strict=False):
         for key, (low, high) in run.intervals.items():
