@@ -9,7 +9,7 @@ from viscontact.bodies.indenters import Sphere
 from viscontact.cli.material.fit_options import read_indenter, read_kelvin, read_stress, read_weight
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.studies.arguments import as_typed, bounds
-from viscontact.cli.sweep.checks import _listed
+from viscontact.cli.sweep.checks import _list_names
 from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch, split_values
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.sweep.table import first_names
@@ -45,7 +45,7 @@ def test_message_about_an_argument_names_the_option() -> None:
 
 
 def test_several_names_have_a_plural_noun() -> None:
-    assert _listed("line", ["2", "5"]) == "lines 2, 5"
+    assert _list_names("line", ["2", "5"]) == "lines 2, 5"
 
 
 def test_message_about_a_varied_key_names_its_option() -> None:

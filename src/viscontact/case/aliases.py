@@ -189,7 +189,7 @@ def _resolve(found: CanonicalData, path: KeyPath, alias: Alias) -> None:
         del section[alias.name]
         return
     refusal = _refusal(found.data, section, alias)
-    value, why = _converted(alias, section[alias.name])
+    value, why = _canonical_value(alias, section[alias.name])
     if refusal or why:
         found.problems.append((path, refusal or why))
     if len(target) == 2:
@@ -231,7 +231,7 @@ def _refusal(data: Mapping[str, Any], section: Mapping[str, Any], alias: Alias) 
     return ""
 
 
-def _converted(alias: Alias, given: Any) -> tuple[Any, str]:
+def _canonical_value(alias: Alias, given: Any) -> tuple[Any, str]:
     """Value of the canonical key, and a problem; an invalid length is left to the canonical key."""
     if alias.dimension == "angle":
         return given, ""

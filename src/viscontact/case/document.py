@@ -126,7 +126,7 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
         raise CaseError(f"{path}: the file is empty; `viscontact example` shows complete ones")
     is_toml = path.suffix.lower() == ".toml"
     try:
-        data, lines = deepcopy(_parsed(text, is_toml))
+        data, lines = deepcopy(_parse(text, is_toml))
     except SourceError as problem:
         place = f"{path}:{problem.line}" if problem.line else str(path)
         raise CaseError(f"{place}: {problem}") from problem
@@ -170,7 +170,7 @@ def _with_canonical_keys(document: Document, found: CanonicalData) -> Document:
 
 
 @lru_cache(maxsize=8)
-def _parsed(text: str, is_toml: bool) -> tuple[Any, dict[KeyPath, int]]:
+def _parse(text: str, is_toml: bool) -> tuple[Any, dict[KeyPath, int]]:
     """Data and lines of a text, kept as the runs of a sweep read the same case."""
     return toml_source.parse(text) if is_toml else yaml_source.parse(text)
 

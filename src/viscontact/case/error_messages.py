@@ -58,7 +58,7 @@ def problem(document: Document, error: ErrorDetails) -> str:
         return object_problem(document, key, why)
     if error["type"].startswith("union_tag"):
         key = (*key, _union_key(error))
-    return document.problem(key, _why(key, model, error))
+    return document.problem(key, _reason(key, model, error))
 
 
 def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any] | None:
@@ -73,13 +73,13 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
             changed = deepcopy(data) if changed is None else changed
             path = _key_path(data, error)
             # A name may replace the section.
-            if isinstance(_at(changed, path), dict):
+            if isinstance(_value_at(changed, path), dict):
                 path = (*path, _union_key(error))
-            _at(changed, path[:-1])[path[-1]] = near
+            _value_at(changed, path[:-1])[path[-1]] = near
     return changed
 
 
-def _at(data: Any, path: KeyPath) -> Any:
+def _value_at(data: Any, path: KeyPath) -> Any:
     for step in path:
         data = data[step]
     return data
@@ -106,13 +106,13 @@ def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
     named = tuple(int(place) - 1 if place else name for place, name in steps)
     for length in range(len(named), 0, -1):
         for path in (named[:length], (*section, *named[:length])):
-            if _holds(data, path):
+            if _has_key(data, path):
                 return path
     words = re.findall(r"\w+", why) if section else ()
-    return next(((*section, word) for word in words if _holds(data, (*section, word))), section)
+    return next(((*section, word) for word in words if _has_key(data, (*section, word))), section)
 
 
-def _holds(data: Any, path: KeyPath) -> bool:
+def _has_key(data: Any, path: KeyPath) -> bool:
     for step in path:
         known = isinstance(data, dict) and step in data
         if not (known or (isinstance(data, list) and isinstance(step, int) and step < len(data))):
@@ -143,7 +143,7 @@ def _union_key(error: ErrorDetails) -> str:
     return str(error["ctx"]["discriminator"]).strip("'")
 
 
-def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
+def _reason(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     kind, context = error["type"], error.get("ctx", {})
     if kind == "extra_forbidden":
         return _unknown_key(model, key[-1])

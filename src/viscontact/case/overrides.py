@@ -23,7 +23,7 @@ def override(document: Document, settings: Iterable[str]) -> Document:
     if not values:
         return document
     data = deepcopy(document.data)
-    problems = [why for path, value in values.items() if (why := _put(data, path, value))]
+    problems = [why for path, value in values.items() if (why := _set_value(data, path, value))]
     if problems:
         raise CaseError(*problems)
     for path in values:
@@ -42,11 +42,11 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         aliases={**aliases, **found.typed},
         of_aliases={**document.of_aliases, **found.values},
         misused=(*document.misused, *plain.problems, *found.problems),
-        tolerances={**_kept(document, data, values), **plain.tolerances},
+        tolerances={**_tolerances(document, data, values), **plain.tolerances},
     )
 
 
-def _kept(document: Document, data: Any, values: Iterable[KeyPath]) -> dict[KeyPath, str]:
+def _tolerances(document: Document, data: Any, values: Iterable[KeyPath]) -> dict[KeyPath, str]:
     """Tolerances of the file whose keys, as typed or canonical, no setting replaces."""
     typed = {alias: key for key, alias in document.aliases.items()}
     replaced = {*values, *(canonical_path(data, path) for path in values)}
@@ -94,10 +94,10 @@ def _setting(text: str) -> tuple[KeyPath, Any]:
         raise CaseError(f"--set {name}: cannot read the value {value!r}: {problem}") from problem
 
 
-def _put(data: Any, path: KeyPath, value: Any) -> str | None:
+def _set_value(data: Any, path: KeyPath, value: Any) -> str | None:
     """Set a value; return the reason if that is impossible."""
     for position, step in enumerate(path):
-        if not (_takes_keys(data, step) or _has(data, step)):
+        if not (_takes_keys(data, step) or _has_entry(data, step)):
             return f"--set {dotted(path)}: {_why_not(data, step, path[:position])}"
         if position == len(path) - 1:
             data[step] = value
@@ -120,7 +120,7 @@ def _why_not(data: Any, step: str | int, path: KeyPath) -> str:
     return f"{where} is {str(data)[:40]!r}, without keys"
 
 
-def _has(data: Any, step: str | int) -> bool:
+def _has_entry(data: Any, step: str | int) -> bool:
     if isinstance(data, list):
         return isinstance(step, int) and 0 <= step < len(data)
     return isinstance(data, dict) and step in data

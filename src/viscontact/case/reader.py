@@ -51,7 +51,7 @@ def read_case(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
         If it is not valid; with all problems, each with its line and key.
     """
     document = override(read_document(Path(path)), overrides)
-    return _case(document, _checked(document))
+    return _case(document, _check_document(document))
 
 
 def read_case_text(text: str, path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
@@ -86,7 +86,7 @@ def read_case_text(text: str, path: str | PathLike[str], overrides: Iterable[str
     True
     """
     document = override(document_of(text, Path(path), confined=True), overrides)
-    return _case(document, _checked(document))
+    return _case(document, _check_document(document))
 
 
 def digest(path: Path) -> bytes:
@@ -98,12 +98,12 @@ def digest(path: Path) -> bytes:
         return b""
 
 
-def _checked(document: Document) -> CaseFile:
+def _check_document(document: Document) -> CaseFile:
     known = [document.problem(key, why) for key, why in document.misused]
     if lacks_time(document.data):
         known.append(document.problem(("time",), "is missing; instants of the run"))
     try:
-        found = _validated(document, document.data)
+        found = _validate(document, document.data)
     except ValidationError as error:
         findings = error.errors()
     else:
@@ -112,7 +112,7 @@ def _checked(document: Document) -> CaseFile:
         return found
     if guess := corrected(document.data, findings):
         try:
-            _validated(document, guess)
+            _validate(document, guess)
         except ValidationError as error:
             findings += error.errors()
     problems = dict.fromkeys(problem(document, each) for each in findings[:_MOST_PROBLEMS])
@@ -121,7 +121,7 @@ def _checked(document: Document) -> CaseFile:
     raise CaseError(*problems, *([f"{document.path}: and {more} more"] if more > 0 else []))
 
 
-def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
+def _validate(document: Document, data: dict[str, Any]) -> CaseFile:
     folder, confined = str(document.path.parent), document.confined
     return CaseFile.model_validate(data, context={"folder": folder, "confined": confined})
 

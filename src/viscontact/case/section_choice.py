@@ -33,25 +33,25 @@ class ChosenBy:
     ) -> CoreSchema:
         """Return the pydantic schema, which validates the chosen section."""
         self._union = source
-        return core_schema.with_info_plain_validator_function(self._validated)
+        return core_schema.with_info_plain_validator_function(self._validate)
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
         """Return the JSON schema of the union."""
-        return handler(self._whole.core_schema)
+        return handler(self._union_adapter.core_schema)
 
-    def _validated(self, given: Any, info: ValidationInfo) -> Any:
+    def _validate(self, given: Any, info: ValidationInfo) -> Any:
         key = self.discriminator
         name = given.get(key) if isinstance(given, dict) else getattr(given, key, None)
         if not isinstance(name, str) or name not in self._sections:
-            return self._whole.validate_python(given, context=info.context)  # refuses it
+            return self._union_adapter.validate_python(given, context=info.context)  # refuses it
         if name not in self._validators:
             self._validators[name] = _validator_of(self._sections[name], name, key)
         return self._validators[name].validate_python(given, context=info.context)
 
     @cached_property
-    def _whole(self) -> TypeAdapter[Any]:
+    def _union_adapter(self) -> TypeAdapter[Any]:
         union: Any = Annotated[self._union, Field(discriminator=self.discriminator)]
         return TypeAdapter(union)
 

@@ -70,7 +70,7 @@ def read_material(path: str | PathLike[str]) -> Material:
         raise CaseError(
             f"{path}: holds no material; a case file has a section material: with its law"
         )
-    return _alone(document, document.path.parent).built
+    return _lone_material(document, document.path.parent).built
 
 
 def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medium:
@@ -100,10 +100,10 @@ def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medi
     >>> read_section(keys, "typed").build().law
     Elastic(shear_modulus=1000000.0)
     """
-    return _alone(Document(Path(place), "", {"material": dict(section)}, {}), Path())
+    return _lone_material(Document(Path(place), "", {"material": dict(section)}, {}), Path())
 
 
-def _alone(document: Document, folder: Path) -> Medium:
+def _lone_material(document: Document, folder: Path) -> Medium:
     try:
         context = {"folder": str(folder)}
         return MaterialAlone.model_validate(document.data, context=context).material

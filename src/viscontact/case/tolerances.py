@@ -31,7 +31,7 @@ class NominalData:
 def nominal(data: dict[str, Any]) -> NominalData:
     """Replace numbers with a tolerance by their nominal values."""
     sections = ((name, data[name]) for name in SECTIONS if name in data)
-    found = [each for name, section in sections for each in _toleranced(section, (name,))]
+    found = [each for name, section in sections for each in _with_tolerance(section, (name,))]
     if not found:
         return NominalData(data)
     made, problems = NominalData(deepcopy(data)), []
@@ -51,13 +51,13 @@ def nominal(data: dict[str, Any]) -> NominalData:
     return NominalData(made.data, made.tolerances, tuple(problems))
 
 
-def _toleranced(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
+def _with_tolerance(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
     """Yield paths and texts of numbers with a tolerance, correct or not."""
     if isinstance(data, dict):
         for key, value in data.items():
-            yield from _toleranced(value, (*path, key))
+            yield from _with_tolerance(value, (*path, key))
     elif isinstance(data, list):
         for number, value in enumerate(data):
-            yield from _toleranced(value, (*path, number))
+            yield from _with_tolerance(value, (*path, number))
     elif isinstance(data, str) and path[-1] != "file" and _LOOKS_TOLERANCED.match(data):
         yield path, data

@@ -123,7 +123,7 @@ _INSTEAD = dict.fromkeys(
 
 def unknown_word(what: str, given: object, allowed: list[str]) -> str:
     """Message about an unknown key or value, with the nearest one and all that are allowed."""
-    word = _spelled(given)
+    word = _spelling(given)
     if what == "key" and word in _NOT_AVAILABLE:
         return f"{_NOT_AVAILABLE[word]}; see 'Limits' in the manual (trust/limits)"
     if what == "key" and word in _INSTEAD:
@@ -144,7 +144,7 @@ def _hint(what: str, given: object, allowed: list[str]) -> str:
 
 def meanings(given: object) -> dict[str, str]:
     """Keys that another word for a key may mean, the likeliest first, with a remark on each."""
-    return _MEANINGS.get(_spelled(given), {})
+    return _MEANINGS.get(_spelling(given), {})
 
 
 def nearest_word(given: object, allowed: list[str]) -> str | None:
@@ -155,5 +155,5 @@ def nearest_word(given: object, allowed: list[str]) -> str | None:
     return next(iter(difflib.get_close_matches(str(given), allowed, n=1)), None)
 
 
-def _spelled(given: object) -> str:
+def _spelling(given: object) -> str:
     return str(given).lower().replace("-", "_").replace(" ", "_")

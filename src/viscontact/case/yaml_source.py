@@ -37,7 +37,7 @@ _ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
     """Read YAML."""
     lines: dict[KeyPath, int] = {}
-    return _plain(_load(text), (), lines), lines
+    return _plain_data(_load(text), (), lines), lines
 
 
 def parse_value(text: str) -> Any:
@@ -95,7 +95,7 @@ def _bring_up_to_date(old: CommentedMap, new: dict[str, Any]) -> None:
         before = old.get(key)
         if isinstance(before, CommentedMap) and isinstance(value, dict):
             _bring_up_to_date(before, value)
-        elif key not in old or _plain(before, (), {}) != value:
+        elif key not in old or _plain_data(before, (), {}) != value:
             old[key] = value
 
 
@@ -162,7 +162,7 @@ def _line(error: MarkedYAMLError) -> int | None:
     return mark.line + 1 if mark else None
 
 
-def _plain(value: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
+def _plain_data(value: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
     """Convert the parser's containers to plain ones, and collect the lines."""
     if len(path) > _DEEPEST:
         raise SourceError("nested too deeply for a case file")
@@ -185,7 +185,7 @@ def _entry(container: Any, key: Any, path: KeyPath, lines: dict[KeyPath, int]) -
         lines[here] = known[key][0] + 1
     elif path in lines:
         lines[here] = lines[path]
-    return _plain(container[key], here, lines)
+    return _plain_data(container[key], here, lines)
 
 
 def _plain_scalar(value: Any) -> Any:

@@ -28,7 +28,7 @@ def run_of_parent() -> int:
         try:
             with interruption.postponed():
                 _import_run()
-            words = _received()
+            words = _read_arguments()
         except KeyboardInterrupt:
             return INTERRUPTED
         if not words:  # the parent needs no run any more
@@ -51,7 +51,7 @@ def _code_for_parent(end: CommandError) -> int:
     return RESUMABLE if end.resumable and end.code == STOPPED else end.code
 
 
-def _received() -> list[str]:
+def _read_arguments() -> list[str]:
     line = sys.stdin.buffer.readline()
     words: list[str] = json.loads(line) if line.endswith(b"\n") else []
     return words

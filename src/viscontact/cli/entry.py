@@ -38,7 +38,7 @@ def main(
     if arguments is None:
         remember_output()
     try:
-        return _watched(arguments, code_of)
+        return _run_watched(arguments, code_of)
     except KeyboardInterrupt:  # before or after the command
         say("interrupted")
         return INTERRUPTED
@@ -47,13 +47,13 @@ def main(
             gc.unfreeze()
 
 
-def _watched(arguments: Sequence[str] | None, code_of: Callable[[CommandError], int]) -> int:
+def _run_watched(arguments: Sequence[str] | None, code_of: Callable[[CommandError], int]) -> int:
     with watched_interruption(until_exit=arguments is None) as interruption:
         limit_libraries()
         typed = None if arguments is None else list(arguments)
         code = _exit_code(typed, interruption, code_of)
         interruption.over = True
-        return _flushed(code)
+        return _flush(code)
 
 
 def limit_libraries() -> None:
@@ -90,7 +90,7 @@ def _exit_code(
         return _error_code(error, interruption)
 
 
-def _flushed(code: int) -> int:
+def _flush(code: int) -> int:
     """Flush what was printed; where that fails, report it and return another exit code."""
     error = unwritten("stdout")
     if error is not None:

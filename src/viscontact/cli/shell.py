@@ -96,10 +96,10 @@ def command_for(words: Sequence[str] | None) -> Any:
     """Click command that runs some words, by default those of the process."""
     # To build the options of all commands takes a tenth of a second.
     first, *_ = [*(sys.argv[1:] if words is None else words), ""]
-    return _built(first if first in _NAMES else None)
+    return _click_command(first if first in _NAMES else None)
 
 
 @cache
-def _built(name: str | None) -> Any:
+def _click_command(name: str | None) -> Any:
     """Click command with one command, or with all of them; calling `app` would build it again."""
     return typer.main.get_command(app if name is None else _application([_NAMES[name]]))

@@ -155,7 +155,7 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
 
     ended = least_squares(
         lambda free: (model(free) - d) / scale,
-        _scaled(start, middle, extent, scale),
+        _scaled_curve(start, middle, extent, scale),
         jac="3-point",
         x_scale="jac",
         xtol=1e-12,
@@ -236,7 +236,7 @@ def _first_search(
     return best[1]
 
 
-def _scaled(
+def _scaled_curve(
     start: tuple[float, float, float, float], middle: float, extent: float, scale: float
 ) -> Floats:
     offset, slope, contact, modulus = start

@@ -77,7 +77,7 @@ class ForceCurve:
                 "ForceCurve: spring_constant must be a positive number in N/m, got "
                 f"{self.spring_constant!r}"
             )
-        if _falls(columns["position"], columns["deflection"]):
+        if _is_falling(columns["position"], columns["deflection"]):
             columns["position"] = -columns["position"]
         for name, column in columns.items():
             object.__setattr__(self, name, column)
@@ -113,7 +113,7 @@ def tabulated_curve(
     return ForceCurve(table["time"], table["position"], deflection, spring_constant)
 
 
-def _falls(position: Floats, deflection: Floats) -> bool:
+def _is_falling(position: Floats, deflection: Floats) -> bool:
     """True if the position falls on the way to the largest deflection."""
     peak = int(
         np.argmax(np.abs(deflection - np.median(deflection[: max(deflection.size // 10, 3)])))

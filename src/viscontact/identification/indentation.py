@@ -110,7 +110,7 @@ def fit_indentation(
         )
         return (response - measured)[counted] / scale
 
-    found, jacobian = _descended(residuals, shape)
+    found, jacobian = _minimise(residuals, shape)
     intervals, correlation = _confidence(shape, found, residuals(found), jacobian, confidence)
     _warn_of_vague(shape, intervals)
     values = shape.values(found)
@@ -171,7 +171,7 @@ def _apparent_modulus(record: IndentationRecord, poisson_ratio: float | None) ->
     return contact_modulus * (1 - nu) / 2
 
 
-def _descended(residuals: Callable[[Floats], Floats], shape: Candidate) -> tuple[Floats, Floats]:
+def _minimise(residuals: Callable[[Floats], Floats], shape: Candidate) -> tuple[Floats, Floats]:
     starts = [shape.free(np.array(start)) for start in shape.starts]
     tried = [_sum_of_squares(residuals, start) for start in starts]
     best = int(np.argmin(tried))

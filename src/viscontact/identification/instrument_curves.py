@@ -77,7 +77,7 @@ def read_force_curve(
     if not file.is_file():
         raise FileNotFoundError(f"{file}: there is no such file")
     name = file.name
-    curve = _chosen(name, _loaded(file), behind if number is None else number)
+    curve = _choose_curve(name, _load_curves(file), behind if number is None else number)
     columns = {column: _column(name, curve, column) for column in ("time", "force")}
     position = next((each for each in _POSITIONS if each in curve.columns), None)
     if position is None:
@@ -96,7 +96,7 @@ def read_force_curve(
         raise ValueError(f"{name}: {error}") from error
 
 
-def _loaded(file: Path) -> list[Any]:
+def _load_curves(file: Path) -> list[Any]:
     """Curves of a file in the order of their numbers, as afmformats gives them."""
     try:
         import afmformats  # takes half a second, and few files need it
@@ -128,7 +128,7 @@ def _refused_by_name(name: str) -> Iterator[None]:
         raise ValueError(f"{name}: cannot be read as force curves: {why}") from error
 
 
-def _chosen(name: str, curves: list[Any], number: int | None) -> Any:
+def _choose_curve(name: str, curves: list[Any], number: int | None) -> Any:
     if not curves:
         raise ValueError(f"{name}: has no force curve")
     if number is None and len(curves) > 1:

@@ -149,7 +149,7 @@ def build_master_curve(
     [0.92, 0.0, -0.8]
     """
     [reference] = positive_column(_OWNER, "reference_temperature", [reference_temperature], "K")
-    ordered = _ordered(isotherms, least=2 if shift is None else 1)
+    ordered = _order_isotherms(isotherms, least=2 if shift is None else 1)
     temperatures = np.array([isotherm.temperature for isotherm in ordered])
     if shift is not None:
         factors = shift.factor(temperatures) / shift.factor(float(reference))
@@ -205,7 +205,7 @@ def fit_master_curve(
     return fit_measured(curve.points, curve.measured, weights=weights, **options)
 
 
-def _ordered(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:
+def _order_isotherms(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:
     if len(isotherms) < least:
         raise ValueError(f"{_OWNER}: needs at least {least} sets, got {len(isotherms)}")
     ordered = tuple(sorted(isotherms, key=lambda isotherm: isotherm.temperature))

@@ -78,7 +78,7 @@ def _law(law: Law) -> list[str]:
     for field in fields(law):
         value, write = getattr(law, field.name), _WRITTEN[field.name]
         if isinstance(value, tuple):
-            lines.append(f"{field.name}: {_listed(map(write, value))}")
+            lines.append(f"{field.name}: {_list_words(map(write, value))}")
         elif value != 0 or field.name not in _OPTIONAL[type(law)]:
             lines.append(f"{field.name}: {write(value)}")
     return lines
@@ -92,7 +92,7 @@ def _volume(poisson_ratio: float | None, bulk_modulus: float | None) -> str:
     return "# the data are of shear alone: add poisson_ratio, or bulk_modulus"
 
 
-def _listed(words: Iterable[str]) -> str:
+def _list_words(words: Iterable[str]) -> str:
     return f"[{', '.join(words)}]"
 
 

@@ -77,7 +77,7 @@ def fit_wlf(temperatures: ArrayLike, factors: ArrayLike, reference_temperature: 
     >>> round(fit.shift.c1, 4), round(fit.shift.c2, 4)
     (12.0, 70.0)
     """
-    above, logs = _checked("fit_wlf", temperatures, factors, reference_temperature, least=3)
+    above, logs = _check("fit_wlf", temperatures, factors, reference_temperature, least=3)
     pole = max(0.0, -float(above.min()))
 
     def rule(parameters: Floats) -> Floats:
@@ -126,7 +126,7 @@ def fit_arrhenius(
     >>> round(fit.shift.activation_energy, 3)
     90000.0
     """
-    above, logs = _checked("fit_arrhenius", temperatures, factors, reference_temperature, least=2)
+    above, logs = _check("fit_arrhenius", temperatures, factors, reference_temperature, least=2)
     inverse = 1.0 / (above + reference_temperature) - 1.0 / reference_temperature
     slope = np.log(10.0) * float(inverse @ logs) / float(inverse @ inverse)
     if not slope > 0:
@@ -138,7 +138,7 @@ def fit_arrhenius(
     return _fit(shift, slope * inverse / np.log(10.0) - logs)
 
 
-def _checked(
+def _check(
     owner: str, temperatures: ArrayLike, factors: ArrayLike, reference: float, least: int
 ) -> tuple[Floats, Floats]:
     T = positive_column(owner, "temperatures", temperatures, "K")

@@ -42,20 +42,20 @@ def _panels(edges: Floats, nodes: Floats) -> Floats:
     return edges[:-1, None] + half * (1 + nodes)
 
 
-def _halved(times: int) -> Floats:
+def _halved_edges(times: int) -> Floats:
     """Edges of panels on [0, 1], halved ``times`` times towards 0."""
     return np.concatenate([[0.0], 0.5 ** np.arange(times, -1, -1)])
 
 
-_TO_ZERO = _halved(48)  # down to the rounding of the interval's length
+_TO_ZERO = _halved_edges(48)  # down to the rounding of the interval's length
 _STIELTJES = _stieltjes_matrix()
 # A path is halved less often towards its end: over the innermost panel it is straight, and its
 # increments over shorter ones would be rounding only. The kernel may still vary there, even
 # be infinite at lag 0, and is averaged over it.
-_PATH_EDGES = np.concatenate([_TO_ZERO / 2, 1 - _halved(30)[-2::-1] / 2])
+_PATH_EDGES = np.concatenate([_TO_ZERO / 2, 1 - _halved_edges(30)[-2::-1] / 2])
 _PATH_FRACTIONS = _panels(_PATH_EDGES, _NODES)
 # The same panels counted back from the end, so that the shortest lags keep their digits.
-_LAG_EDGES = np.concatenate([_halved(30) / 2, 1 - _TO_ZERO[-2::-1] / 2])
+_LAG_EDGES = np.concatenate([_halved_edges(30) / 2, 1 - _TO_ZERO[-2::-1] / 2])
 _LAG_FRACTIONS = _panels(_LAG_EDGES, _GAUSS)[::-1, ::-1]
 _INNERMOST_FRACTIONS = _LAG_EDGES[1] * _panels(_TO_ZERO**3, _GAUSS)
 _INNERMOST_WEIGHTS = np.diff(_TO_ZERO**3)[:, None] / 2 * _WEIGHTS

@@ -121,7 +121,7 @@ def press_axisymmetric(
     _require_counts(elements=elements, substeps=substeps)
     steps = load_steps(instants, load, by_approach=approach is not None, substeps=substeps)
     law = LagCompliance(lag_mean(creep_compliance), instant_compliance(creep_compliance))
-    rods, results = _marched(profile, steps, law, elements)
+    rods, results = _march(profile, steps, law, elements)
     kept = [results[k] for k in steps.given]
     radii = profile.reach(np.array([result.state.front for result in kept]))
     return AxisymmetricContact(
@@ -143,13 +143,13 @@ def press_axisymmetric(
     )
 
 
-def _marched(
+def _march(
     profile: Profile, steps: LoadSteps, law: LagCompliance, elements: int
 ) -> tuple[Rods, list[StepEnd]]:
     """Solve with elements whose range covers the largest contact radius."""
     deepest = deepest_approach(profile, steps, law)
     if not steps.by_approach and elements > _COARSE_ELEMENTS:
-        _, coarse = _marched(profile, steps, law, _COARSE_ELEMENTS)
+        _, coarse = _march(profile, steps, law, _COARSE_ELEMENTS)
         deepest = 1.002 * max(result.state.approach for result in coarse) or deepest
     while True:
         rods = placed_rods(profile, deepest, elements)

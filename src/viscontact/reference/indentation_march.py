@@ -104,7 +104,7 @@ def march(rods: Rods, steps: LoadSteps, law: LagCompliance) -> Iterator[StepEnd]
                 else (solve_at_force(rods, step, load, guess))
             )
             _require_circle(rods, steps, step, after, load, end)
-            now = _recorded(rods, history, step, before, after, (begin, end))
+            now = _record_step(rods, history, step, before, after, (begin, end))
         yield now
         if step.duration > 0:
             rate = (now.state.approach - before.approach) / step.duration
@@ -163,7 +163,7 @@ def _require_circle(
             )
 
 
-def _recorded(
+def _record_step(
     rods: Rods,
     history: RodHistory,
     step: RodStep,

@@ -45,7 +45,7 @@ class TingHump(SinglePress):
     end: float
     relaxation_modulus: TimeFunction
 
-    def _earlier(self, t: Floats) -> Floats:
+    def _earlier_instants(self, t: Floats) -> Floats:
         # Integral of M(t - t') dw(t') from t_1 to t = 0 (Ting 1966).
         low, high = np.zeros_like(t), np.minimum(t, self.peak_time)
         out = t > self.peak_time
@@ -58,17 +58,17 @@ class TingHump(SinglePress):
         return high
 
     def _contact_radius(self, t: Floats) -> Floats:
-        earlier = self._earlier(t)
-        radius = self.profile.reach(np.maximum(self._at(earlier), 0.0))
+        earlier = self._earlier_instants(t)
+        radius = self.profile.reach(np.maximum(self._radius_at(earlier), 0.0))
         return np.where(earlier > 0, radius, 0.0)
 
     def _force(self, t: Floats) -> Floats:
         # 2 integral of M(t - t') a(t') dw(t') from 0 to t_1 (Ting 1966)
-        earlier, force = self._earlier(t), np.zeros_like(t)
+        earlier, force = self._earlier_instants(t), np.zeros_like(t)
         pressed = earlier > 0
         start = np.zeros(int(pressed.sum()))
         force[pressed] = 2 * superposed(
-            self.relaxation_modulus, self._swept, start, earlier[pressed], t[pressed]
+            self.relaxation_modulus, self._swept_area, start, earlier[pressed], t[pressed]
         )
         return force
 
@@ -87,15 +87,15 @@ class TingHump(SinglePress):
     def _path_load(self, start: Floats, now: Floats) -> Floats:
         """Integral of M(now - t') dw(t') from the loading instant `start` to `now` [Pa m]."""
         peak = np.full_like(now, self.peak_time)
-        way_in = superposed(self.relaxation_modulus, self._at, start, peak, now)
-        return way_in + superposed(self.relaxation_modulus, self._at, peak, now, now)
+        way_in = superposed(self.relaxation_modulus, self._radius_at, start, peak, now)
+        return way_in + superposed(self.relaxation_modulus, self._radius_at, peak, now, now)
 
-    def _at(self, instants: Floats) -> Floats:
+    def _radius_at(self, instants: Floats) -> Floats:
         return evaluate(self.approach, instants)
 
-    def _swept(self, instants: Floats) -> Floats:
+    def _swept_area(self, instants: Floats) -> Floats:
         """Integral of a dw up to instants during loading, s g(s) less the integral of g [m²]."""
-        depth = np.maximum(self._at(instants), 0.0)
+        depth = np.maximum(self._radius_at(instants), 0.0)
         s = self.profile.reach(depth)
         return s * depth - self.profile.depth_integral(s)
 
@@ -150,8 +150,8 @@ def ting_hump(
     if not peak_time < end:
         raise ValueError(f"end: wanted an instant after the peak at {peak_time!r} s, got {end!r} s")
     hump = TingHump(profile, approach, peak_time, end, relaxation_modulus)
-    rising = hump._at(np.linspace(0.0, peak_time, 101))
-    falling = hump._at(np.linspace(peak_time, end, 101))
+    rising = hump._radius_at(np.linspace(0.0, peak_time, 101))
+    falling = hump._radius_at(np.linspace(peak_time, end, 101))
     if (
         abs(rising[0]) > 1e-12 * rising[-1]
         or np.any(np.diff(rising) < 0)

@@ -77,8 +77,8 @@ class SinglePress(TingContact):
         float or ndarray
             t_1, t itself while the contact grows, 0 after contact is lost [s].
         """
-        return over_times(self._earlier, t)
+        return over_times(self._earlier_instants, t)
 
     @abstractmethod
-    def _earlier(self, t: Floats) -> Floats:
+    def _earlier_instants(self, t: Floats) -> Floats:
         """Instants of equal radius during growth at times in a line [s]."""

@@ -114,13 +114,13 @@ class TingCycles(TingContact):
         """Instants of contact and loss of contact at the radius s in a cycle [s]."""
         b = self.rise
         touched = b * self.profile.depth(s) / self.peak
-        lost = self._parted(touched, 0)
+        lost = self._separation_times(touched, 0)
         for k in range(1, cycle + 1):
             touched = 4 * k * b - lost  # contact begins at the approach at which it was lost
-            lost = self._parted(touched, k)
+            lost = self._separation_times(touched, k)
         return touched, lost
 
-    def _parted(self, touched: Floats, cycle: int) -> Floats:
+    def _separation_times(self, touched: Floats, cycle: int) -> Floats:
         """Instants of loss of contact at radii in contact in a cycle [s]."""
         tau, top = self.relaxation_time, (2 * cycle + 1) * self.rise
         lost: Floats = top + tau * np.log(2 - np.exp((touched - top) / tau))

@@ -50,7 +50,7 @@ class TingForceTriangle(SinglePress):
     def _force(self, t: Floats) -> Floats:
         return self.peak / self.rise * np.minimum(t, 2 * self.rise - t)
 
-    def _earlier(self, t: Floats) -> Floats:
+    def _earlier_instants(self, t: Floats) -> Floats:
         b, tau = self.rise, self.relaxation_time
         left = (2 * b - t) / tau
         on_rise = tau * lambertw(left * np.exp(t / tau)).real
@@ -61,7 +61,7 @@ class TingForceTriangle(SinglePress):
 
     def _contact_radius(self, t: Floats) -> Floats:
         # a³ = (3 R/4) J * dF at t_1
-        return np.cbrt(self._cube(self._earlier(t)))
+        return np.cbrt(self._cube(self._earlier_instants(t)))
 
     def approach(self, t: ArrayLike) -> Values:
         """Approach of the bodies [m].
@@ -81,9 +81,9 @@ class TingForceTriangle(SinglePress):
         return over_times(self._approach, t)
 
     def _approach(self, t: Floats) -> Floats:
-        pairs = zip(t, self._earlier(t), strict=True)
+        pairs = zip(t, self._earlier_instants(t), strict=True)
         return np.array(
-            [self._grown(now) if now <= self.widest else self._shrunk(then) for now, then in pairs]
+            [self._rise(now) if now <= self.widest else self._fall(then) for now, then in pairs]
         )
 
     def _cube(self, times: Values) -> Values:
@@ -94,10 +94,10 @@ class TingForceTriangle(SinglePress):
         cube: Values = 0.75 * self.radius * self.peak / self.rise / self.modulus * crept
         return cube
 
-    def _grown(self, then: float) -> float:
+    def _rise(self, then: float) -> float:
         return float(np.cbrt(self._cube(np.float64(then)))) ** 2 / self.radius
 
-    def _shrunk(self, then: float) -> float:
+    def _fall(self, then: float) -> float:
         """Approach when the shrinking contact again has the radius of time t [m]."""
         b, tau, rate = self.rise, self.relaxation_time, self.peak / self.rise
 
@@ -117,7 +117,7 @@ class TingForceTriangle(SinglePress):
             quad(lambda x: 3 * x**2 * slope(x**3), low ** (1 / 3), high ** (1 / 3), epsrel=1e-12)[0]
             for low, high in itertools.pairwise(corners)
         ]
-        return self._grown(self.widest) - float(sum(parts))
+        return self._rise(self.widest) - float(sum(parts))
 
 
 def ting_force_triangle(

@@ -59,17 +59,17 @@ class TingTriangle(SinglePress):
         times = np.asarray(t, dtype=np.float64)
         return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
 
-    def _earlier(self, t: Floats) -> Floats:
+    def _earlier_instants(self, t: Floats) -> Floats:
         return np.array([self._earlier_than(float(now)) for now in t])
 
     def _contact_radius(self, t: Floats) -> Floats:
-        return self.profile.reach(self.peak / self.rise * self._earlier(t))
+        return self.profile.reach(self.peak / self.rise * self._earlier_instants(t))
 
     def _force(self, t: Floats) -> Floats:
         # 2 integral of M(t - t') a(t') dw(t') from 0 to t_1, a(t') = a(1) t'^p, p = 1/2 for a
         # sphere and 1 for a cone. Integral of exp(-(t - t')/τ) t'^p from 0 to x =
         # exp(-(t - x)/τ) x^(1+p)/(1+p) 1F1(1; 2+p; -x/τ) (DLMF 13.4.1 and 13.2.39).
-        x = self._earlier(t)
+        x = self._earlier_instants(t)
         p = 0.5 if isinstance(self.profile, SphereProfile) else 1.0
         weighted = np.full(x.shape, self.equilibrium)
         for modulus, tau in zip(self.moduli, self.times, strict=True):

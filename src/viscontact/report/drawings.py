@@ -33,7 +33,7 @@ BODIES = {"material": "Half-space", "indenter_material": "Indenter"}
 def geometry(ds: xr.Dataset) -> Element:
     """Drawing of the indenter, with the largest contact shaded."""
     wide = drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
-    return _both(wide, partial(_small_sections, ds))
+    return _wide_or_small(wide, partial(_small_sections, ds))
 
 
 def is_drawn_from_fields(ds: xr.Dataset) -> bool:
@@ -52,7 +52,7 @@ def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
                 yield title, element("p", elastic)
                 continue
             wide = drawn(partial(_curves, ds, part), about)
-            yield title, _both(wide, partial(_small_curves, ds, part))
+            yield title, _wide_or_small(wide, partial(_small_curves, ds, part))
 
 
 def _elastic_text(ds: xr.Dataset, part: str) -> str:
@@ -100,7 +100,7 @@ def _small_curves(ds: xr.Dataset, part: str) -> list[Element]:
     return [each for name, law in laws.items() for each in law_drawings(law, name)]
 
 
-def _both(wide: Element, small: Callable[[], list[Element]]) -> Element:
+def _wide_or_small(wide: Element, small: Callable[[], list[Element]]) -> Element:
     """A drawing, and the smaller ones that take its place on a phone."""
     if wide.tag == "p":  # which says why there is none
         return wide

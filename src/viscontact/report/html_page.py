@@ -40,14 +40,14 @@ def _scripts(figures: Sequence[Figure]) -> str:
 <script>
 (() => {{
 "use strict";
-{_linked()}
+{_figures_script()}
 open(JSON.parse(document.getElementById("figures").textContent));
 }})();
 </script>
 """
 
 
-def _linked() -> str:
+def _figures_script() -> str:
     """Script of the figures, which is a module on the calculator page, as part of another."""
     script = (files("viscontact.drawing.plotly") / "linked.js").read_text(encoding="utf-8")
     return script.replace("export function", "function")

@@ -54,22 +54,22 @@ def inputs(ds: xr.Dataset) -> list[InputRow]:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)
         found.insert(place, InputRow(_PARTS["indenter_material"], "law", "rigid"))
     found += [*_steady(case), *_steps(case)]
-    return _beside(found, _typed(FiledCase.of(ds.attrs).case_as_typed))
+    return _merge_rows(found, _typed_rows(FiledCase.of(ds.attrs).case_as_typed))
 
 
-def _typed(case: Mapping[str, Any]) -> Iterator[InputRow]:
+def _typed_rows(case: Mapping[str, Any]) -> Iterator[InputRow]:
     for key, title in _TYPED_PARTS.items():
         for name, text in typed_rows(case.get(key)):
             yield InputRow(title, name, typed=text)
 
 
-def _beside(computed: list[InputRow], typed: Iterable[InputRow]) -> list[InputRow]:
+def _merge_rows(computed: list[InputRow], typed: Iterable[InputRow]) -> list[InputRow]:
     """Put the typed values beside the computed ones of the same name, the others before these."""
     values = {(each.part, each.name): each.value for each in computed}
     rows: dict[str, list[InputRow]] = {part: [] for part in _TYPED_PARTS.values()}
     for each in typed:
         value = values.pop((each.part, each.name), "")
-        same = _plain(value) == _plain(each.typed)
+        same = _normal_text(value) == _normal_text(each.typed)
         rows[each.part].append(replace(each, value="" if same else value))
     for each in computed:
         if (each.part, each.name) in values:
@@ -77,7 +77,7 @@ def _beside(computed: list[InputRow], typed: Iterable[InputRow]) -> list[InputRo
     return [each for part in rows.values() for each in part]
 
 
-def _plain(text: str) -> str:
+def _normal_text(text: str) -> str:
     """Text without what the two notations differ in."""
     return text.replace("-", " ").replace("um", "µm").replace(" ", "").replace("×", ",")
 

@@ -125,7 +125,7 @@ def _reasons(ds: xr.Dataset) -> Element | None:
     """List of the runs with a message; None without any."""
     states, messages, names = (ds[name].values.ravel() for name in ("state", "message", "name"))
     numbers = np.flatnonzero(messages != "").tolist()
-    return _first([f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers])
+    return _list_of_first([f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers])
 
 
 def _changes(ds: xr.Dataset) -> Element | None:
@@ -134,10 +134,10 @@ def _changes(ds: xr.Dataset) -> Element | None:
         return None
     names, settings = (ds[name].values.ravel() for name in ("name", "changed"))
     numbers = np.flatnonzero(settings != "").tolist()
-    return _first([f"{names[run]}: with its own {settings[run]}" for run in numbers])
+    return _list_of_first([f"{names[run]}: with its own {settings[run]}" for run in numbers])
 
 
-def _first(lines: list[str]) -> Element | None:
+def _list_of_first(lines: list[str]) -> Element | None:
     """List of the first lines, and the number of the others; None without any."""
     more = len(lines) - MOST_REASONS
     return listed([*lines[:MOST_REASONS], f"... and {more} more" if more > 0 else ""])

@@ -73,7 +73,7 @@ def format_error(error: float) -> str:
     """Format the half width of an error bar with two significant digits."""
     if not math.isfinite(error):
         return "±?" if math.isnan(error) else MESH_MARK
-    return "±0" if error == 0 else f"±{format_number(_rounded(error), _ERROR_DIGITS)}"
+    return "±0" if error == 0 else f"±{format_number(_round(error), _ERROR_DIGITS)}"
 
 
 def format_percent(part: float) -> str:
@@ -92,10 +92,10 @@ def format_bound(part: float) -> str:
     return f"below {percent[1:]}" if percent.startswith("<") else f"at most {percent}"
 
 
-def _rounded(value: float) -> float:
+def _round(value: float) -> float:
     return float(f"{abs(value) * _TIES_UP:.{_ERROR_DIGITS - 1}e}")
 
 
 def _leading(value: float) -> int:
     """Place of the first digit once the number is rounded to two: 0 for ones, -1 for tenths."""
-    return math.floor(math.log10(_rounded(value)))
+    return math.floor(math.log10(_round(value)))

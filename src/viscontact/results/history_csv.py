@@ -51,7 +51,7 @@ def _pressures(ds: xr.Dataset, points: Sequence[tuple[float, float]]) -> dict[st
                     f"{name} = {format_quantity(place, 'm')} is beyond the cells, which go from "
                     f"{format_quantity(low, 'm')} to {format_quantity(high, 'm')}"
                 )
-        known = dict(zip(stored.tolist(), _at(ds["pressure"], x=x, y=y).values, strict=True))
+        known = dict(zip(stored.tolist(), _field_at(ds["pressure"], x=x, y=y).values, strict=True))
         column = [float(known.get(row, math.nan)) for row in rows.tolist()]
         found[f"pressure at x={x:.12g} m y={y:.12g} m [Pa]"] = column
     return found
@@ -87,7 +87,7 @@ def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
         yield cells
 
 
-def _at(field: xr.DataArray, **place: float) -> xr.DataArray:
+def _field_at(field: xr.DataArray, **place: float) -> xr.DataArray:
     """Field at a place; along a single cell of a period it is the same everywhere."""
     for name, coordinate in place.items():
         single = field.sizes[name] == 1

@@ -24,7 +24,7 @@ def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArra
 def compared_scalars(ds: xr.Dataset) -> list[str]:
     """Names of the chief scalars of a sweep that differ between its runs, and are not varied."""
     sizes = {name: largest_values(ds, name)[0] for name in chief_scalars(ds)}
-    return [name for name, each in sizes.items() if np.ptp(_known(each)) > 1e-6 * each.max()]
+    return [name for name, each in sizes.items() if np.ptp(_known_values(each)) > 1e-6 * each.max()]
 
 
 def chief_scalars(ds: xr.Dataset) -> list[str]:
@@ -34,12 +34,12 @@ def chief_scalars(ds: xr.Dataset) -> list[str]:
     for name in shown_in(Place.KEY, ds):
         if name in given or (name in OF_LONG_CONTACTS and not _has_long_contact(ds)):
             continue
-        if _known(largest_values(ds, name)[0]).size:
+        if _known_values(largest_values(ds, name)[0]).size:
             found.append(name)
     return found
 
 
-def _known(values: xr.DataArray) -> Floats:
+def _known_values(values: xr.DataArray) -> Floats:
     found: Floats = values.values[np.isfinite(values.values)]
     return found
 

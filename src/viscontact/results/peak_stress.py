@@ -45,12 +45,12 @@ def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
     place = float(run_axis(ds).values(ds)[row])
     if peaks[row] == 0:
         return PeakStress(0.0, 0.0, place, 0.0)
-    field = _loaded(_field_at(ds, place))
-    found = _largest(field, _depths(field, ds, row), name)
+    field = _loaded_part(_field_at(ds, place))
+    found = _locate_largest(field, _depths(field, ds, row), name)
     relative = float(errors_of(ds, "peak_pressure")[row]) / float(peaks[row])
     coarse = _coarser(field)
     change = (
-        np.nan if coarse is None else abs(_over(coarse, found.around, name).max() - found.value)
+        np.nan if coarse is None else abs(_peaks(coarse, found.around, name).max() - found.value)
     )
     error = found.value * relative + change + found.error
     return PeakStress(found.value, error, place, found.depth, _plane(field, found.depth, name))
@@ -71,7 +71,7 @@ def _field_at(ds: xr.Dataset, place: float) -> xr.Dataset:
     return ds[["pressure"]].isel({over: stored[:1]}).load()
 
 
-def _loaded(field: xr.Dataset) -> xr.Dataset:
+def _loaded_part(field: xr.Dataset) -> xr.Dataset:
     """Smallest part of the grid that contains all pressure; a period is kept."""
     pressed = (field["pressure"] != 0).any(str(field["pressure"].dims[0]))
     grid = recorded_grid(field)
@@ -98,11 +98,11 @@ class _LocatedPeak:
     around: Floats  # depths searched last [m]
 
 
-def _largest(field: xr.Dataset, depths: Floats, name: str) -> _LocatedPeak:
+def _locate_largest(field: xr.Dataset, depths: Floats, name: str) -> _LocatedPeak:
     """Search for the largest of a stress over some depths [m], and then between two of them."""
-    at = int(_over(field, depths, name).argmax())
+    at = int(_peaks(field, depths, name).argmax())
     close = np.linspace(depths[max(at - 1, 0)], depths[min(at + 1, depths.size - 1)], _CLOSE)
-    finer = _over(field, close, name)
+    finer = _peaks(field, close, name)
     best = int(finer.argmax())
     value, depth, error = float(finer[best]), float(close[best]), 0.0
     if 0 < best < _CLOSE - 1:  # up to the vertex of the parabola through three depths
@@ -114,7 +114,7 @@ def _largest(field: xr.Dataset, depths: Floats, name: str) -> _LocatedPeak:
     return _LocatedPeak(value + error, depth, error, close)
 
 
-def _over(field: xr.Dataset, depths: Floats, name: str) -> Floats:
+def _peaks(field: xr.Dataset, depths: Floats, name: str) -> Floats:
     """Largest stress at each depth on the planes of x and y through the largest pressure [Pa]."""
     return np.asarray(np.maximum(*_on_planes(field, depths, name)))
 

@@ -73,9 +73,9 @@ class Snapshot:
             np.concatenate([at[0] - step[::-1], at, at[-1] + step])
             for at, step in zip((self.x, self.y), beyond.T, strict=True)
         )
-        pressure = _padded(self.pressure, cells, self.periodic, 0.0)
-        gap = _padded(self.gap, cells, self.periodic, np.inf)
-        touched = _padded(self.in_contact, cells, self.periodic, False)
+        pressure = _pad(self.pressure, cells, self.periodic, 0.0)
+        gap = _pad(self.gap, cells, self.periodic, np.inf)
+        touched = _pad(self.in_contact, cells, self.periodic, False)
         end = self.body_end
         body_end = None if end is None else _with_border(end, cells, self.periodic)
         return Snapshot(self.time, x, y, pressure, gap, touched, body_end, axis=self.axis)
@@ -123,7 +123,7 @@ class Snapshot:
         return self.x, self.pressure.sum(axis=1) * self.cell_size[1]
 
 
-def _padded(field: Field, cells: int, periodic: AxisFlags, beyond: float) -> Field:
+def _pad(field: Field, cells: int, periodic: AxisFlags, beyond: float) -> Field:
     """Field with more cells at each border: those of the next period, or a value."""
     for axis in (0, 1):
         width = [(cells, cells) if axis == each else (0, 0) for each in (0, 1)]
@@ -138,5 +138,5 @@ def _with_border(body_end: Outline, cells: int, periodic: AxisFlags) -> Outline:
     # Where the body ends between one period and the next is not known.
     along_x = np.pad(body_end.along_x, ((0, 1), (0, 0)), constant_values=np.nan)
     along_y = np.pad(body_end.along_y, ((0, 0), (0, 1)), constant_values=np.nan)
-    along_x, along_y = (_padded(each, cells, periodic, np.nan) for each in (along_x, along_y))
+    along_x, along_y = (_pad(each, cells, periodic, np.nan) for each in (along_x, along_y))
     return Outline(along_x[:-1], along_y[:, :-1])

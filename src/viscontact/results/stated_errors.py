@@ -98,19 +98,19 @@ def is_rounding(ds: Result, name: str) -> bool:
     # Tilts and eccentricities under a centred load are, and the resistance across the motion.
     if is_centred(ds, name):
         return True
-    largest = _largest(ds[name].values)
+    largest = _maximum(ds[name].values)
     return largest == 0.0 or largest <= _rounding_of_motion(ds, name)
 
 
 def _rounding_of_motion(ds: Result, name: str) -> float:
     """Largest rounding of a scalar of the motion, in its unit; 0 for other scalars."""
     if name.startswith("resistance"):
-        return _ROUNDING_RESISTANCE * _largest(ds["force"].values)
+        return _ROUNDING_RESISTANCE * _maximum(ds["force"].values)
     if name == "friction_coefficient":
         return _ROUNDING_RESISTANCE
     if name == "motion_work":
         way = max(np.ptp(ds[f"position_{axis}"].values) for axis in "xy")
-        return _ROUNDING_RESISTANCE * _largest(ds["force"].values) * float(way)
+        return _ROUNDING_RESISTANCE * _maximum(ds["force"].values) * float(way)
     return 0.0
 
 
@@ -120,15 +120,15 @@ def is_centred(ds: Result, name: str) -> bool:
         length = ds["contact_length"].values
         approach = ds["approach"].values if is_shown(ds, "approach") else _USUAL_STRAIN * length
         return is_rounding_tilt(ds[name].values, length, approach)
-    return name.startswith("eccentricity") and _largest(ds[name].values) <= _ROUNDING_ECCENTRICITY
+    return name.startswith("eccentricity") and _maximum(ds[name].values) <= _ROUNDING_ECCENTRICITY
 
 
 def is_rounding_tilt(tilt: ArrayLike, contact_length: ArrayLike, approach: ArrayLike) -> bool:
     """Test for a tilt [rad] of rounding size, as a centred load leaves; NaN is ignored."""
     # It moves the ends of the longest contact by less than a millionth of the largest approach.
-    return _largest(tilt) * _largest(contact_length) <= _ROUNDING_TILT * _largest(approach)
+    return _maximum(tilt) * _maximum(contact_length) <= _ROUNDING_TILT * _maximum(approach)
 
 
-def _largest(values: ArrayLike) -> float:
+def _maximum(values: ArrayLike) -> float:
     magnitudes = np.abs(np.atleast_1d(np.asarray(values, dtype=np.float64)))
     return float(magnitudes[np.isfinite(magnitudes)].max(initial=0.0))

@@ -92,7 +92,7 @@ class StressSource:
     ) -> Stress:
         """Stresses on a vertical plane at stored instants by index; (instants, nz, nx or ny)."""
         bodies = len(self.responses)
-        return self._summed(
+        return self._sum(
             stress_on_section(
                 *(fields, self.grid, depths, body),
                 x=x,
@@ -106,12 +106,12 @@ class StressSource:
 
     def on_plane(self, places: Sequence[int], depth: float) -> Stress:
         """Stresses on a plane parallel to the surface; (instants, nx, ny)."""
-        return self._summed(
+        return self._sum(
             stress_on_plane(fields, self.grid, depth, body)
             for fields, body in zip(self._pressures(places), self.responses, strict=True)
         )
 
-    def _summed(self, parts: Iterable[Stress]) -> Stress:
+    def _sum(self, parts: Iterable[Stress]) -> Stress:
         return Stress(sum((part.components for part in parts), start=np.zeros(())))
 
     def depths(self, deepest: float) -> Floats:

@@ -99,7 +99,7 @@ def section_stresses(
         along: results[along],
     }
     attributes = {"splitting_error": source.splitting_error}
-    return xr.Dataset(_labelled(found, along), coords=coordinates, attrs=attributes)
+    return xr.Dataset(_variables(found, along), coords=coordinates, attrs=attributes)
 
 
 def _usual_depth(results: xr.Dataset, grid: Grid) -> float:
@@ -114,7 +114,7 @@ def _usual_depth(results: xr.Dataset, grid: Grid) -> float:
     return REACH * half_width
 
 
-def _labelled(found: Stress, along: str) -> dict[str, Any]:
+def _variables(found: Stress, along: str) -> dict[str, Any]:
     """Variables over time, depth and the section."""
     fields: dict[str, Any] = {}
     for name in COMPONENTS:

@@ -74,32 +74,32 @@ def verdicts(ds: xr.Dataset) -> list[Verdict]:
     """Return the verdicts of a result on the allowable values of its case."""
     # A finished run may state them; else they are computed, and what has passed so far is
     # undecided.
-    given = _given(ds)
+    given = _limits(ds)
     if all("verdict" in each for each in given.values()):
-        return [_read(name, each) for name, each in given.items()]
+        return [_verdict_from(name, each) for name, each in given.items()]
     found = (verdict_on(ds, name, float(each["limit"])) for name, each in given.items())
     return [_so_far(each) for each in found] if not ds.attrs.get("complete", 1) else list(found)
 
 
 def limits_of(ds: xr.Dataset) -> dict[str, float]:
     """Return the limits of the quantities in SI units, by name."""
-    return {name: float(each["limit"]) for name, each in _given(ds).items()}
+    return {name: float(each["limit"]) for name, each in _limits(ds).items()}
 
 
 def stated_limits(ds: xr.Dataset) -> list[tuple[str, str]]:
     """Return names of the limited quantities and the limits with their units."""
-    limits = (Verdict(name, each["limit"], "undecided") for name, each in _given(ds).items())
+    limits = (Verdict(name, each["limit"], "undecided") for name, each in _limits(ds).items())
     return [(each.label, each.allowed) for each in limits]
 
 
 def final_verdicts(ds: xr.Dataset) -> list[Verdict]:
     """Return the verdicts on a run whose last row is there, whatever the result states so far."""
-    return [verdict_on(ds, name, float(each["limit"])) for name, each in _given(ds).items()]
+    return [verdict_on(ds, name, float(each["limit"])) for name, each in _limits(ds).items()]
 
 
 def verdict_attribute(found: Sequence[Verdict]) -> str:
     """Return the attribute `allowable` of a result, as JSON."""
-    return json.dumps({each.name: _plain(each) for each in found})
+    return json.dumps({each.name: _plain_numbers(each) for each in found})
 
 
 def verdict_on(ds: xr.Dataset, name: str, limit: float) -> Verdict:
@@ -111,7 +111,7 @@ def verdict_on(ds: xr.Dataset, name: str, limit: float) -> Verdict:
     if name not in ds:
         return Verdict(name, limit, "undecided", reason="the result does not have it")
     values, errors = np.abs(np.asarray(ds[name].values, dtype=float)), errors_of(ds, name)
-    return _compared(name, limit, values, errors, run_axis(ds).values(ds))
+    return _compare(name, limit, values, errors, run_axis(ds).values(ds))
 
 
 def overall(found: Sequence[Verdict]) -> Outcome | None:
@@ -134,10 +134,10 @@ def _on_stress(ds: xr.Dataset, name: str, limit: float) -> Verdict:
     except ValueError as error:
         return Verdict(name, limit, "undecided", reason=str(error))
     one = (np.array([each]) for each in (found.value, found.error, found.place))
-    return _compared(name, limit, *one)
+    return _compare(name, limit, *one)
 
 
-def _compared(name: str, limit: float, values: Any, errors: Any, places: Any) -> Verdict:
+def _compare(name: str, limit: float, values: Any, errors: Any, places: Any) -> Verdict:
     def at(outcome: Outcome, weights: Any, reason: str = "") -> Verdict:
         row = first_largest(np.nan_to_num(weights, nan=-1.0, posinf=-1.0, neginf=-1.0))
         value, error, place = (float(each[row]) for each in (values, errors, places))
@@ -164,7 +164,7 @@ def _so_far(found: Verdict) -> Verdict:
     return replace(found, verdict="undecided", reason="the run has not ended")
 
 
-def _given(ds: xr.Dataset) -> Mapping[str, Any]:
+def _limits(ds: xr.Dataset) -> Mapping[str, Any]:
     try:
         found = json.loads(str(ds.attrs.get(ALLOWABLE, "{}")))
     except ValueError:
@@ -173,7 +173,7 @@ def _given(ds: xr.Dataset) -> Mapping[str, Any]:
     return {name: each for name, each in found.items() if name in known}
 
 
-def _plain(found: Verdict) -> dict[str, Any]:
+def _plain_numbers(found: Verdict) -> dict[str, Any]:
     """Plain data without NaN and inf, for which JSON has no notation."""
     sizes = {"limit": found.limit, "value": found.value, "error": found.error, "at": found.at}
     plain = {
@@ -184,6 +184,6 @@ def _plain(found: Verdict) -> dict[str, Any]:
     return {**plain, "verdict": found.verdict, "reason": found.reason}
 
 
-def _read(name: str, each: Mapping[str, Any]) -> Verdict:
+def _verdict_from(name: str, each: Mapping[str, Any]) -> Verdict:
     limit, value, error, at = (float(each.get(k, "nan")) for k in ("limit", "value", "error", "at"))
     return Verdict(name, limit, each["verdict"], value, error, at, str(each["reason"]))

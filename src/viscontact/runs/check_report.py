@@ -56,12 +56,12 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         (
             "grid",
             f"{nx} x {ny} cells on {format_quantity(lx, 'm')} x "
-            f"{format_quantity(ly, 'm')}{_place(run.grid)}{chosen}{period}",
+            f"{format_quantity(ly, 'm')}{_place_text(run.grid)}{chosen}{period}",
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
         *run.course(),
         *_events(run.contact.load),
-        ("fields kept", _kept(run)),
+        ("fields kept", _fields_text(run)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
     ]
@@ -84,7 +84,7 @@ def _period(grid: Grid) -> str:
     return f", periodic along {'xy'[grid.periodic.index(True)]}" if any(grid.periodic) else ""
 
 
-def _place(grid: Grid) -> str:
+def _place_text(grid: Grid) -> str:
     """Middle of a grid that is not centred on the origin, in words."""
     if not any(grid.centre):
         return ""
@@ -92,7 +92,7 @@ def _place(grid: Grid) -> str:
     return f" around x = {x}, y = {y}"
 
 
-def _kept(run: Analysis[Any, Any]) -> str:
+def _fields_text(run: Analysis[Any, Any]) -> str:
     fields = run.fields
     if fields.requested == "none":
         return "none"

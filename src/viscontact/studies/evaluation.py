@@ -85,7 +85,7 @@ class Evaluation:
             self.budget.require(len(wanted))
         else:
             self.budget.most = max(self.budget.most, self.budget.runs + len(wanted))
-        if missing := self._new(wanted.values()):
+        if missing := self._new_runs(wanted.values()):
             likely = self._likely(len(runs), {*wanted}, ahead) if ahead else []
             for each in (*missing, *likely):
                 self._begin(each)
@@ -96,7 +96,7 @@ class Evaluation:
                 self.progress(self.budget.runs, self.budget.most)
         return [self.known[each.key] for each in runs]
 
-    def _new(self, runs: Iterable[StudyRun]) -> list[StudyRun]:
+    def _new_runs(self, runs: Iterable[StudyRun]) -> list[StudyRun]:
         """Runs without an outcome that have not begun."""
         recorded = self.journal.recorded if self.journal else {}
         done = (self.known, recorded, self._begun)
@@ -107,7 +107,7 @@ class Evaluation:
         workers = self.workers.count
         count = min(workers // math.gcd(workers, size) - 1, self.budget.left // size - 1)
         for group in ahead(count) if count > 0 else ():
-            found = [each for each in self._new(group) if each.key not in wanted]
+            found = [each for each in self._new_runs(group) if each.key not in wanted]
             if found and count > 0:
                 count -= 1
                 yield from found
@@ -117,7 +117,7 @@ class Evaluation:
         if executor is None:
             self._begun[run.key] = partial(_attempt, run)
         else:
-            self._begun[run.key] = partial(_awaited, executor.submit(_attempt, run))
+            self._begun[run.key] = partial(_await_entry, executor.submit(_attempt, run))
 
     def _outcome(self, key: str) -> Entry:
         if self.journal is None:
@@ -136,7 +136,7 @@ def _attempt(run: StudyRun) -> Entry:
             return {"failure": str(error).splitlines()[0]}
 
 
-def _awaited(future: Future[Entry]) -> Entry:
+def _await_entry(future: Future[Entry]) -> Entry:
     try:
         return future.result()
     except BrokenExecutor as error:

@@ -24,7 +24,7 @@ class Journal:
         lines = _whole_lines(path)
         header = {"study": study, **json.loads(json.dumps(dict(arguments)))}
         if lines:
-            _require_same(_read(path, 1, lines[0]), header, place)
+            _require_same(_read_line(path, 1, lines[0]), header, place)
         self.recorded: dict[str, Mapping[str, Any]] = dict(
             _entry(path, n, line) for n, line in enumerate(lines[1:], 2)
         )
@@ -107,7 +107,7 @@ def _whole_lines(path: Path) -> list[str]:
         raise ValueError(f"{path}: is not UTF-8 text, as a journal of runs is") from None
 
 
-def _read(path: Path, number: int, line: str) -> Any:
+def _read_line(path: Path, number: int, line: str) -> Any:
     try:
         return json.loads(line)
     except ValueError:
@@ -115,7 +115,7 @@ def _read(path: Path, number: int, line: str) -> Any:
 
 
 def _entry(path: Path, number: int, line: str) -> tuple[str, Mapping[str, Any]]:
-    match _read(path, number, line):
+    match _read_line(path, number, line):
         case [str(key), dict(outcome)]:
             return key, outcome
     raise ValueError(f"{path}:{number}: is not a run of a study; remove the file")

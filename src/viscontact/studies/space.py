@@ -131,13 +131,13 @@ def read_range(text: str) -> Range:
 
 def given_range(argument: str, key: str, given: Any) -> Range:
     """Range of two bounds, with ``"log"`` if logarithmic; ValueError begins with the argument."""
-    return _given(argument, key, given, ("log",), takes_tolerance=False)[0]
+    return _read_range(argument, key, given, ("log",), takes_tolerance=False)[0]
 
 
 def given_scatter(argument: str, key: str, given: Any, *, is_sampled: bool) -> Scatter:
     """Scatter of two bounds, or of a number with its tolerance; ValueError names the argument."""
     shapes = ("log", "normal") if is_sampled else ()
-    return Scatter(*_given(argument, key, given, shapes, takes_tolerance=True))
+    return Scatter(*_read_range(argument, key, given, shapes, takes_tolerance=True))
 
 
 def given_parameter(argument: str, key: str, given: Any) -> Range | Choice:
@@ -153,7 +153,7 @@ def given_parameter(argument: str, key: str, given: Any) -> Range | Choice:
     return replace(_in_unit_of_lower(found, str(given[0]), str(given[1])), digits=DIGITS)
 
 
-def _given(
+def _read_range(
     argument: str, key: str, given: Any, scales: tuple[str, ...], *, takes_tolerance: bool
 ) -> tuple[Range, Scale]:
     is_list = isinstance(given, tuple | list | np.ndarray)
@@ -169,7 +169,7 @@ def _given(
         if len(texts) == 1 and takes_tolerance and "±" in texts[0]:
             raise ValueError(f"{place}: {error}") from None
         raise ValueError(
-            f"{place}: must be {_wanted(scales, takes_tolerance)}, got {given!r}"
+            f"{place}: must be {_expected_text(scales, takes_tolerance)}, got {given!r}"
         ) from None
     try:
         return between(key, low, high, logarithmic=scale == "log"), scale
@@ -177,7 +177,7 @@ def _given(
         raise ValueError(f"{place}: {error}") from None
 
 
-def _wanted(scales: tuple[str, ...], takes_tolerance: bool) -> str:
+def _expected_text(scales: tuple[str, ...], takes_tolerance: bool) -> str:
     tolerance = ", or a number with its tolerance, as '10 kN ± 1 kN'" if takes_tolerance else ""
     scale = ", and 'log' for a logarithmic scale" if scales else ""
     scale += " or 'normal' for a normal distribution" if "normal" in scales else ""

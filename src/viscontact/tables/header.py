@@ -112,7 +112,7 @@ def read_header(
     read = {column.place for column in found}
     left = tuple(heading.text for place, heading in enumerate(headings) if place not in read)
     _require_some(source, found, left)
-    found = tuple(_settled(source, column, found) for column in found)
+    found = tuple(_settle_meaning(source, column, found) for column in found)
     _require_once(source, found)
     return Header(found, left, len(cells), 2 if in_two_rows else 1, level)
 
@@ -277,7 +277,7 @@ def _require_some(source: str, found: tuple[Column, ...], left: tuple[str, ...])
         )
 
 
-def _settled(source: str, column: Column, columns: tuple[Column, ...]) -> Column:
+def _settle_meaning(source: str, column: Column, columns: tuple[Column, ...]) -> Column:
     """Column with its meaning among the others: E over time is a relaxation modulus."""
     stated = column.meaning
     quantity = "angular_frequency" if stated.quantity == "frequency" else stated.quantity

@@ -66,7 +66,7 @@ def read_sheet(path: Path) -> Sheet:
     _refuse_far_cells(file)
     try:
         with CalamineWorkbook.from_path(file) as book:
-            return _chosen(file.name, book, wanted)
+            return _choose_sheet(file.name, book, wanted)
     except (CalamineError, OSError) as error:
         raise ValueError(
             f"{file.name}: cannot be read as a spreadsheet: {error}; open it and save it again, "
@@ -74,7 +74,7 @@ def read_sheet(path: Path) -> Sheet:
         ) from error
 
 
-def _chosen(name: str, book: CalamineWorkbook, wanted: str | None) -> Sheet:
+def _choose_sheet(name: str, book: CalamineWorkbook, wanted: str | None) -> Sheet:
     if wanted is not None:
         if wanted not in book.sheet_names:
             near = difflib.get_close_matches(wanted, book.sheet_names, n=1)

@@ -38,7 +38,7 @@ def rows_of_text(path: Path, example: str) -> list[Row]:
     first = next((line for line in lines if not _is_comment(line)), "")
     rows: list[Row] = []
     try:
-        for row in _split(text, _separator(first)):
+        for row in _split_rows(text, _separator(first)):
             rows.append(row)
             if len(rows) > _MOST_ROWS:
                 raise ValueError(
@@ -117,7 +117,7 @@ def read_text(path: Path) -> str:
             f"{path.name}: a spreadsheet or another packed file, not a text; the name of a "
             "spreadsheet ends in .xlsx, .xlsm, .xls or .ods"
         )
-    text = _decoded(data)
+    text = _decode(data)
     if text is None or any(ord(c) < 32 and c not in "\t\n\r\f\v" for c in text):
         raise ValueError(
             f"{path.name}: is no text file in UTF-8, UTF-16 or Latin-1; export it as plain text"
@@ -189,7 +189,7 @@ def _nearest(path: Path) -> str:
     return f"; did you mean '{path.parent / near[0]}'?" if near else ""
 
 
-def _decoded(data: bytes) -> str | None:
+def _decode(data: bytes) -> str | None:
     marked = next(encoding for mark, encoding in _BYTE_ORDER_MARKS if data.startswith(mark))
     # Latin-1 last: it accepts all bytes.
     encodings = (marked,) if marked == "utf-16" else (marked, "cp1252", "latin-1")
@@ -206,7 +206,7 @@ def _separator(header: str) -> str:
     return next((mark for mark in "\t;," if mark in header), ",")
 
 
-def _split(text: str, separator: str) -> Iterator[Row]:
+def _split_rows(text: str, separator: str) -> Iterator[Row]:
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
     for cells in reader:
         if any(cell.strip() for cell in cells) and not _is_comment(cells[0]):

@@ -50,10 +50,10 @@ def _unit_of(size: float, unit: str) -> ReadableUnit:
         # The largest prefix that leaves the compliance below a thousand.
         modulus = _unit_of(999 / size, "Pa")
         return ReadableUnit(f"1/{modulus.symbol}", 1 / modulus.factor)
-    return _prefixed(size, symbol)
+    return _with_prefix(size, symbol)
 
 
-def _prefixed(size: float, symbol: str) -> ReadableUnit:
+def _with_prefix(size: float, symbol: str) -> ReadableUnit:
     units = unit_ladder(symbol)
     fitting = [unit for unit, least in units if least <= size]
     return fitting[-1] if fitting else units[0][0]

@@ -26,22 +26,22 @@ def as_real(value: object) -> float | None:
 
 def real(name: str, value: object, unit: str = "1") -> float:
     """Return `value` as a float, NaN and inf included, or raise ValueError."""
-    return _checked(name, value, unit, "a number", lambda number: True)
+    return _check_number(name, value, unit, "a number", lambda number: True)
 
 
 def finite(name: str, value: object, unit: str = "1") -> float:
     """Return a finite `value` as a float, or raise ValueError."""
-    return _checked(name, value, unit, "a finite number", math.isfinite)
+    return _check_number(name, value, unit, "a finite number", math.isfinite)
 
 
 def positive(name: str, value: object, unit: str = "1") -> float:
     """Return a positive finite `value` as a float, or raise ValueError."""
-    return _checked(name, value, unit, "a positive finite number", lambda x: 0 < x < math.inf)
+    return _check_number(name, value, unit, "a positive finite number", lambda x: 0 < x < math.inf)
 
 
 def non_negative(name: str, value: object, unit: str = "1") -> float:
     """Return a finite `value` of at least 0 as a float, or raise ValueError."""
-    return _checked(name, value, unit, "a finite number >= 0", lambda x: 0 <= x < math.inf)
+    return _check_number(name, value, unit, "a finite number >= 0", lambda x: 0 <= x < math.inf)
 
 
 def whole(name: str, value: object, least: int, most: int | None = None) -> int:
@@ -90,7 +90,7 @@ def _fields(owner: type) -> dict[str, Field[Any]]:
     return {field.name: field for field in fields(owner)}
 
 
-def _checked(
+def _check_number(
     name: str, value: object, unit: str, wanted: str, accepts: Callable[[float], bool]
 ) -> float:
     number = as_real(value)

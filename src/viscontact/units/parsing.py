@@ -72,7 +72,7 @@ class UnitScale:
 def parse_quantity(text: str, dimension: str) -> float:
     """Parse ``"5 mm"``, of a dimension of `DIMENSIONS`, to SI; ValueError for another text."""
     wanted = DIMENSIONS[dimension]
-    number, unit = _split(text, wanted)
+    number, unit = _split_unit(text, wanted)
     value = _scale(unit, text, dimension).si(number)
     if not math.isfinite(value):
         raise ValueError(f"{quoted(text)} is not a finite number; write e.g. {wanted.example!r}")
@@ -126,7 +126,7 @@ def _scale(unit: str, text: str, dimension: str) -> UnitScale:
     return UnitScale(_factor(unit, text, wanted))
 
 
-def _split(text: str, wanted: Dimension) -> tuple[str, str]:
+def _split_unit(text: str, wanted: Dimension) -> tuple[str, str]:
     hint = f"write e.g. {wanted.example!r}"
     if _NOT_FINITE.fullmatch(text):
         raise ValueError(f"{quoted(text)} is not a finite number; {hint}")

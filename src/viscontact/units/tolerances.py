@@ -39,8 +39,8 @@ def read_toleranced(text: str) -> Toleranced | None:
     if not deviation > 0:
         raise ValueError(f"the tolerance in {quoted(text)} must be more than zero")
     middle = Decimal(number)
-    low, high = (_written(each, unit) for each in (middle - deviation, middle + deviation))
-    return Toleranced(f"{number} {unit}".rstrip(), _written(deviation, unit), low, high)
+    low, high = (_tolerance_text(each, unit) for each in (middle - deviation, middle + deviation))
+    return Toleranced(f"{number} {unit}".rstrip(), _tolerance_text(deviation, unit), low, high)
 
 
 def _in_unit(deviation: Decimal, given: str, nominal: Decimal, unit: str) -> Decimal:
@@ -55,5 +55,5 @@ def _in_unit(deviation: Decimal, given: str, nominal: Decimal, unit: str) -> Dec
     return deviation * Decimal(f"{own / one:.{_DIGITS}g}")
 
 
-def _written(number: Decimal, unit: str) -> str:
+def _tolerance_text(number: Decimal, unit: str) -> str:
     return f"{float(number):.{_DIGITS}g} {unit}".rstrip()

@@ -61,7 +61,7 @@ def _square(cells: int) -> tuple[Comparison, ...]:
     """Exponents with which the largest pressures grow as the cells are halved."""
     coarse, fine = (_on_square(n) for n in (cells, 2 * cells))
     edge, corner = (
-        math.log2(_largest(fine, at_edge) / _largest(coarse, at_edge)) for at_edge in (True, False)
+        math.log2(_maximum(fine, at_edge) / _maximum(coarse, at_edge)) for at_edge in (True, False)
     )
     approach = FORCE / (math.pi * MODULUS * _CAPACITANCE * _SIDE)
     return single(approach, fine.approach), single(0.5, edge), single(_CORNER, corner)
@@ -77,7 +77,7 @@ def _on_square(cells: int) -> ContactState:
     return press(BODY, step(FORCE), [0.0], grid, indenter=punch, tolerance=1e-9).states[0]
 
 
-def _largest(state: ContactState, edge: bool) -> float:
+def _maximum(state: ContactState, edge: bool) -> float:
     """Largest pressure in the middle of an edge, or overall, at a corner [Pa]."""
     middle = state.pressure.shape[0] // 2
     return float((state.pressure[middle] if edge else state.pressure).max())

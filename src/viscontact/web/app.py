@@ -59,9 +59,9 @@ def new_app(calculator: Calculator) -> ASGIApp:
     # No documentation pages, as they would load scripts from other sites.
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.calculator = calculator
-    app.add_exception_handler(RequestError, _refused)
-    app.add_exception_handler(RequestValidationError, _misunderstood)
-    app.add_exception_handler(HTTPException, _unknown)
+    app.add_exception_handler(RequestError, _answer_refusal)
+    app.add_exception_handler(RequestValidationError, _answer_invalid)
+    app.add_exception_handler(HTTPException, _answer_unknown)
     app.add_exception_handler(Exception, _failed)
     app.include_router(case_routes.router)
     app.include_router(run_routes.router)
@@ -87,12 +87,12 @@ def _static(name: str) -> FileResponse:
     return FileResponse(path, media_type=media_type, headers={"cache-control": "no-cache"})
 
 
-def _refused(request: Request, error: Exception) -> JSONResponse:
+def _answer_refusal(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestError)
     return JSONResponse(error.body, error.status)
 
 
-def _misunderstood(request: Request, error: Exception) -> JSONResponse:
+def _answer_invalid(request: Request, error: Exception) -> JSONResponse:
     """Answer a request whose parameters are not valid."""
     assert isinstance(error, RequestValidationError)
     found = [
@@ -104,7 +104,7 @@ def _misunderstood(request: Request, error: Exception) -> JSONResponse:
     return JSONResponse(RequestError(400, *found).body, 400)
 
 
-def _unknown(request: Request, error: Exception) -> JSONResponse:
+def _answer_unknown(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, HTTPException)
     why = f"{request.method} {request.url.path}: {error.detail}"
     return JSONResponse(RequestError(error.status_code, why).body, error.status_code)

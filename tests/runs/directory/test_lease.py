@@ -261,7 +261,7 @@ def test_late_successor_of_a_lease_that_was_replaced_gets_nothing(
     left(tmp_path, "d" * 32)
     seen = current_lease(tmp_path)  # by a process that is suspended now
     with Lease(tmp_path, SHORT) as held:
-        monkeypatch.setattr(lease, "_abandoned", lambda directory: seen)
+        monkeypatch.setattr(lease, "_abandoned_lease", lambda directory: seen)
         with pytest.raises(LeaseHeld, match=str(os.getpid())):
             Lease(tmp_path, SHORT)
         held.check()

@@ -71,9 +71,9 @@ class HeightMap(Indenter):
         i, along_x, within_x = _locate(self.x, x)
         j, along_y, within_y = _locate(self.y, y)
         # Depths and weights are not negative, so neither is the gap.
-        near = _between(self._depth(i, j), self._depth(i, j + 1), along_y)
-        far = _between(self._depth(i + 1, j), self._depth(i + 1, j + 1), along_y)
-        gap = _between(near, far, along_x)
+        near = _interpolate_between(self._depth(i, j), self._depth(i, j + 1), along_y)
+        far = _interpolate_between(self._depth(i + 1, j), self._depth(i + 1, j + 1), along_y)
+        gap = _interpolate_between(near, far, along_x)
         return np.where(within_x & within_y & ~np.isnan(gap), gap, np.inf)
 
     @property
@@ -105,7 +105,7 @@ class HeightMap(Indenter):
         return hash((self.height.shape, self._highest))
 
 
-def _between(near: Floats, far: Floats, along: Floats) -> Floats:
+def _interpolate_between(near: Floats, far: Floats, along: Floats) -> Floats:
     """Linear interpolation; a missing (NaN) value counts only where its weight is positive."""
     value = near * (1 - along) + far * along
     return np.where(along == 0, near, np.where(along == 1, far, value))

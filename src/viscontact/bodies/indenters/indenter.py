@@ -150,7 +150,7 @@ class CombinedIndenter(Indenter):
         for part in parts:
             if not isinstance(part, Indenter):
                 raise ValueError(f"CombinedIndenter: parts must be indenters, got {part!r}")
-        object.__setattr__(self, "parts", tuple(leaf for part in parts for leaf in _leaves(part)))
+        object.__setattr__(self, "parts", tuple(leaf for part in parts for leaf in _summands(part)))
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the sum of the parts' gaps; see `Indenter.gap`."""
@@ -296,5 +296,5 @@ class PlacedIndenter(Indenter):
         return along * cosine**2 + across * sine**2, along * sine**2 + across * cosine**2
 
 
-def _leaves(part: Indenter) -> tuple[Indenter, ...]:
+def _summands(part: Indenter) -> tuple[Indenter, ...]:
     return part.parts if isinstance(part, CombinedIndenter) else (part,)

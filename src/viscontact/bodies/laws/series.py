@@ -136,7 +136,7 @@ class CreepSeries(SeriesLaw):
         CreepSeries(instant=1e-09, amplitudes=(2e-09,), times=(10.0,), fluidity=0.0)
         """
         given = cls(instant, amplitudes, times, fluidity)
-        return given._scaled(0.5, 0.5 * given.instant)
+        return given._scaled_series(0.5, 0.5 * given.instant)
 
     @classmethod
     def from_uniaxial(
@@ -178,7 +178,7 @@ class CreepSeries(SeriesLaw):
         """
         convert = uniaxial("CreepSeries.from_uniaxial", poisson_ratio, bulk_modulus)
         given = cls(instant, amplitudes, times, fluidity)
-        return given._scaled(
+        return given._scaled_series(
             convert.factor, convert.instant("CreepSeries.from_uniaxial", given.instant)
         )
 
@@ -198,7 +198,7 @@ class CreepSeries(SeriesLaw):
         times = tuple(factor * time for time in self.times)
         return replace(self, times=times, fluidity=self.fluidity / factor)
 
-    def _scaled(self, factor: float, instant: float) -> CreepSeries:
+    def _scaled_series(self, factor: float, instant: float) -> CreepSeries:
         amplitudes = tuple(factor * a for a in self.amplitudes)
         return CreepSeries(instant, amplitudes, self.times, factor * self.fluidity)
 

@@ -104,7 +104,7 @@ class ApproachHistory(PiecewiseHistory):
         """
         instants = arguments.numbers("times", times, "s")
         approach = self._interpolate(self.approach, instants, side)
-        return np.where(self._started(instants, side), approach, min(float(self.approach[0]), 0.0))
+        return np.where(self._begun(instants, side), approach, min(float(self.approach[0]), 0.0))
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the approach at many instants [m]; as `approach_at`."""

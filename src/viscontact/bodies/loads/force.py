@@ -112,7 +112,7 @@ class ForceHistory(PiecewiseHistory):
         """
         instants = arguments.numbers("times", times, "s")
         force = self._interpolate(self.force, instants, side)
-        counts = self._started(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
+        counts = self._begun(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
         return np.where(counts, force, 0.0)
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:

@@ -189,14 +189,14 @@ class MixedHistory(LoadHistory):
     def level_of(self, point: LoadPoint) -> float:
         """Return a load as a share of the largest force or approach [-]."""
         control: Control = "approach" if point.force is None else "force"
-        share: float = point.level / self._largest(control)
+        share: float = point.level / self._maximum(control)
         return share
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force or approach at many instants [s], as a share of its largest one [-]."""
         instants = numbers("times", times, "s")
         shares = [
-            level / self._largest(control) for control, level in map(self._level, instants.flat)
+            level / self._maximum(control) for control, level in map(self._level, instants.flat)
         ]
         return np.array(shares, dtype=np.float64).reshape(instants.shape)
 
@@ -223,7 +223,7 @@ class MixedHistory(LoadHistory):
         left = float(min(max((end - time) / (end - begin), 0.0), 1.0))
         return self.controls[k], self.ends[k] - (self.ends[k] - self.begins[k]) * left
 
-    def _largest(self, control: Control) -> float:
+    def _maximum(self, control: Control) -> float:
         of = zip(self.controls, self.begins, self.ends, strict=True)
         largest: float = max((max(b, e) for each, b, e in of if each == control), default=0.0)
         return largest if largest > 0 else 1.0

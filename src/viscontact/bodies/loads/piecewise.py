@@ -143,7 +143,7 @@ class PiecewiseHistory(LoadHistory):
         nearer, offset = np.where(first_half, i, j), np.where(first_half, part, part - 1)
         return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
 
-    def _started(self, times: Floats, side: str) -> Bools:
+    def _begun(self, times: Floats, side: str) -> Bools:
         return np.asarray(np.searchsorted(self.times, times, side=arguments.side_of_jump(side)) > 0)
 
     def __eq__(self, other: object) -> bool:

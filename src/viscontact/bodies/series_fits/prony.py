@@ -120,7 +120,7 @@ def fit_creep(  # noqa: PLR0913
     make = shear_law(owner, CREEP, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(CreepResponse(instants, fluid), values)
-    found, misfit = _found(owner, observed, ("compliance",), terms, excess, tolerance)
+    found, misfit = _fitted_spectrum(owner, observed, ("compliance",), terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
         float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
@@ -192,7 +192,7 @@ def fit_relaxation(  # noqa: PLR0913
     make = shear_law(owner, MODULI, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(RelaxationResponse(instants, fluid), values)
-    found, misfit = _found(owner, observed, ("modulus",), terms, excess, tolerance)
+    found, misfit = _fitted_spectrum(owner, observed, ("modulus",), terms, excess, tolerance)
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     measured, weights = {"modulus": values}, {"modulus": 1.0}
@@ -282,7 +282,7 @@ def fit_dynamic(  # noqa: PLR0913
         else given_weights(owner, weights, names)
     )
     observed = weighted(observed, used)
-    found, misfit = _found(owner, observed, names, terms, excess, tolerance)
+    found, misfit = _fitted_spectrum(owner, observed, names, terms, excess, tolerance)
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     columns = {"storage": in_phase, "loss": out_of_phase}
@@ -302,7 +302,7 @@ def _over_time(
     return instants, values
 
 
-def _found(
+def _fitted_spectrum(
     owner: str,
     observed: Observed,
     names: tuple[str, ...],

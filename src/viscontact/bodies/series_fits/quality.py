@@ -61,7 +61,7 @@ def misfit_of(observed: Observed, found: Spectrum, names: Sequence[str]) -> Misf
     if rms.max() <= RMS_LIMIT and largest.max() <= LARGEST_LIMIT:
         return None
     # A few outlying rows are judged by the largest residual, as they hardly change the others.
-    measure = _rms if rms.max() > RMS_LIMIT else _largest
+    measure = _rms if rms.max() > RMS_LIMIT else _column_maxima
     enough = _GREATER_PART * measure(residuals).max()
     size = " and ".join(
         f"{name} by {_percent(r)} (root mean square, at most {_percent(most)})"
@@ -129,7 +129,7 @@ def _rms(residuals: Floats) -> Floats:
     return np.asarray(np.sqrt(np.mean(residuals**2, axis=1)))
 
 
-def _largest(residuals: Floats) -> Floats:
+def _column_maxima(residuals: Floats) -> Floats:
     return np.asarray(np.abs(residuals).max(axis=1))
 
 

@@ -83,12 +83,12 @@ def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float
     best = dense
     while many - too_few > 1:
         middle = (too_few + many) // 2
-        tried = _near(observed, middle, dense)
+        tried = _nearby_fit(observed, middle, dense)
         if tried.residual <= enough:
             many, best = middle, tried
         else:
             too_few = middle
-    return _descended(observed, np.log(best.times), _FINE)
+    return _descend(observed, np.log(best.times), _FINE)
 
 
 def dense_spectrum(observed: Observed) -> Spectrum:
@@ -102,22 +102,22 @@ def spectrum_of(observed: Observed, count: int) -> Spectrum:
     """Best fit found with at most `count` terms."""
     # It descends from the merged neighbours of the dense fit; for few terms also from times spread
     # evenly over the span of the data.
-    near = _near(observed, count, dense_spectrum(observed))
-    return _descended(observed, np.log(near.times), _FINE)
+    near = _nearby_fit(observed, count, dense_spectrum(observed))
+    return _descend(observed, np.log(near.times), _FINE)
 
 
-def _near(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
+def _nearby_fit(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
     lowest, highest = np.log(observed.response.reach)
     starts = []
     if count <= dense.times.size:
         starts.append(_merged_neighbours(observed, dense, count))
     if not starts or count <= _FEW:  # few terms may end in a local minimum
         starts.append(lowest + (highest - lowest) * (np.arange(count) + 0.5) / max(count, 1))
-    found = [_descended(observed, start, _COARSE) for start in starts]
+    found = [_descend(observed, start, _COARSE) for start in starts]
     return min(found, key=lambda spectrum: spectrum.residual)
 
 
-def _descended(observed: Observed, start: Floats, gain: float) -> Spectrum:
+def _descend(observed: Observed, start: Floats, gain: float) -> Spectrum:
     if start.size == 0:
         return _strengths(observed, np.exp(start))[0]
     lowest, highest = np.log(observed.response.reach)

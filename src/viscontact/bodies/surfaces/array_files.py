@@ -29,7 +29,7 @@ def read_array(path: Path, units: Units, channel: str | None) -> Surface:
 
 
 def _from_arrays(path: Path, arrays: dict[str, Any], units: Units, channel: str | None) -> Surface:
-    heights = _lines(path.name, _chosen(path, arrays, channel))
+    heights = _lines(path.name, _choose_array(path, arrays, channel))
     periodic = bool(np.all(arrays.get("periodic", False)))
     if "unit" not in arrays:
         metres = heights * units.height_scale
@@ -53,7 +53,7 @@ def _steps(name: str, spacing: Any, scale: float) -> tuple[float, float]:
     return float(along_x), float(along_y)
 
 
-def _chosen(path: Path, arrays: dict[str, Any], channel: str | None) -> Any:
+def _choose_array(path: Path, arrays: dict[str, Any], channel: str | None) -> Any:
     maps = [name for name, array in arrays.items() if array.ndim == 2]
     if channel is None:
         channel = "height" if "height" in arrays else (maps[0] if len(maps) == 1 else None)

@@ -45,11 +45,11 @@ def cropped(
     """
     if x is None and y is None:
         return surface
-    rows, columns = (_within(surface, axis, part) for axis, part in enumerate((x, y)))
+    rows, columns = (_points_within(surface, axis, part) for axis, part in enumerate((x, y)))
     return Surface(surface.heights[rows, columns], surface.spacing, name=surface.name)
 
 
-def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> slice:
+def _points_within(surface: Surface, axis: int, part: tuple[float, float] | None) -> slice:
     """Slice of the points whose cells lie within a range [m] by more than half."""
     if part is None:
         return slice(None)

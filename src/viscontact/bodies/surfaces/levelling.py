@@ -74,7 +74,7 @@ class Polynomial:
 
     def of(self, surface: Surface) -> Floats:
         """Values at a surface's points, shape (nx, ny) [m]."""
-        along_x, along_y = _scaled(surface)
+        along_x, along_y = _scaled_axes(surface)
         values = np.zeros(surface.shape)
         for (i, j), factor in zip(self.terms, self.coefficients.tolist(), strict=True):
             values += factor * np.multiply.outer(along_x**i, along_y**j)
@@ -87,7 +87,7 @@ class Polynomial:
 
 def polynomial(surface: Surface, terms: tuple[tuple[int, int], ...]) -> Polynomial:
     """Least-squares polynomial of the known heights with the given powers of x and y."""
-    along_x, along_y = _scaled(surface)
+    along_x, along_y = _scaled_axes(surface)
     known = ~surface.missing
     # Normal equations from moments: no matrix with a row for each point. The terms are of the
     # order of one and few, so that the squared condition number costs no digit that matters.
@@ -116,6 +116,6 @@ def tilt(surface: Surface) -> tuple[float, float]:
     return plane[1, 0] / (lx / 2), plane[0, 1] / (ly / 2)
 
 
-def _scaled(surface: Surface) -> tuple[Floats, Floats]:
+def _scaled_axes(surface: Surface) -> tuple[Floats, Floats]:
     lx, ly = surface.size
     return surface.x / (lx / 2), surface.y / (ly / 2)

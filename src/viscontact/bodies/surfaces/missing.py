@@ -52,11 +52,11 @@ def filled(surface: Surface, by: Filling = "smooth") -> Surface:
     if by == "lowest":
         heights[surface.missing] = np.nanmin(heights)
     else:
-        heights[surface.missing] = _film(surface)
+        heights[surface.missing] = _soap_film(surface)
     return surface.with_heights(heights)
 
 
-def _film(surface: Surface) -> Floats:
+def _soap_film(surface: Surface) -> Floats:
     """Heights of the soap film at the missing points, in their order [m]."""
     missing = surface.missing
     number = np.full(surface.shape, -1, dtype=np.intp)

@@ -49,7 +49,11 @@ def surface_doubts(surface: Surface) -> tuple[str, ...]:
     """
     if min(surface.shape) < 3 or surface.rms_height == 0:
         return ()
-    found = (_hollow(surface) or _skewed(surface), _tilted(surface), _spiked(surface))
+    found = (
+        _hollow(surface) or _skewness_warning(surface),
+        _tilt_warning(surface),
+        _spiked(surface),
+    )
     return tuple(warning for warning in (*found, _steep(surface)) if warning)
 
 
@@ -64,11 +68,11 @@ def described(surface: Surface) -> str:
         f"{surface.name}: {nx} x {ny} points, {apart} apart{fits}{missing}; Sa "
         f"{format_quantity(surface.mean_deviation, 'm', 3)}, Sq "
         f"{format_quantity(surface.rms_height, 'm', 3)}, rms slope "
-        f"{format_number(surface.rms_slope, 2)}{_developed(surface)}"
+        f"{format_number(surface.rms_slope, 2)}{_area_text(surface)}"
     )
 
 
-def _developed(surface: Surface) -> str:
+def _area_text(surface: Surface) -> str:
     """Developed area in words; empty for a line scan."""
     ratio = surface.developed_ratio
     return "" if math.isnan(ratio) else f", Sdr {format_number(100 * ratio, 3)} %"
@@ -101,7 +105,7 @@ def _hollow(surface: Surface) -> str | None:
     )
 
 
-def _skewed(surface: Surface) -> str | None:
+def _skewness_warning(surface: Surface) -> str | None:
     if surface.skewness > SKEWED:
         return None
     return (
@@ -111,7 +115,7 @@ def _skewed(surface: Surface) -> str | None:
     )
 
 
-def _tilted(surface: Surface) -> str | None:
+def _tilt_warning(surface: Surface) -> str | None:
     """Warning of a tilt that lifts the ends by more than the remaining heights."""
     slopes = tilt(surface)
     lift = math.hypot(*(slope * size for slope, size in zip(slopes, surface.size, strict=True)))

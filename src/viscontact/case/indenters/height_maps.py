@@ -117,7 +117,7 @@ class HeightMap(Shape):
     def notes(self) -> tuple[str, ...]:
         """Notes on the map: its statistics, the removed form, and implausible values."""
         surface = self.surface
-        notes = (levelling_note(self._raw, self.level), described(surface))
+        notes = (levelling_note(self._measured_map, self.level), described(surface))
         return (*filter(None, notes), *surfaces.surface_doubts(surface), *_period_note(surface))
 
     def build(self) -> indenters.HeightMap:
@@ -128,8 +128,8 @@ class HeightMap(Shape):
     def surface(self) -> surfaces.Surface:
         """The surface as used, after resampling."""
         if self.missing == "refuse":
-            require_complete(self._raw)
-        found = surfaces.levelled(self._raw, self.level)
+            require_complete(self._measured_map)
+        found = surfaces.levelled(self._measured_map, self.level)
         if self.missing in ("lowest", "smooth"):
             found = surfaces.filled(found, self.missing)
         if self.resample is None:
@@ -143,7 +143,7 @@ class HeightMap(Shape):
         return surfaces.resampled(found, self.resample, self.filter or "mean", cutoff=self.cutoff)
 
     @cached_property
-    def _raw(self) -> surfaces.Surface:
+    def _measured_map(self) -> surfaces.Surface:
         """The cropped map as measured."""
         try:
             found = surfaces.read_surface(

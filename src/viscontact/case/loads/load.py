@@ -111,9 +111,9 @@ class Program(Load):
     def build(self, area: float = 1.0) -> LoadHistory:
         """Return the history of the program, which awaits its events."""
         tail: dict[str, Any] = self._tail
-        return as_history(LoadProgram(self._checked(), **tail))
+        return as_history(LoadProgram(self._readable_sentences(), **tail))
 
-    def _checked(self) -> list[str]:
+    def _readable_sentences(self) -> list[str]:
         """Sentences that can be read; the key of one that cannot is named."""
         given = [self.sentences] if isinstance(self.sentences, str) else self.sentences
         for place, text in enumerate(given):

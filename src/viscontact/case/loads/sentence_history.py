@@ -71,7 +71,7 @@ def _moves(sentences: Sequence[Sentence]) -> Iterator[tuple[Sentence, Reading]]:
         kind, slots = sentence.reading.form.kind, sentence.reading.slots
         moves = [sentence.reading]
         if kind.startswith("repeat"):
-            moves = _repeated(sentence, done, slots)
+            moves = _repeated_readings(sentence, done, slots)
             total += len(moves)
         if total > MOST_POINTS:
             raise SentenceError(sentence, f"repeats more than {MOST_POINTS} times in all")
@@ -79,7 +79,7 @@ def _moves(sentences: Sequence[Sentence]) -> Iterator[tuple[Sentence, Reading]]:
         yield from ((sentence, move) for move in moves)
 
 
-def _repeated(
+def _repeated_readings(
     sentence: Sentence, done: Sequence[list[Reading]], slots: tuple[Any, ...]
 ) -> list[Reading]:
     kind = sentence.reading.form.kind
@@ -108,11 +108,11 @@ class _Way:
         """Add the points of a sentence."""
         kind, slots = move.form.kind, move.slots
         if kind == "hold for":
-            self._go(sentence, self.levels[-1], _exact(slots[0]))
+            self._add_ramp(sentence, self.levels[-1], _exact(slots[0]))
         elif kind == "hold until":
             self._wait_until(sentence, _exact(slots[0]))
         elif kind == "swing":
-            self._swing(sentence, *slots)
+            self._add_cycles(sentence, *slots)
         else:
             goal = self._goal(kind, slots)
             self._refuse_pull(sentence, goal)
@@ -130,17 +130,17 @@ class _Way:
         self, sentence: Sentence, kind: str, slots: tuple[Any, ...], goal: Fraction
     ) -> None:
         if kind.endswith("in"):
-            self._go(sentence, goal, _exact(slots[-1]))
+            self._add_ramp(sentence, goal, _exact(slots[-1]))
         elif kind.endswith("at"):
             distance = abs(goal - self.levels[-1])
             if not distance:
                 _refuse(sentence, "it is there already; write e.g. 'hold for 10 s'")
             change, per = slots[-1]
-            self._go(sentence, goal, distance / _exact(change.value) * _exact(per))
+            self._add_ramp(sentence, goal, distance / _exact(change.value) * _exact(per))
         else:
             self._jump(sentence, goal)
 
-    def _go(self, sentence: Sentence, level: Fraction, duration: Fraction) -> None:
+    def _add_ramp(self, sentence: Sentence, level: Fraction, duration: Fraction) -> None:
         if len(self.times) >= MOST_POINTS:
             _refuse(sentence, f"by then the history has more than {MOST_POINTS} points")
         self.times.append(self.times[-1] + duration)
@@ -161,9 +161,9 @@ class _Way:
         if instant <= self.times[-1]:
             now = format_quantity(float(self.times[-1]), "s", 6)
             _refuse(sentence, f"by then it is {now} already; write e.g. 'hold for 10 s'")
-        self._go(sentence, self.levels[-1], instant - self.times[-1])
+        self._add_ramp(sentence, self.levels[-1], instant - self.times[-1])
 
-    def _swing(self, sentence: Sentence, amplitude: Level, period: float, cycles: int) -> None:
+    def _add_cycles(self, sentence: Sentence, amplitude: Level, period: float, cycles: int) -> None:
         middle, swing = self.levels[-1], _exact(amplitude.value)
         self._refuse_pull(sentence, middle - abs(swing))
         if cycles * STEPS_PER_CYCLE > MOST_POINTS:
@@ -171,7 +171,7 @@ class _Way:
         part = _exact(period) / STEPS_PER_CYCLE
         for _ in range(cycles):
             for sine in _SINES:
-                self._go(sentence, middle + swing * sine, part)
+                self._add_ramp(sentence, middle + swing * sine, part)
 
     def _refuse_pull(self, sentence: Sentence, level: Fraction) -> None:
         if self.control == "force" and level < 0:

@@ -51,7 +51,7 @@ def split_sentences(text: str) -> list[str]:
 
 def read_sentences(texts: Sequence[str]) -> list[Sentence]:
     """Parse sentences, each on its own."""
-    return [sentence for entry in _numbered(texts) for sentence in _understood(entry)]
+    return [sentence for entry in _numbered_entries(texts) for sentence in _sentences_of(entry)]
 
 
 class _Entry(NamedTuple):
@@ -62,7 +62,7 @@ class _Entry(NamedTuple):
     parts: list[str]
 
 
-def _numbered(texts: Sequence[Any]) -> list[_Entry]:
+def _numbered_entries(texts: Sequence[Any]) -> list[_Entry]:
     entries: list[_Entry] = []
     number = 1
     for place, text in enumerate(texts, start=1):
@@ -72,7 +72,7 @@ def _numbered(texts: Sequence[Any]) -> list[_Entry]:
     return entries
 
 
-def _understood(entry: _Entry) -> tuple[Sentence, ...]:
+def _sentences_of(entry: _Entry) -> tuple[Sentence, ...]:
     """Sentences of an entry; one message names all that are refused."""
     read: list[Sentence] = []
     refused: list[str] = []
@@ -98,7 +98,7 @@ def _as_entries(given: Any) -> list[_Entry]:
         got = quoted(str(given), _LONGEST)
         why = f"must be a text or a list of texts, got {got}; write e.g. {EXAMPLE}"
         raise PydanticCustomError("quantity", "{why}", {"why": why})
-    entries = _numbered(texts)
+    entries = _numbered_entries(texts)
     count = sum(len(entry.parts) for entry in entries)
     if count > _MOST_SENTENCES:
         why = f"holds {count} sentences, and at most {_MOST_SENTENCES} are read; repeat some"
@@ -114,7 +114,7 @@ _SCHEMA = {
 
 #: Of a case file: a text or a list of texts, as tuples of `Sentence`.
 Sentences = Annotated[
-    list[Annotated[Any, PlainValidator(_understood)]],
+    list[Annotated[Any, PlainValidator(_sentences_of)]],
     BeforeValidator(_as_entries),
     WithJsonSchema(_SCHEMA),
 ]

@@ -57,7 +57,7 @@ class LawFile(FromFile):
         if "file" in section or (isinstance(shift, dict) and "file" in shift):
             raise ValueError(f"file: {path.name} names another file; write its keys into the case")
         try:
-            return MaterialAlone.model_validate({"material": section | self._given}).material
+            return MaterialAlone.model_validate({"material": section | self._keys}).material
         except ValidationError as error:
             found = "; ".join(map(_problem, error.errors()))
             raise ValueError(f"file: {path.name}: {found}") from error
@@ -75,7 +75,7 @@ class LawFile(FromFile):
         return self._at_temperature(self.section.built, self.shift.build())
 
     @property
-    def _given(self) -> dict[str, Any]:
+    def _keys(self) -> dict[str, Any]:
         """Keys that replace those of the file, as in a case file."""
         units = {"bulk_modulus": "Pa", "measured_until": "s", "thickness": "m"}
         if self.shift is None:

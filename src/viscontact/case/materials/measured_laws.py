@@ -93,15 +93,15 @@ class TableLaw(FromFile):
         except ValueError as error:
             raise ValueError(f"file: {error}") from error
         try:
-            return self._made(times, values)
+            return self._law(times, values)
         except ValueError as error:
-            raise ValueError(f"file: {self._located(table, error)}") from error
+            raise ValueError(f"file: {self._error_in_file(table, error)}") from error
 
     @cached_property
     def table(self) -> Table:
         """The table, or its chosen set, checked against the other keys."""
         try:
-            table = self._chosen(read_table(self.file, self.columns, stress=self.stress))
+            table = self._chosen_columns(read_table(self.file, self.columns, stress=self.stress))
             table = table.ascending("time") if "time" in table else table
         except ValueError as error:
             at = "" if str(error).startswith("columns: ") else "file: "
@@ -175,7 +175,7 @@ class TableLaw(FromFile):
         """Time of the lowest frequency of an oscillation [s]."""
         return None if self.fit is None else float(1.0 / self.fit.points.min())
 
-    def _made(self, times: list[float], values: list[float]) -> Law:
+    def _law(self, times: list[float], values: list[float]) -> Law:
         options: dict[str, Any] = {"before": self.before, "beyond": self.beyond}
         tables: dict[str, Any] = {
             "creep_compliance": laws.TabulatedCreep,
@@ -191,7 +191,7 @@ class TableLaw(FromFile):
         assert isinstance(law, Law)
         return law
 
-    def _chosen(self, table: Table) -> Table:
+    def _chosen_columns(self, table: Table) -> Table:
         sets = table.sets()
         if self.set is not None:
             found = [each for each in sets if each.set_number == self.set]
@@ -225,7 +225,7 @@ class TableLaw(FromFile):
                 "constants for the temperature of the table"
             )
 
-    def _located(self, table: Table, error: ValueError) -> str:
+    def _error_in_file(self, table: Table, error: ValueError) -> str:
         """Return an error of a law at its place in the file, not at its argument."""
         match = _AT_ROW.match(str(error))
         if match is None or int(match["row"]) >= len(table):

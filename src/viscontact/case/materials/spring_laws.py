@@ -29,7 +29,7 @@ class Springs(Medium):
 
     def build_law(self) -> Law:
         """Return the law, from shear or uniaxial moduli."""
-        others = {name: getattr(self, name) for name in self._others()}
+        others = {name: getattr(self, name) for name in self._other_keys()}
         if self._is_uniaxial():
             law = self.law_class.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
         else:
@@ -51,7 +51,7 @@ class Springs(Medium):
             raise ValueError(f"{wanted} is missing; write e.g. '{wanted}: 1800 MPa'{other}")
         return uniaxial
 
-    def _others(self) -> list[str]:
+    def _other_keys(self) -> list[str]:
         shared = {*Springs.model_fields, "law"}
         return [name for name in type(self).model_fields if name not in shared]
 

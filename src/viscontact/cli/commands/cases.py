@@ -106,7 +106,7 @@ def _example_text(name: str) -> str:
     return examples[name].read_text(encoding="utf-8")
 
 
-def _is(path: Path, content: bytes) -> bool:
+def _holds(path: Path, content: bytes) -> bool:
     return path.is_file() and path.read_bytes() == content
 
 
@@ -120,7 +120,7 @@ def _write_example(output: Path, text: str, data: dict[str, bytes], *, overwrite
     """Write a case, its data files, and the schema that its first line names."""
     beside = {output.parent / name: content for name, content in data.items()}
     for path in (output, *beside):
-        if path.exists() and not (overwrite or (path in beside and _is(path, beside[path]))):
+        if path.exists() and not (overwrite or (path in beside and _holds(path, beside[path]))):
             refuse(f"{path}: is there already; choose another name, or --overwrite")
     try:
         output.write_text(text, encoding="utf-8")

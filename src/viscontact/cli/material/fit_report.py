@@ -60,10 +60,10 @@ def report_fit(
 
 
 def _from_table(file: Path, arguments: FitArguments) -> tuple[str, DeferredFigure]:
-    table = _read(file, arguments.stress)
+    table = _read_table(file, arguments.stress)
     say_chosen(file, table)
     try:
-        return _fitted(table, arguments)
+        return _fit_table(table, arguments)
     except ValueError as error:
         refuse(table.located(error))
 
@@ -89,7 +89,7 @@ class DeferredFigure:
         plot.save_figure(draw(*self._shown, width=width, **self._options), path)
 
 
-def _fitted(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
+def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     """Return the material section and the figure for a table."""
     if "force" in table and "approach" in table:
         return _from_indentation(table, arguments)
@@ -196,7 +196,7 @@ def _warnings_said(worded: Callable[[Exception | str], str] = str) -> Iterator[N
         say(f"warning: {worded(warning.message)}")
 
 
-def _read(file: Path, stress: str | None) -> Table:
+def _read_table(file: Path, stress: str | None) -> Table:
     try:
         return read_table(file, stress=read_stress(stress))
     except (ValueError, OSError) as error:

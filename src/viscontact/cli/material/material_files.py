@@ -111,7 +111,7 @@ def _from_table(path: Path, typed: MaterialOptions) -> MaterialDisplay:
         )
     volume = typed.given("poisson_ratio", "bulk_modulus", "set", "stress")
     section = {"law": "table", "file": str(path), "quantity": quantity, "data": data, **volume}
-    return MaterialDisplay(str(path), _read(path, section).build())
+    return MaterialDisplay(str(path), _read_section(path, section).build())
 
 
 def _quantity(table: Table) -> str:
@@ -142,14 +142,14 @@ def _from_card(path: Path, typed: MaterialOptions) -> MaterialDisplay:
         "file": str(path),
         **typed.given(*keys, "poisson_ratio", "bulk_modulus"),
     }
-    found = _read(path, section)
+    found = _read_section(path, section)
     card = found.card
     return MaterialDisplay(
         str(path), found.build(), card_name=card.name, shift=card.shift, notes=found.notes
     )
 
 
-def _read(path: Path, section: dict[str, Any]) -> Any:
+def _read_section(path: Path, section: dict[str, Any]) -> Any:
     """Read a material section; errors name the options of the command line."""
     try:
         return read_section(section, path)

@@ -144,7 +144,7 @@ def _values(shown: MaterialDisplay) -> Table:
         symbol, numbers = _in_unit(values, unit)
         table.add_column(rf"{heading} \[{symbol}]", justify="right")
         cells.append(numbers)
-    beyond = [not _within(time, shown.measured) for time in times]
+    beyond = [not _is_measured(time, shown.measured) for time in times]
     if any(beyond):
         table.add_column("")
     for row, time in enumerate(times):
@@ -164,7 +164,7 @@ def _in_unit(values: Floats, unit: str) -> tuple[str, list[str]]:
     return chosen.symbol, [format_number(float(v) / chosen.factor) for v in values]
 
 
-def _within(time: float, measured: tuple[float, float] | None) -> bool:
+def _is_measured(time: float, measured: tuple[float, float] | None) -> bool:
     return measured is None or measured[0] * 0.999 <= time <= measured[1] * 1.001
 
 

@@ -44,7 +44,7 @@ def write_material(
             text = _card(named, form, moduli, times, typed.temperature_unit)
     except ValueError as error:
         refuse(f"{named.name}: {_with_remedy(str(error), named.name)}")
-    _put(text, output)
+    _write_text(text, output)
 
 
 def _require_units(moduli: str, times: str) -> None:
@@ -59,7 +59,7 @@ def _require_units(moduli: str, times: str) -> None:
 
 
 def _card(named: MaterialDisplay, form: str, moduli: str, times: str, degrees: str | None) -> str:
-    name = named.card_name or _plain(named)
+    name = named.card_name or _safe_name(named)
     card = Card(name, named.material, named.shift)
     if form == "abaqus":
         return write_abaqus(card, modulus_unit=moduli, time_unit=times, temperature_unit=degrees)
@@ -69,7 +69,7 @@ def _card(named: MaterialDisplay, form: str, moduli: str, times: str, degrees: s
     )
 
 
-def _plain(named: MaterialDisplay) -> str:
+def _safe_name(named: MaterialDisplay) -> str:
     """Return a name that any program accepts."""
     name = named.name if named.entry is not None else Path(named.name).stem
     return re.sub(r"[^\w-]", "_", name, flags=re.ASCII)[:80]
@@ -98,7 +98,7 @@ def _table(named: MaterialDisplay, moduli: str, times: str) -> str:
     heads = [f"{name} [{units[name]}]" for name in columns]
     rows = zip(*(factors[name] * values for name, values in columns.items()), strict=True)
     lines = [
-        f"# {_plain(named)}: creep compliance J = 2 Phi and relaxation modulus G in shear",
+        f"# {_safe_name(named)}: creep compliance J = 2 Phi and relaxation modulus G in shear",
         f"# law: table; quantity: creep_compliance; data: shear; {_volume(material)}",
     ]
     return "\n".join([*lines, ",".join(heads), *(_line(*row) for row in rows)]) + "\n"
@@ -149,7 +149,7 @@ def _line(*numbers: float) -> str:
     return ",".join(f"{number:.12g}" for number in numbers)
 
 
-def _put(text: str, output: Path | None) -> None:
+def _write_text(text: str, output: Path | None) -> None:
     if output is None:
         print(text, end="")
         return

@@ -32,10 +32,10 @@ def _runs(path: Path) -> Iterator[Path]:
     if not (path / MANIFEST_NAME).is_file():
         yield path
         return
-    yield from _finished(path)
+    yield from _finished_runs(path)
 
 
-def _finished(sweep: Path) -> list[Path]:
+def _finished_runs(sweep: Path) -> list[Path]:
     """Directories of the finished runs of a sweep; the others are left out with a note."""
     try:
         runs = list(read_manifest(sweep / MANIFEST_NAME))

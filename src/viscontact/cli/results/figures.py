@@ -35,7 +35,7 @@ def draw(
     """Draw a figure of one run."""
     plot = plot_package()
     choice = FigureChoice(figure, tuple(times), tuple(speeds), "--")
-    entry, given = _chosen(choice, [each.name for each in TABLE], options or {})
+    entry, given = _choose_figure(choice, [each.name for each in TABLE], options or {})
     folder = directory if directory.is_dir() else directory.parent
     file = output or folder / f"{figure}{'.gif' if entry.is_animation else '.png'}"
     suffixes = plot.ANIMATION_SUFFIXES if entry.is_animation else plot.FIGURE_SUFFIXES
@@ -78,7 +78,7 @@ def draw_comparison(
     plot = plot_package()
     directories = compared_runs(directories)
     choice = FigureChoice(figure, tuple(times), tuple(speeds), "--")
-    entry, given = _chosen(choice, compared_names(), options or {})
+    entry, given = _choose_figure(choice, compared_names(), options or {})
     if len(directories) < 2:
         one = f"got {directories[0]} alone" if directories else "got none with a result"
         refuse(f"compare needs two runs or more, {one}; `viscontact plot DIR` draws a single run")
@@ -119,7 +119,7 @@ def plot_package() -> Any:
     return plot
 
 
-def _chosen(
+def _choose_figure(
     choice: FigureChoice, names: Sequence[str], options: Options
 ) -> tuple[FigureEntry, dict[str, Any]]:
     """Entry of a figure, and the keywords to draw it with; refused where they do not apply."""
@@ -132,7 +132,7 @@ def _chosen(
                 choice.refuse(name)
     except ValueError as error:
         refuse(str(error))
-    return entry, given | {name: _read(name, value) for name, value in wanted.items()}
+    return entry, given | {name: _read_place(name, value) for name, value in wanted.items()}
 
 
 def _require_within(choice: FigureChoice, ds: xr.Dataset, directory: Path) -> None:
@@ -142,7 +142,7 @@ def _require_within(choice: FigureChoice, ds: xr.Dataset, directory: Path) -> No
         refuse(str(error))
 
 
-def _read(name: str, value: str | float) -> str | float:
+def _read_place(name: str, value: str | float) -> str | float:
     is_length = name == "at" or (name == "width" and value not in ("single", "double"))
     try:
         return parse_quantity(str(value), "length") if is_length else value
@@ -157,7 +157,7 @@ def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float 
         return None
     if not drawn:
         refuse(f"--width: applies to figures only; add {switch}")
-    read = _read("width", width)
+    read = _read_place("width", width)
     try:
         plot_package().layout.page.page_width(read, 1.0)
     except ValueError as error:

@@ -55,7 +55,7 @@ def print_history(
     axis = run_axis(ds)
     count = ds.sizes[axis.name]
     rows = np.arange(count) if everything else _spread(count)
-    shown = _shown(ds)
+    shown = _shown_scalars(ds)
     columns = _columns(ds, [axis.name, *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
     table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
@@ -95,7 +95,7 @@ def _print_verdicts(console: Console, directory: Path) -> None:
             console.print(line, highlight=False)
 
 
-def _shown(ds: StoredResult) -> list[str]:
+def _shown_scalars(ds: StoredResult) -> list[str]:
     """Scalars of the table; over speed with the friction, and without a constant force."""
     shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
     if run_axis(ds).is_history:
@@ -137,7 +137,7 @@ def _loss_error(ds: StoredResult) -> str:
     return f", within {format_percent(found.part)}" if found and np.isfinite(found.part) else ""
 
 
-def _largest(ds: StoredResult, name: str) -> float:
+def _largest_value(ds: StoredResult, name: str) -> float:
     return float(np.nanmax(np.abs(ds[name].values), initial=0.0))
 
 
@@ -161,7 +161,7 @@ def _columns(
 ) -> list[_HistoryColumn]:
     columns, axis = [], run_axis(ds)
     for name in names:
-        largest = _largest(ds, name)
+        largest = _largest_value(ds, name)
         if largest == 0:  # the time of a run with a single instant at 0
             continue
         unit = readable_unit(axis.unit if name == axis.name else SCALARS[name].units, largest)

@@ -30,19 +30,19 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
     """Open the result of a run, or refuse it with a message."""
     from viscontact.results.netcdf import open_results  # xarray takes half a second to import
 
-    with _checked(path, open_results) as ds:
+    with _open_checked(path, open_results) as ds:
         yield ds
 
 
 @contextmanager
 def opened_history(path: Path) -> Iterator[StoredResult]:
     """Open the result of a run without xarray, or refuse it with the same messages."""
-    with _checked(path, stored_result) as found:
+    with _open_checked(path, stored_result) as found:
         yield found
 
 
 @contextmanager
-def _checked(path: Path, open_file: Callable[[Path], _Result]) -> Iterator[_Result]:
+def _open_checked(path: Path, open_file: Callable[[Path], _Result]) -> Iterator[_Result]:
     try:
         ds = open_file(path)
     except FileNotFoundError:
@@ -77,7 +77,7 @@ def _require_history(path: Path, ds: Result) -> None:
 def early_end(ds: Result) -> str:
     """Message about a run that ended early; empty for a complete one."""
     try:
-        made = _made(ds)
+        made = _progress_made(ds)
     except (KeyError, IndexError, TypeError, ValueError):  # not written by a run
         return ""
     if not made:
@@ -89,7 +89,7 @@ def early_end(ds: Result) -> str:
     return f"the run stopped at {made}{'' if failed or directory is None else _remedy(directory)}"
 
 
-def _made(ds: Result) -> str:
+def _progress_made(ds: Result) -> str:
     """Progress of a run that ended early; empty for a complete one."""
     case = case_of(ds)
     if not run_axis(ds).is_history:

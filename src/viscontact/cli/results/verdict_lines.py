@@ -16,10 +16,10 @@ _COLOURS = {"passed": "green", "failed": "red", "undecided": "yellow"}
 def verdict_lines(ds: xr.Dataset) -> Iterator[str]:
     """Yield a line for each allowable value, with markup; nothing without any."""
     for each in verdicts(ds):
-        yield f"[{_COLOURS[each.verdict]}]{each.verdict}[/]: {escape(_compared(ds, each))}"
+        yield f"[{_COLOURS[each.verdict]}]{each.verdict}[/]: {escape(_comparison(ds, each))}"
 
 
-def _compared(ds: xr.Dataset, each: Verdict) -> str:
+def _comparison(ds: xr.Dataset, each: Verdict) -> str:
     name = each.label[:1].lower() + each.label[1:]
     found = f" {each.found} at {run_axis(ds).place(each.at)}" if each.found else ""
     reason = f"; {each.reason}" if each.reason else ""

@@ -33,15 +33,15 @@ def print_forecast(prepared: PreparedRun) -> Forecast:
         console.print(f"[yellow]warning:[/] {escape(line)}")
     for line in prepared.case.notes:
         console.print(f"note: {escape(line)}", highlight=False, soft_wrap=True)
-    console.print(_listed(needs(prepared, expected)))
+    console.print(_rows_table(needs(prepared, expected)))
     title, rows = expectations(prepared, expected)
     if rows:
         console.print(title, soft_wrap=True)
-        console.print(_listed(rows))
+        console.print(_rows_table(rows))
     return expected
 
 
-def _listed(rows: list[tuple[str, str]]) -> Table:
+def _rows_table(rows: list[tuple[str, str]]) -> Table:
     table = Table(show_header=False, box=None, padding=(0, 0, 0, 2))
     table.add_column(min_width=_NAMES)
     table.add_column()

@@ -87,7 +87,7 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
     narrow = whole > width
     table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False)
     for heading, cells in columns.items():
-        shown = [_broken(cell) if narrow else cell for cell in cells]
+        shown = [_on_lines(cell) if narrow else cell for cell in cells]
         least = max(len(line) for cell in (heading, *shown) for line in (cell.splitlines() or [""]))
         justify: Literal["left", "right"] = "right" if narrow and heading else "left"
         table.add_column(heading, min_width=least, justify=justify)
@@ -112,7 +112,7 @@ def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
     return columns
 
 
-def _broken(cell: str) -> str:
+def _on_lines(cell: str) -> str:
     """Cell with the error, and the time of the largest one, on lines of their own."""
     return re.sub(r"\s+(?=±|at \d)", "\n", cell.strip())
 

@@ -34,12 +34,12 @@ _OF_RUNS = (
 
 def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> None:
     """Fit values of a case by options of the command; print, draw and write them."""
-    if idle := _given(typed, _OF_TABLES):
+    if idle := _typed_options(typed, _OF_TABLES):
         refuse(
             f"{', '.join(idle)} does not go with --case, whose file has body and law; leave it out"
         )
     trials = Path(f"{typed['files'][0].stem}-fit.jsonl")
-    found = _fitted(typed, trials)
+    found = _fit(typed, trials)
     print(found)
     for note in found.notes:
         say(f"warning: {note}")
@@ -55,13 +55,13 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
 
 def refuse_without_case(typed: Mapping[str, Any]) -> None:
     """Refuse options of ``--case`` without it."""
-    idle, count = _given(typed, _OF_RUNS), len(typed["files"])
+    idle, count = _typed_options(typed, _OF_RUNS), len(typed["files"])
     if idle or count > 1:
         what = ", ".join(idle) or f"{count} tables"
         refuse(f"{what}: needs --case CASE.yaml, the case of the experiment")
 
 
-def _given(typed: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
+def _typed_options(typed: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
     """Options of some parameters that were typed."""
     given = (name for name in names if typed[name] is not None and typed[name] is not False)
     options = {"settings": "--set"}
@@ -84,7 +84,7 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _fitted(typed: Mapping[str, Any], trials: Path) -> CaseFit:
+def _fit(typed: Mapping[str, Any], trials: Path) -> CaseFit:
     """Result of a fit, which keeps its runs in a file up to its end."""
     arguments, begun = _arguments(typed), trials.exists()
 

@@ -58,7 +58,7 @@ def checked_jobs(
         refuse(*problem_lines(problems, planned))
     found = [jobs[number] for number in range(len(runs))]
     _refuse_shared_directories(found)
-    return _named(found)
+    return _with_names(found)
 
 
 def _to_prepare(planned: Sequence[PlannedRun]) -> set[int]:
@@ -90,13 +90,13 @@ def _job(request: RunRequest, prepared: Sequence[Job], count: int, memory: float
     if count > MOST_READ:
         standing = _standing_by_names(request, directory)
     else:
-        standing = _standing(request, directory, _read(request), memory)
+        standing = _standing(request, directory, _read_case(request), memory)
     return replace(
         size, request=request, directory=directory, name=directory.name, standing=standing
     )
 
 
-def _read(request: RunRequest) -> Case:
+def _read_case(request: RunRequest) -> Case:
     try:
         return read_case(request.case, request.settings)
     except CaseError as error:
@@ -149,7 +149,7 @@ def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
             )
 
 
-def _named(jobs: list[Job]) -> list[Job]:
+def _with_names(jobs: list[Job]) -> list[Job]:
     """Name runs after their directories, with the whole path where names are equal."""
     count = Counter(job.name for job in jobs)
     return [job if count[job.name] == 1 else replace(job, name=str(job.directory)) for job in jobs]
@@ -170,7 +170,7 @@ def problem_lines(
         first, concerned = next(iter(lines)), [run for runs in lines.values() for run in runs]
         cases = {each.request.case for each in concerned}
         is_of_all = len(concerned) == sum(number[case] for case in cases)
-        shown.append(first if is_of_all else _attributed(first, concerned, common))
+        shown.append(first if is_of_all else _problem_of_runs(first, concerned, common))
     more = len(shown) - _MOST_PROBLEMS
     return shown[:_MOST_PROBLEMS] + ([f"and {more} more problems"] if more > 0 else [])
 
@@ -191,25 +191,25 @@ def _subject(line: str, design: Design) -> str:
     return line
 
 
-def _attributed(line: str, concerned: Sequence[PlannedRun], common: set[str]) -> str:
+def _problem_of_runs(line: str, concerned: Sequence[PlannedRun], common: set[str]) -> str:
     """Problem with its runs: their lines in a table, their numbers, or their values."""
     design = concerned[0].design
     if design.lines:
         numbers = [str(each.design.lines[each.row]) for each in concerned]
         table, colon, rest = line.partition(": column ")
         if not colon:
-            return f"{line} [{_listed('line', numbers)} of the table]"
-        others = f" [and in {_listed('line', numbers[1:])}]" if numbers[1:] else ""
+            return f"{line} [{_list_names('line', numbers)} of the table]"
+        others = f" [and in {_list_names('line', numbers[1:])}]" if numbers[1:] else ""
         return f"{table}:{numbers[0]}: column {rest}{others}"
     if design.kind == "sample":
-        return f"{line} [{_listed('run', [str(each.row) for each in concerned])}]"
+        return f"{line} [{_list_names('run', [str(each.row) for each in concerned])}]"
     varied = [[t for t in each.request.settings if t not in common] for each in concerned]
     if len(varied) == 1 and all(t.partition("=")[2].strip() in line for t in varied[0]):
         return line
-    return f"{line} [{_listed('', ['with ' + ', '.join(texts) for texts in varied], '; ')}]"
+    return f"{line} [{_list_names('', ['with ' + ', '.join(texts) for texts in varied], '; ')}]"
 
 
-def _listed(noun: str, names: Sequence[str], separator: str = ", ") -> str:
+def _list_names(noun: str, names: Sequence[str], separator: str = ", ") -> str:
     """Some of the names, behind their noun."""
     more = len(names) - _MOST_PLACES
     shown = separator.join(dict.fromkeys(names[:_MOST_PLACES]))

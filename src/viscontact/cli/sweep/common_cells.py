@@ -37,12 +37,14 @@ def with_common_cells(
     sweeps: dict[Path, list[PlannedRun]] = {}
     for each in planned:
         sweeps.setdefault(each.request.case, []).append(each)
-    added = {case: _added(runs, option, settings, earlier, memory) for case, runs in sweeps.items()}
+    added = {
+        case: _setting(runs, option, settings, earlier, memory) for case, runs in sweeps.items()
+    }
     requests = (each.request for each in planned)
     return [replace(each, settings=(*each.settings, *added[each.case])) for each in requests]
 
 
-def _added(
+def _setting(
     planned: Sequence[PlannedRun],
     option: str,
     settings: Sequence[str],

@@ -49,7 +49,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
             runs=len(sweep.jobs),
             left=left,
             memory=max(job.memory for job in sweep.jobs),
-            seconds=_longest([sweep.jobs[number] for number in left]),
+            seconds=_longest_duration([sweep.jobs[number] for number in left]),
             logs=script.parent.resolve() / f"{script.stem}-logs",
             threads=request.common.threads,
             at_once=request.jobs if request.jobs > 1 else None,
@@ -65,7 +65,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
         print(f"{submit} {shlex.quote(str(script))}")
 
 
-def _longest(jobs: list[Job]) -> float:
+def _longest_duration(jobs: list[Job]) -> float:
     """Predicted duration of the longest run [s]."""
     longest = max(jobs, key=lambda job: job.work)
     request = replace(longest.request, output=longest.directory)

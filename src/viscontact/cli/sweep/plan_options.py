@@ -53,11 +53,11 @@ class PlanOptions:
         """Design of the runs of a case, whose files may be named by wildcards."""
         self._refuse_contradictions()
         if self.table is not None:
-            found = _read(self.table)
+            found = _read_plan(self.table)
         elif self.sample is not None:
             found = self._sampled(self.sample)
         else:
-            found = self._varied(case)
+            found = self._plan_of(case)
         self._refuse_keys_given_twice(found, settings)
         return found
 
@@ -115,7 +115,7 @@ class PlanOptions:
                 if value is not None:
                     refuse(f"{option}: goes with --sample N, the number of runs, e.g. --sample 64")
 
-    def _varied(self, case: Path) -> Design:
+    def _plan_of(self, case: Path) -> Design:
         axes = [_axis(text) for text in self.varied]
         _refuse_repeated("--vary", [key for key, _ in axes], "all its values behind one --vary")
         values = {key: _with_files(key, given, case) for key, given in axes}
@@ -149,7 +149,7 @@ def key_of(text: str) -> str:
     return text.partition("=")[0].strip()
 
 
-def _read(table: Path) -> Design:
+def _read_plan(table: Path) -> Design:
     try:
         return read_design(table)
     except ValueError as error:
@@ -213,11 +213,11 @@ def _with_files(key: str, values: Sequence[str], case: Path) -> list[str]:
         names = sorted(glob.glob(value, root_dir=case.parent, recursive=True))  # noqa: PTH207 may be absolute
         if not names:
             refuse(f"--vary {key}={value}: no file of that name in {case.parent.resolve()}")
-        found += [_quoted(Path(name).as_posix()) for name in names]
+        found += [_yaml_name(Path(name).as_posix()) for name in names]
     return found
 
 
-def _quoted(name: str) -> str:
+def _yaml_name(name: str) -> str:
     """Name of a file as a value of YAML, in quotes where it could be another value."""
     try:
         is_plain = parse_value(name) == name

@@ -53,15 +53,15 @@ def execute_task(request: ManyRequest, array: Path | None, number: int) -> None:
             f"--task {number}: {path} is not the manifest of a sweep; give DIR/{MANIFEST_NAME}, "
             "which `viscontact run CASE --vary ... -o DIR --array FILE.sbatch` writes"
         )
-    run = _numbered(path, number)
+    run = _run_by_number(path, number)
     directory = path.parent / run.directory
     if not (common.resume or common.overwrite):
         with _recorded_failure(directory):
             _refuse_changed_case(path, run)
     if common.settings:
-        run = _changed(path, run, common)
+        run = _change_settings(path, run, common)
     with _recorded_failure(directory):
-        _execute(_request(path, run, common), path.parent / STOP_NAME, _again(path, run, common))
+        _execute(_request(path, run, common), path.parent / STOP_NAME, _command(path, run, common))
 
 
 @contextmanager
@@ -89,7 +89,7 @@ def _execute(request: RunRequest, file: Path, again: str) -> None:
             raise CommandError(end.code, lines) from end
 
 
-def _again(path: Path, run: SweepRun, common: RunRequest) -> str:
+def _command(path: Path, run: SweepRun, common: RunRequest) -> str:
     """Command that continues a task; it keeps settings that were given before."""
     words = ["--task", str(run.run), no_option(path)]
     if common.threads != 1:
@@ -107,7 +107,7 @@ def _refuse_changed_case(path: Path, run: SweepRun) -> None:
         )
 
 
-def _changed(path: Path, run: SweepRun, common: RunRequest) -> SweepRun:
+def _change_settings(path: Path, run: SweepRun, common: RunRequest) -> SweepRun:
     """Run with other settings, which are checked and written to its manifest."""
     directory = path.parent / run.directory
     changed = changed_run(run, common.settings, directory, overwrite=common.overwrite)
@@ -129,7 +129,7 @@ def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:
     )
 
 
-def _numbered(path: Path, number: int) -> SweepRun:
+def _run_by_number(path: Path, number: int) -> SweepRun:
     """Run of a manifest with a number."""
     found, last = None, -1
     try:
@@ -159,7 +159,7 @@ def changed_run(
                 "the runs are given, and repeat that command with --resume"
             )
     before = {key: run.settings.get(key) for key in given}
-    if all(value is not None and _same(key, value, given[key]) for key, value in before.items()):
+    if all(value is not None and _equal(key, value, given[key]) for key, value in before.items()):
         return run
     if not overwrite and has_begun(directory):
         refuse(
@@ -184,5 +184,5 @@ def write_changed(manifest: Path, run: SweepRun) -> None:
         refuse(f"{manifest}: cannot be changed: {error}")
 
 
-def _same(key: str, one: str, other: str) -> bool:
+def _equal(key: str, one: str, other: str) -> bool:
     return comparable(key, one) == comparable(key, other)

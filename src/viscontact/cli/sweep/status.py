@@ -23,7 +23,7 @@ _MESSAGE = 200
 
 def print_status(directory: Path, *, watch: bool) -> None:
     """Print the status of a sweep; exit code 1 if a run has failed."""
-    status = _watched(directory) if watch else _look(directory)
+    status = _watch_status(directory) if watch else _look(directory)
     if not watch:
         print("\n".join(status_lines(directory, status)))
     if status.counts[State.FAILED]:
@@ -73,7 +73,7 @@ def _look(directory: Path) -> SweepStatus:
         refuse(str(error))
 
 
-def _watched(directory: Path) -> SweepStatus:
+def _watch_status(directory: Path) -> SweepStatus:
     """Renew the lines on a terminal until all runs have ended; elsewhere, print each change."""
     from rich.console import Console
     from rich.live import Live

@@ -54,7 +54,7 @@ class _RunColumn:
 
 def print_table(runs: Sequence[Ended]) -> None:
     """Print the largest values over time or speed of several runs, and their warnings."""
-    found = [_found(each) for each in runs]
+    found = [_values_of_run(each) for each in runs]
     console = Console()
     over = " or ".join(sorted({each.over for each in found if each})) or "time"
     states, values = list(_state_columns(runs, found)), list(_value_columns(found))
@@ -71,18 +71,18 @@ def print_table(runs: Sequence[Ended]) -> None:
         console.print(f"[yellow]warning:[/] {escape(line)}", highlight=False, soft_wrap=True)
 
 
-def _found(ended: Ended) -> _RunValues | None:
+def _values_of_run(ended: Ended) -> _RunValues | None:
     """Results in the directory of a run; None without any, or of another run."""
     if ended.outcome in ("refused", "not begun"):
         return None
     try:
         with open_results(ended.job.directory) as ds:
-            return _of(ds) if ds.sizes[run_axis(ds).name] else None
+            return _values_of(ds) if ds.sizes[run_axis(ds).name] else None
     except (OSError, ValueError, LookupError):
         return None
 
 
-def _of(ds: xr.Dataset) -> _RunValues:
+def _values_of(ds: xr.Dataset) -> _RunValues:
     names = shown_scalars(ds, Place.KEY)
     largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in names}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())

@@ -22,7 +22,7 @@ def area_panel(results: xr.Dataset, times: ArrayLike | None, figure: str) -> Pan
     run = within_span(results, (_NAME, "force", "approach"), times, figure, "")
     first, last = run["time"].values[[0, -1]]
     shown = np.flatnonzero((stored >= first) & (stored <= last))
-    counted = np.array([_counted(read(int(index))) for index in shown])
+    counted = np.array([_area_of_cells(read(int(index))) for index in shown])
     area = run[_NAME].values
     smooth = Curve(run["time"].values, area, "between the cells", error=stated_error(run, _NAME))
     cells = Curve(stored[shown], counted, "cells counted", Ink("fit"), "points")
@@ -31,7 +31,7 @@ def area_panel(results: xr.Dataset, times: ArrayLike | None, figure: str) -> Pan
     return Panel(along_run([run]), Axis(y.quantity, y.unit, limits), (smooth, cells))
 
 
-def _counted(snapshot: Snapshot) -> float:
+def _area_of_cells(snapshot: Snapshot) -> float:
     """Area of the cells in contact [m²]."""
     dx, dy = snapshot.cell_size
     return int(snapshot.in_contact.sum()) * dx * dy

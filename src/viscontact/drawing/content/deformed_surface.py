@@ -52,7 +52,7 @@ class DeformedContact:
         cells = (self.map.snapshot.x, self.map.snapshot.y)
         # On the rim the bodies touch: the indenter is smooth there, the surface falls next to a
         # punch.
-        depth = RegularGridInterpolator(cells, _continued(self.indenter), bounds_error=False)
+        depth = RegularGridInterpolator(cells, _beyond_ends(self.indenter), bounds_error=False)
         for curve in self.map.outline:
             yield np.column_stack([curve, depth(curve)])
 
@@ -68,7 +68,7 @@ class DeformedContact:
     def _points(self) -> tuple[tuple[Floats, Integers], tuple[Floats, Integers]]:
         """Positions of the points drawn along x and y [m], and their numbers."""
         snapshot = self.map.snapshot
-        return _some(snapshot.x, self.window.x), _some(snapshot.y, self.window.y)
+        return _sampled(snapshot.x, self.window.x), _sampled(snapshot.y, self.window.y)
 
 
 def deformed_contacts(
@@ -99,14 +99,14 @@ def depth_scale(contacts: list[DeformedContact]) -> tuple[ReadableUnit, tuple[fl
     return unit, (float(unit(low)), float(unit(high)))
 
 
-def _some(at: Floats, limits: tuple[float, float]) -> tuple[Floats, Integers]:
+def _sampled(at: Floats, limits: tuple[float, float]) -> tuple[Floats, Integers]:
     """Positions within limits at equal steps [m], and their numbers."""
     inside = np.flatnonzero((at >= limits[0]) & (at <= limits[1]))
     chosen = inside[:: -(-inside.size // _MOST)]
     return at[chosen], chosen
 
 
-def _continued(depth: Floats) -> Floats:
+def _beyond_ends(depth: Floats) -> Floats:
     """Values continued beyond a body's end by those of its nearest cell."""
     nearest = distance_transform_edt(np.isnan(depth), return_distances=False, return_indices=True)
     return np.asarray(depth[tuple(nearest)])

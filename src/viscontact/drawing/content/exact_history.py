@@ -52,7 +52,7 @@ def exact_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
     within = np.isin(results["time"].values, run["time"].values)
     x, label = along_run([run]), _label(results, theory.solution)
     instants, panels, differences = run["time"].values, [], []
-    compared = _compared(results, run, theory)
+    compared = _compared_histories(results, run, theory)
     for number, (quantity, si, ours, theirs) in enumerate(compared):
         exact, ink = theirs[within], Ink(place=number)
         curves = (
@@ -69,7 +69,7 @@ def exact_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
     return [*panels, Panel(x, of_largest, tuple(differences), marks=zero, note=note)]
 
 
-def _compared(
+def _compared_histories(
     results: xr.Dataset, run: xr.Dataset, theory: ExactHistory
 ) -> list[tuple[str, str, Floats, Floats]]:
     """Label, unit, computed and exact history of each quantity that was not prescribed."""
@@ -100,7 +100,7 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
     if growing is not None and not is_elastic:
         return _of_growing(growing, instants)
     try:
-        marched = _pressed(float(radius or 0.0), load, compliance, instants)
+        marched = _contact(float(radius or 0.0), load, compliance, instants)
     except ValueError as error:
         raise ValueError(f"{figure}: {error}") from error
     return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
@@ -149,7 +149,7 @@ def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
     return compliance, all(isinstance(body.law, Elastic) for body in there)
 
 
-def _pressed(radius: float, load: Any, compliance: Any, instants: Floats) -> AxisymmetricContact:
+def _contact(radius: float, load: Any, compliance: Any, instants: Floats) -> AxisymmetricContact:
     """Reference solution under the load, with its own steps between those of the run."""
     corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
     corners = corners[corners <= instants[-1]]

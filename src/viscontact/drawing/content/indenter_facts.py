@@ -62,7 +62,7 @@ def in_lines(texts: Iterator[str], characters: int) -> str:
 def length(value: float, digits: int = 4) -> str:
     """Length in a readable unit, with a typographic minus sign."""
     unit = readable_unit("m", value)
-    return _signed(f"{format_compact(float(unit(value)), digits)} {unit.symbol}")
+    return _with_sign(f"{format_compact(float(unit(value)), digits)} {unit.symbol}")
 
 
 def _names(indenter: Indenter, along: Cut) -> Iterator[str]:
@@ -130,9 +130,9 @@ def _places(section: Cut) -> str:
     if len(ends) == 2 and abs(ends[0] + ends[1]) <= 1e-9 * ends[1]:
         return f"±{length(ends[1])}"
     unit = readable_unit("m", ends)
-    places = ", ".join(_signed(format_compact(float(unit(end)), 4)) for end in ends)
+    places = ", ".join(_with_sign(format_compact(float(unit(end)), 4)) for end in ends)
     return f"{places} {unit.symbol}"
 
 
-def _signed(number: str) -> str:
+def _with_sign(number: str) -> str:
     return number.replace("-", "\N{MINUS SIGN}")

@@ -136,7 +136,7 @@ def _known_panel(
     curves = [curve for part in parts for curve in _curves(part, at, known, points)]
     return Panel(
         Axis(over[0], ReadableUnit(over[1], 1.0), ends, "log", low),
-        Axis(of[0], _middle_unit(of[1], parts[0].values), scale=_upward(curves)),
+        Axis(of[0], _middle_unit(of[1], parts[0].values), scale=_positive_scale(curves)),
         tuple(curves),
         shaded=known and (max(known[0], low), min(known[1], high)),
     )
@@ -157,7 +157,7 @@ def _curves(
         yield Curve(each.at, each.values, ink=part.ink, look="white", symbol=number)
 
 
-def _upward(curves: Sequence[Curve]) -> Literal["linear", "log"]:
+def _positive_scale(curves: Sequence[Curve]) -> Literal["linear", "log"]:
     """Scale of positive curves: within one decade a logarithmic axis has hardly a tick to read."""
     values = np.concatenate([curve.y[curve.y > 0] for curve in curves])
     span = values.max() / values.min() if values.size else 1.0

@@ -114,7 +114,7 @@ def _turns_back(run: xr.Dataset, axis: str) -> bool:
 
 
 def _resistance(run: xr.Dataset, axis: str) -> Loop:
-    scalars, ends = (f"position_{axis}", f"resistance_{axis}"), (_last(run), run.sizes["time"] - 1)
+    scalars, ends = (f"position_{axis}", f"resistance_{axis}"), (_start(run), run.sizes["time"] - 1)
     return Loop(f"loop-{axis}", *scalars, "motion work", *ends)
 
 
@@ -122,7 +122,7 @@ def _hysteresis(cycle: LoadCycle) -> Loop:
     return Loop("loop-force", "approach", "force", "loss", cycle.first, cycle.last)
 
 
-def _last(run: xr.Dataset) -> int:
+def _start(run: xr.Dataset) -> int:
     """Index of the instant at which the last complete cycle of the motion begins, or 0."""
     if not case_of(run).get("motion"):
         return 0

@@ -129,7 +129,7 @@ class Maps:
     def inside(self) -> tuple[slice, slice]:
         """The cells along x and y within the window."""
         first, window = self.snapshots[0], self.window
-        return _between(first.x, window.x), _between(first.y, window.y)
+        return _slice_between(first.x, window.x), _slice_between(first.y, window.y)
 
     def strides(self, most: int) -> tuple[int, int]:
         """Numbers of cells along x and y that are averaged to have at most so many of each."""
@@ -241,6 +241,6 @@ def _averaged(values: Floats, stride: int, axis: int = 0) -> Floats:
     return np.asarray(sums / np.expand_dims(counts, 1 - axis) if values.ndim > 1 else sums / counts)
 
 
-def _between(positions: Floats, limits: tuple[float, float]) -> slice:
+def _slice_between(positions: Floats, limits: tuple[float, float]) -> slice:
     within = np.flatnonzero((positions >= limits[0]) & (positions <= limits[1]))
     return slice(int(within[0]), int(within[-1]) + 1)

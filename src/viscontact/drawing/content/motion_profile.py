@@ -28,7 +28,7 @@ def motion_panel(results: xr.Dataset, speeds: ArrayLike | None, at: float) -> Pa
     dimension = str(results["pressure"].dims[0])
     stored, touched = (each.sel(line, method="nearest").sortby(dimension) for each in fields)
     places, known = stored[along].values, stored[dimension].values
-    chosen = _chosen(known, speeds)
+    chosen = _drawn_speeds(known, speeds)
     curves = []
     for number, place in zip(chosen, np.linspace(0.0, 1.0, chosen.size).tolist(), strict=True):
         ink, name = Ink("ordered", place), format_quantity(float(known[number]), "m/s", _DIGITS)
@@ -46,7 +46,7 @@ def motion_panel(results: xr.Dataset, speeds: ArrayLike | None, at: float) -> Pa
     )
 
 
-def _chosen(stored: Floats, speeds: ArrayLike | None) -> Integers:
+def _drawn_speeds(stored: Floats, speeds: ArrayLike | None) -> Integers:
     """Positions of the speeds to draw among the stored ones, ascending."""
     if speeds is None:
         count = min(_MOST, len(stored))

@@ -30,9 +30,9 @@ def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> R
     squared, x, y = _around_contact(_with_corners(squared_pressure(thin)), thin.x, thin.y)
     parts = max(1, min(_FINEST, _POINTS // max(squared.shape)))
     squared, x, y = (
-        _refined(_refined(squared, parts).T, parts).T,
-        _refined(x, parts),
-        _refined(y, parts),
+        _interpolate_rows(_interpolate_rows(squared, parts).T, parts).T,
+        _interpolate_rows(x, parts),
+        _interpolate_rows(y, parts),
     )
     pressed = squared > 0
     points = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
@@ -68,7 +68,7 @@ def _with_corners(squared: Floats) -> Floats:
     return np.where(count > 0, total / np.maximum(count, 1), squared)
 
 
-def _refined(values: Floats, parts: int) -> Floats:
+def _interpolate_rows(values: Floats, parts: int) -> Floats:
     """Interpolate along the first axis, with `parts` points per interval."""
     at = np.arange((len(values) - 1) * parts + 1) / parts
     lower = np.minimum(at.astype(int), len(values) - 2)

@@ -37,7 +37,7 @@ def rim_polygons(snapshot: Snapshot) -> list[Floats]:
     # foot of its steepest descent to zero. Following the gradient keeps the polygon smooth where
     # the rim runs almost along a grid line. Where the body ends, the corner is its end, or half-way
     # between the cells if that is not known.
-    return [first + cell * _closed(_spread(found)) for found, _, first, cell in _traced(snapshot)]
+    return [first + cell * _close(_spread(found)) for found, _, first, cell in _polygons(snapshot)]
 
 
 def rim_curves(snapshot: Snapshot) -> list[Floats]:
@@ -47,12 +47,12 @@ def rim_curves(snapshot: Snapshot) -> list[Floats]:
     # corners of Hertz's ellipses are off by 0.02 to 0.05 cells, to both sides, while the polygon
     # lies inside. A rim with corners, or a rough one, needs many knots: it remains a polygon.
     return [
-        first + cell * (_spline(found) if steady else _closed(_spread(found)))
-        for found, steady, first, cell in _traced(snapshot)
+        first + cell * (_spline(found) if steady else _close(_spread(found)))
+        for found, steady, first, cell in _polygons(snapshot)
     ]
 
 
-def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corners]]:
+def _polygons(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corners]]:
     """Corners of each polygon [cells], whether the gap gives all, and the mesh's place [m]."""
     # A border of open cells closes every polygon of a grid that is not periodic.
     snapshot = beyond_period(snapshot).with_border(1)
@@ -61,7 +61,7 @@ def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corner
     first = np.array([snapshot.x[0], snapshot.y[0]])
     cell = np.array([snapshot.x[1], snapshot.y[1]]) - first
     for inner, outer in _borders(contact):
-        yield (*_moved(inner, outer, offsets, snapshot.body_end), first, cell)
+        yield (*_corners_on_rim(inner, outer, offsets, snapshot.body_end), first, cell)
 
 
 def _borders(contact: Bools) -> Iterator[tuple[Integers, Integers]]:
@@ -117,7 +117,7 @@ def _slope(opening: Floats) -> Floats:
     return mean
 
 
-def _moved(
+def _corners_on_rim(
     inner: Integers, outer: Integers, offsets: Floats, body_end: Outline | None
 ) -> tuple[Corners, bool]:
     """Corners half-way between cells, moved onto the rim, once for each open cell [cells]."""
@@ -137,25 +137,25 @@ def _spread(polygon: Corners) -> Corners:
     return smooth
 
 
-def _closed(polygon: Corners) -> Corners:
+def _close(polygon: Corners) -> Corners:
     return np.vstack([polygon, polygon[:1]])
 
 
 def _spline(polygon: Corners) -> Corners:
     """Smooth closed curve past the corners, or the polygon if there is none [cells]."""
     if len(polygon) >= _ENOUGH:
-        corners = _closed(polygon)
+        corners = _close(polygon)
         along = np.append(0.0, np.cumsum(np.hypot(*np.diff(corners, axis=0).T)))
-        loose, curve = (_fitted(corners, along, scatter) for scatter in (_LOOSE, _CLOSE))
+        loose, curve = (_fit_spline(corners, along, scatter) for scatter in (_LOOSE, _CLOSE))
         strays = np.hypot(*(np.transpose(splev(along, curve)) - corners).T)
         pieces = len(loose[0]) - 7  # three knots more at either end of a cubic
         if pieces <= _PIECES[0] + _PIECES[1] * len(polygon) and strays.max() <= _STRAY:
             finer = np.linspace(0.0, along[-1], _FINER * len(polygon) + 1)
             return np.transpose(splev(finer, curve))
-    return _closed(_spread(polygon))
+    return _close(_spread(polygon))
 
 
-def _fitted(corners: Corners, along: Floats, scatter: float) -> Any:
+def _fit_spline(corners: Corners, along: Floats, scatter: float) -> Any:
     """Periodic spline with a given mean-square distance from the corners [cells]."""
     left = len(corners) * scatter**2
     (spline, _), *_ = splprep(corners.T, u=along, per=1, s=left, full_output=1, quiet=2)

@@ -109,10 +109,10 @@ def _reach(indenter: Indenter, axis: int) -> float:
     if last == places.size - 1 or not math.isfinite(gap[last + 1]):
         return end
     low, high = places[last : last + 2].tolist()
-    return min(end, _where(indenter, _CAP * radius, low, high, axis))
+    return min(end, _root(indenter, _CAP * radius, low, high, axis))
 
 
-def _where(indenter: Indenter, height: float, low: float, high: float, axis: int) -> float:
+def _root(indenter: Indenter, height: float, low: float, high: float, axis: int) -> float:
     """Position between two others where the gap reaches a height [m]."""
     for _ in range(40):
         middle = (low + high) / 2

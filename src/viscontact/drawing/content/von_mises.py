@@ -29,7 +29,7 @@ def von_mises_panels(
 ) -> tuple[Panel, Panel]:
     """Panels of the largest stress on planes across the contact, and of its depth."""
     found = [
-        _largest(run, times, part_of(progress, index, len(runs)))
+        _largest_stresses(run, times, part_of(progress, index, len(runs)))
         for index, run in enumerate(runs.values())
     ]
     instants = [each[0] for each in found]
@@ -53,7 +53,7 @@ def von_mises_panels(
     )
 
 
-def _largest(
+def _largest_stresses(
     run: xr.Dataset, times: ArrayLike | None, progress: Progress | None
 ) -> tuple[Floats, Floats, Floats]:
     """Instants [s], largest stress [Pa] and its depth [m]."""

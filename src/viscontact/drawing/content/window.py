@@ -66,7 +66,7 @@ def window_over(
     """Window around boxes (x_min, x_max, y_min, y_max), with a margin, within the borders [m]."""
     lows = min(box[0] for box in boxes), min(box[2] for box in boxes)
     highs = max(box[1] for box in boxes), max(box[3] for box in boxes)
-    x, y = (_widened(low, high) for low, high in zip(lows, highs, strict=True))
+    x, y = (_widen(low, high) for low, high in zip(lows, highs, strict=True))
     if borders is not None:
         x_low, x_high, y_low, y_high = borders
         x = max(x[0], x_low), min(x[1], x_high)
@@ -74,7 +74,7 @@ def window_over(
     return Window(x, y, _stretch((x[1] - x[0]) / (y[1] - y[0]), slender))
 
 
-def _widened(low: float, high: float) -> tuple[float, float]:
+def _widen(low: float, high: float) -> tuple[float, float]:
     margin = _MARGIN * (high - low)
     return low - margin, high + margin
 

@@ -58,7 +58,7 @@ class ResultPlots:
 
         def __getattr__(self, figure: str) -> Callable[..., Any]: ...
 
-    def _drawn(self, draw: Callable[..., Any], how: dict[str, Any]) -> Panels | Animation:
+    def _draw(self, draw: Callable[..., Any], how: dict[str, Any]) -> Panels | Animation:
         figure = draw(self.result, **how)
         if isinstance(figure, Animation):
             return figure
@@ -80,7 +80,7 @@ def add_methods(
 
 def _method(entry: FigureEntry, draw: Callable[..., Any]) -> Callable[..., Panels | Animation]:
     def method(self: ResultPlots, **how: Any) -> Panels | Animation:
-        return self._drawn(draw, how)
+        return self._draw(draw, how)
 
     method.__name__, method.__qualname__ = entry.method, f"ResultPlots.{entry.method}"
     first = str(draw.__doc__).partition("\n")[0].rstrip(".")

@@ -79,10 +79,10 @@ def explore(
     look = replace(DARK if dark else LIGHT, system=units)
     maps = maps_over(in_order(result))
     figures = [pressure_map(maps, look), *sections(maps, look), *line_loads(maps, look)]
-    return _together(figures, maps, look, width)
+    return _combine(figures, maps, look, width)
 
 
-def _together(figures: list[go.Figure], maps: Maps, look: Look, width: int | None) -> go.Figure:
+def _combine(figures: list[go.Figure], maps: Maps, look: Look, width: int | None) -> go.Figure:
     """Place a map above sections, as one figure whose frames change all of them."""
     narrow = width is not None and width < _NARROW
     map_height = min(max((width or _WIDTH) * maps.window.height_to_width, _LEAST), _MOST)

@@ -23,7 +23,7 @@ def contact_point(contact: ContactPoint, look: Look = LIGHT) -> go.Figure:
     (mark,) = panel.marks
     at = float(panel.x.unit(mark.place))
     line = {"type": "line", "yref": "paper", "y0": 0, "y1": 1, "x0": at, "x1": at}
-    return _drawn(
+    return _draw_fit(
         panel, look, "fit-contact", shapes=[line | {"line": {"color": look.edge, "width": 1}}]
     )
 
@@ -31,7 +31,7 @@ def contact_point(contact: ContactPoint, look: Look = LIGHT) -> go.Figure:
 def force_over_approach(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
     """Draw force over approach, measured and from the fitted law."""
     panel = replace(force_panel(fit, look.unit), note="points: measured")
-    return _drawn(panel, look, "fit-loop")
+    return _draw_fit(panel, look, "fit-loop")
 
 
 def fit_over_time(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
@@ -51,7 +51,7 @@ def fit_over_time(fit: IndentationFit, look: Look = LIGHT) -> go.Figure:
     )
 
 
-def _drawn(panel: Panel, look: Look, name: str, **layout: Any) -> go.Figure:
+def _draw_fit(panel: Panel, look: Look, name: str, **layout: Any) -> go.Figure:
     across: Part = {"title": {"text": panel.x.label}}
     if panel.x.limits is not None:
         across["range"] = panel.x.unit(panel.x.limits).tolist()

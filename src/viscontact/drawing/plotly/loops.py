@@ -18,11 +18,11 @@ def loops(
     """Draw the loops of a run, each beside that of a reference; none of a result over speed."""
     others = [] if reference is None else [each.name for each in loops_of(reference)]
     return [
-        _drawn(ds, loop, look, reference if loop.name in others else None) for loop in loops_of(ds)
+        _draw(ds, loop, look, reference if loop.name in others else None) for loop in loops_of(ds)
     ]
 
 
-def _drawn(ds: xr.Dataset, loop: Loop, look: Look, reference: xr.Dataset | None) -> go.Figure:
+def _draw(ds: xr.Dataset, loop: Loop, look: Look, reference: xr.Dataset | None) -> go.Figure:
     """Draw a loop: earlier and later cycles thin, the last whole one bold."""
     panel, hover = cycle_panel(ds, loop, look.unit, reference), _hover(ds, loop, look)
     across, up = panel.x, panel.y

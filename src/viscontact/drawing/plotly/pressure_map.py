@@ -77,7 +77,7 @@ def outlines(maps: Maps, look: Look = LIGHT) -> go.Figure:
             "hovertemplate": f"x %{{x:.4g}} {unit.symbol}, y %{{y:.4g}} {unit.symbol}"
             f"<extra>{labels[index]}</extra>",
         }
-        for index in _outlined(maps)
+        for index in _outlined_instants(maps)
     ]
     heading = entry_of("contact-outline").heading
     meta = {"name": "outlines", "title": heading} | _shape(maps, around=120, most=440)
@@ -219,7 +219,7 @@ def _arrow(body: BodyPlace, at: tuple[float, float], stretch: float, look: Look)
     return [{"x": at[0], "y": at[1], "xref": "x", "yref": "y", "text": "", **head, **ends}]
 
 
-def _outlined(maps: Maps) -> list[int]:
+def _outlined_instants(maps: Maps) -> list[int]:
     """Instants whose outline is drawn: some in contact, from the first to the last."""
     touching = [index for index, each in enumerate(maps.snapshots) if each.touching]
     most = _OUTLINES_OF_MANY if maps.many_spots else _OUTLINES

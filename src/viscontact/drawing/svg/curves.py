@@ -71,10 +71,10 @@ def load_drawings(load: LoadHistory) -> list[Element]:
         x = AxisScale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
     name = "share of the largest load" if load.control == "mixed" else load.control
     y = linear(name, load.unit, low - 0.04 * (high - low), high + 0.06 * (high - low), 3)
-    return [panel(f"{name} over time", x, y, [Stroke(times, levels)], aside=_aside(load))]
+    return [panel(f"{name} over time", x, y, [Stroke(times, levels)], aside=_side_text(load))]
 
 
-def _aside(load: LoadHistory) -> str:
+def _side_text(load: LoadHistory) -> str:
     if isinstance(load, HarmonicHistory) and load.cycles > _MOST_CYCLES:
         return f"{_MOST_CYCLES} of {load.cycles} cycles"
     return "then held"
@@ -110,10 +110,10 @@ def _curve(
         some = slice(None, None, math.ceil(len(rows[0]) / _MOST_DOTS))
         marks.append(Stroke(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
     x = logarithmic("time", "s", *span, each_with_unit=True)
-    return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks, aside=aside)
+    return panel(quantity, x, _positive_axis(quantity.split()[-1], unit, good), marks, aside=aside)
 
 
-def _upward(symbol: str, unit: str, values: Floats) -> AxisScale:
+def _positive_axis(symbol: str, unit: str, values: Floats) -> AxisScale:
     """The axis for values above zero."""
     low, high = float(values.min()), float(values.max())
     if values[-1] > _DECADES * values[0]:  # what flows; what relaxes goes to zero on a linear one

@@ -78,7 +78,7 @@ def _overviews(obj: Displayable) -> Iterator[Overview]:
     measured = next((make for kind, make in _MEASURED.items() if isinstance(obj, kind)), None)
     if measured is not None:
         yield measured(obj)
-        yield from (_overview(part) for part in _found(obj))
+        yield from (_overview(part) for part in _laws_in(obj))
         return
     if not isinstance(obj, DisplayableGroup):
         yield _overview(obj)
@@ -101,7 +101,7 @@ def _material_overview(card: MaterialCard) -> Overview:
     return Overview(f"Material card: {card.name}", rows)
 
 
-def _found(obj: Displayable) -> Iterator[Displayable]:
+def _laws_in(obj: Displayable) -> Iterator[Displayable]:
     """Laws, materials and shift rules in fits and material cards."""
     if isinstance(obj, Fit):
         yield obj.law
@@ -138,10 +138,10 @@ def _rows(obj: Displayable) -> list[tuple[str, ...]]:
         row for row in arguments if row not in (("shape", own), ("law", own), ("kind", own))
     ]
     known = {value for _, value in arguments}
-    return [*rows, *(row for row in _following(obj) if row[1] not in known)]
+    return [*rows, *(row for row in _derived_quantities(obj) if row[1] not in known)]
 
 
-def _following(obj: Displayable) -> Iterator[tuple[str, str]]:
+def _derived_quantities(obj: Displayable) -> Iterator[tuple[str, str]]:
     """Quantities that follow from the arguments: cell size, radii of curvature."""
     if isinstance(obj, Grid):
         yield "cell", " × ".join(format_quantity(extent, "m") for extent in obj.cell_size)
@@ -159,12 +159,12 @@ def _following(obj: Displayable) -> Iterator[tuple[str, str]]:
 
 def _drawings(obj: Displayable) -> list[Element]:
     try:
-        return _drawn(obj)
+        return _draw(obj)
     except ValueError:  # a user's own object may not be defined everywhere
         return []
 
 
-def _drawn(obj: Displayable) -> list[Element]:
+def _draw(obj: Displayable) -> list[Element]:
     if isinstance(obj, Indenter):
         return indenter_drawings(obj)
     if isinstance(obj, Layered):

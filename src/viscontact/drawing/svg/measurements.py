@@ -86,7 +86,7 @@ def indentation_fit_overview(fit: IndentationFit) -> Overview:
         ("given", f"{fit.given} over {format_quantity(float(np.ptp(fit.record.times)), 's')}"),
         (f"misses the {other} by", f"{format_percent(fit.residual)} of the largest (rms)"),
     ]
-    times, some = fit.record.times, _some(fit.record.times.size)
+    times, some = fit.record.times, _thin_slice(fit.record.times.size)
     marks = [Stroke(times[some], fit.measured[some], "dots", ORANGE), Stroke(times, fit.fitted)]
     both = np.concatenate([fit.measured, fit.fitted])
     drawn = panel(f"{other} over time", _axis("time", "s", times), _axis(other, unit, both), marks)
@@ -158,17 +158,17 @@ def _scatter(
         x = logarithmic("time", "s", *ends, each_with_unit=True)
     marks = []
     for index, (at, values) in enumerate(sets):
-        some = _some(at.size, max(4, _DOTS // len(sets)))
+        some = _thin_slice(at.size, max(4, _DOTS // len(sets)))
         # Neighbouring sets differ.
         colour = BLUE if index % 2 else ORANGE
         marks.append(Stroke(at[some], values[some], "dots", colour))
     if curve is not None:
         marks.append(Stroke(*curve))
     values = np.concatenate([each for _, each in sets])
-    return panel(name, x, _upward(name, values), marks)
+    return panel(name, x, _positive_axis(name, values), marks)
 
 
-def _upward(name: str, values: Floats) -> AxisScale:
+def _positive_axis(name: str, values: Floats) -> AxisScale:
     low, high = float(values.min()), float(values.max())
     if high > _DECADES * low:
         return logarithmic(name, _UNITS[name], 0.8 * low, 1.2 * high)
@@ -176,7 +176,7 @@ def _upward(name: str, values: Floats) -> AxisScale:
 
 
 def _lines(head: str, x: Floats, along: tuple[str, str], y: Floats, unit: str) -> Element:
-    some = _some(x.size, 2 * _POINTS)
+    some = _thin_slice(x.size, 2 * _POINTS)
     marks = [Stroke(x[some], y[some], colour=ORANGE)]
     return panel(head, _axis(*along, x), _axis(head.split()[0], unit, y), marks)
 
@@ -187,7 +187,7 @@ def _axis(name: str, unit: str, values: Floats) -> AxisScale:
     return linear(name, unit, low - room, high + room, 3)
 
 
-def _some(count: int, most: int = _DOTS) -> slice:
+def _thin_slice(count: int, most: int = _DOTS) -> slice:
     return slice(None, None, math.ceil(count / most))
 
 

@@ -43,7 +43,7 @@ def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> 
     ticks = tuple(
         ((number * shown.factor - low) / (high - low), _number(number)) for number in numbers
     )
-    return AxisScale(_labelled(quantity, shown.symbol), low, high, ticks)
+    return AxisScale(_axis_label(quantity, shown.symbol), low, high, ticks)
 
 
 def logarithmic(
@@ -69,7 +69,7 @@ def logarithmic(
             ((math.log10(place) - ends[0]) / (ends[1] - ends[0]), text)
             for place, text in clock.items()
         )
-    label = quantity if each_with_unit else _labelled(quantity, shown.symbol)
+    label = quantity if each_with_unit else _axis_label(quantity, shown.symbol)
     return AxisScale(label, *ends, ticks, logarithmic=True)
 
 
@@ -84,5 +84,5 @@ def _number(value: float) -> str:
     return f"{value:.6g}".replace("-", "\N{MINUS SIGN}") if abs(value) > 1e-12 else "0"
 
 
-def _labelled(quantity: str, symbol: str) -> str:
+def _axis_label(quantity: str, symbol: str) -> str:
     return f"{quantity} [{symbol}]" if symbol else quantity

@@ -157,22 +157,22 @@ class _Frame:
                 yield element("circle", cx=f"{px:.1f}", cy=f"{py:.1f}", r="2.2", fill=mark.colour)
             return
         if mark.kind != "line":
-            yield self._filled([_thinned(across[run], up[run]) for run in _runs(inside)], mark)
+            yield self._fill_below([_thin(across[run], up[run]) for run in _runs(inside)], mark)
         if mark.kind != "ground":
             # Up to the first point beyond, which lies on the edge.
-            near = inside & (_beside(y <= 1.0) & _beside(y >= 0.0))
-            yield self._outlined([_thinned(across[run], up[run]) for run in _runs(near)], mark)
+            near = inside & (_with_neighbours(y <= 1.0) & _with_neighbours(y >= 0.0))
+            yield self._outline([_thin(across[run], up[run]) for run in _runs(near)], mark)
 
-    def _filled(self, runs: list[_Path], mark: Stroke) -> Element:
+    def _fill_below(self, runs: list[_Path], mark: Stroke) -> Element:
         edge = _TOP if mark.kind == "body" else self.bottom
         closed = "".join(_path(run) + f"V{edge:g}H{run[0][0]:.1f}Z" for run in runs)
         return element("path", d=closed, fill_opacity="0.16" if mark.kind == "body" else "0.07")
 
-    def _outlined(self, runs: list[_Path], mark: Stroke) -> Element:
+    def _outline(self, runs: list[_Path], mark: Stroke) -> Element:
         is_body = mark.kind == "body"
         return element(
             "path",
-            d="".join(self._walled(run) if is_body else _path(run) for run in runs),
+            d="".join(self._outline_with_walls(run) if is_body else _path(run) for run in runs),
             fill="none",
             stroke=_INK if is_body else mark.colour,
             stroke_width="1.6",
@@ -181,7 +181,7 @@ class _Frame:
             **({"stroke_dasharray": "4 3"} if mark.dashed else {}),
         )
 
-    def _walled(self, run: _Path) -> str:
+    def _outline_with_walls(self, run: _Path) -> str:
         """The outline of a body with the walls at its ends."""
         (first, _), (last, _) = run[0], run[-1]
         before = f"M{first:.1f},{_TOP}V" if first > _LEFT + 1 else "M"
@@ -228,7 +228,7 @@ def _runs(inside: Bools) -> list[slice]:
     return [slice(a, b) for a, b in zip(steps[::2].tolist(), steps[1::2].tolist(), strict=True)]
 
 
-def _beside(where: Bools) -> Bools:
+def _with_neighbours(where: Bools) -> Bools:
     """These points and their neighbours."""
     wider = where.copy()
     wider[1:] |= where[:-1]
@@ -236,7 +236,7 @@ def _beside(where: Bools) -> Bools:
     return wider
 
 
-def _thinned(x: Floats, y: Floats) -> _Path:
+def _thin(x: Floats, y: Floats) -> _Path:
     """Leave out points on straight stretches, from the last point kept to the next."""
     kept = [0]
     for k in range(1, x.size - 1):

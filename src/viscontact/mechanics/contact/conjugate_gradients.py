@@ -186,7 +186,7 @@ class BoundedCG:
             return
         self._length = length = -slope / curvature
         # Step 5: cut off tension; a plane factor restores the balances.
-        if self._moved(length, direction) >= 0 or self._project_to_feasible():
+        if self._move(length, direction) >= 0 or self._project_to_feasible():
             return
         # No plane factor balances the cut pressure. Adding a plane and cutting does, as all active
         # cells together can carry the load.
@@ -244,7 +244,7 @@ class BoundedCG:
         self.patch.plane.each(subtract)
         return step
 
-    def _moved(self, length: float, step: Singles) -> float:
+    def _move(self, length: float, step: Singles) -> float:
         """Move the iterate along a step of known unit displacement; return its least pressure."""
         length *= self._force_unit
 
@@ -258,12 +258,12 @@ class BoundedCG:
 
     def _step_to_first_bound(self, length: float) -> None:
         """Go back, and step until the first cell loses its pressure, which keeps the balances."""
-        self._moved(-length, self._direction)
+        self._move(-length, self._direction)
         pressure = self.iterate.pressure
         step = np.multiply(self._direction, length * self._force_unit, dtype=np.float64)
         room = np.divide(pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
         part = float(room.min())
-        self._moved(length * part, self._direction)
+        self._move(length * part, self._direction)
         # Exactly zero: a remainder from rounding would keep all later steps as short.
         pressure[room == part] = 0.0
         np.maximum(pressure, 0.0, out=pressure)
@@ -284,7 +284,7 @@ class BoundedCG:
             return False
         step = self._step_ahead()
         self._unit_displacement_of(step)
-        self._moved(1.0, step)
+        self._move(1.0, step)
         self.iterate.pressure[...] = ahead
         return True
 

@@ -165,12 +165,12 @@ class ContactDomain:
             return self.whole
         rows, columns = (self._lines(np.any(cells, axis=1 - axis), axis) for axis in (0, 1))
         roomy = (
-            _widened(rows, self.shape[0], one_sided=self.mirrored[0]),
-            _widened(columns, self.shape[1], one_sided=self.mirrored[1]),
+            _widen(rows, self.shape[0], one_sided=self.mirrored[0]),
+            _widen(columns, self.shape[1], one_sided=self.mirrored[1]),
         )
         if _size(*roomy) > MAX_PATCH_SHARE * cells.size:
             return self.whole
-        fits = self._last.holds(_guarded(rows), _guarded(columns))
+        fits = self._last.holds(_with_border(rows), _with_border(columns))
         if not fits or _size(self._last.rows, self._last.columns) > 1.3 * _size(*roomy):
             self._last = self._patch(*roomy)
         return self._last
@@ -341,7 +341,7 @@ def _span(occupied: Bools | np.bool_) -> slice:
     return slice(int(index[0]), int(index[-1]) + 1)
 
 
-def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
+def _widen(span: slice, cells: int, *, one_sided: bool) -> slice:
     """Slice with a margin at its free ends, of a length that is fast to transform, in the grid."""
     extent = span.stop - span.start
     margin = max(3, int(np.ceil(PATCH_MARGIN * extent)))
@@ -352,7 +352,7 @@ def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
     return slice(start, start + length)
 
 
-def _guarded(span: slice) -> slice:
+def _with_border(span: slice) -> slice:
     """Slice with one more line on both sides."""
     return slice(max(span.start - 1, 0), span.stop + 1)
 

@@ -71,17 +71,17 @@ class MovingDomain(ContactDomain):
         shape = coarser_shape(self.grid.shape)
         if shape is None or np.any(np.logical_and(self.mirrored, np.mod(shape, 2))):
             return None
-        return self._on(replace(self.grid, shape=shape))
+        return self._on_grid(replace(self.grid, shape=shape))
 
     def with_elastic(self, added: float) -> MovingDomain:
         """Same region with an elastic compliance added to the operator [1/Pa]."""
-        return self._on(self.grid, added, self._moving_table)
+        return self._on_grid(self.grid, added, self._moving_table)
 
     @cached_property
     def elastic(self) -> Operator:
         """Displacement per unit elastic compliance [Pa m] of pressure [Pa] on all cells."""
         if all(self.grid.periodic):
-            return self._filtered([(self._at_rest, np.ones_like)], self.shape)
+            return self._filter_operator([(self._at_rest, np.ones_like)], self.shape)
         return self._convolved(self._elastic_table(self._at_rest), self.shape)
 
     @cached_property
@@ -90,7 +90,7 @@ class MovingDomain(ContactDomain):
         terms = self.surface.terms
         if all(self.grid.periodic):
             factors = [(response, moving.loss_at_wave_number) for response, moving in terms]
-            return self._filtered(factors, self.shape)
+            return self._filter_operator(factors, self.shape)
         first, *others = (self._loss_of_term(*term) for term in terms)
         return self._convolved(sum(others, start=first) + self._drift, self.shape)
 
@@ -110,7 +110,7 @@ class MovingDomain(ContactDomain):
         force = self.grid.cell_size[self.axis] / across
         return 2 / np.pi * force * self.surface.drift
 
-    def _on(
+    def _on_grid(
         self, grid: Grid, added: float = 0.0, moving_table: Floats | None = None
     ) -> MovingDomain:
         return MovingDomain(
@@ -180,10 +180,10 @@ class MovingDomain(ContactDomain):
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         if all(self.grid.periodic):
             factors = [(response, moving.at_wave_number) for response, moving in self._relative]
-            return self._filtered(factors, shape, single=single)
+            return self._filter_operator(factors, shape, single=single)
         return self._convolved(self._coefficients, shape, single=single)
 
-    def _filtered(
+    def _filter_operator(
         self,
         terms: Sequence[tuple[SurfaceResponse, WaveFactor]],
         shape: tuple[int, int],
@@ -239,10 +239,10 @@ def _coefficient_on(grid: Grid, axis: int, response: SurfaceResponse) -> Coeffic
         return periodic_influence_coefficient(near, along, cell[::-1], period, size)
 
     found = with_images if grid.periodic[1 - axis] else free
-    return found if response is HALF_SPACE else _remembered(found)
+    return found if response is HALF_SPACE else _cached(found)
 
 
-def _remembered(coefficient: Coefficient) -> Coefficient:
+def _cached(coefficient: Coefficient) -> Coefficient:
     """Coefficients that are kept: displacement and loss ask for those of the same places."""
     known: dict[bytes, Floats] = {}
 

@@ -85,9 +85,9 @@ class Patch:
 
     def holds(self, rows: slice, columns: slice) -> bool:
         """True if a block of cells lies within the patch."""
-        return _within(rows, self.rows) and _within(columns, self.columns)
+        return _lies_within(rows, self.rows) and _lies_within(columns, self.columns)
 
 
-def _within(inner: slice, outer: slice) -> bool:
+def _lies_within(inner: slice, outer: slice) -> bool:
     """True if a slice lies within another."""
     return bool(outer.start <= inner.start and inner.stop <= outer.stop)

@@ -58,7 +58,7 @@ class Rim:
         """Extent of the contact along x, at most a period where that is finite [m]."""
         if len(self.rows) > self.grid.shape[0]:
             return self.grid.size[0]
-        cells = _extent(self._touched[0], self.contact, self.along_x)
+        cells = _extent(self._touched_lines[0], self.contact, self.along_x)
         return min(cells * self.grid.cell_size[0], self.grid.size[0])
 
     @cached_property
@@ -66,7 +66,7 @@ class Rim:
         """Extent of the contact along y, at most a period where that is finite [m]."""
         if len(self.columns) > self.grid.shape[1]:
             return self.grid.size[1]
-        cells = _extent(self._touched[1], self.contact.T, self.along_y.T)
+        cells = _extent(self._touched_lines[1], self.contact.T, self.along_y.T)
         return min(cells * self.grid.cell_size[1], self.grid.size[1])
 
     @property
@@ -77,7 +77,7 @@ class Rim:
         return min(ended or extents)
 
     @cached_property
-    def _touched(self) -> tuple[Integers, Integers]:
+    def _touched_lines(self) -> tuple[Integers, Integers]:
         """Rows and columns of the block that have contact."""
         rows, columns = (np.flatnonzero(self.contact.any(axis=axis)) for axis in (1, 0))
         return rows, columns
@@ -88,7 +88,7 @@ class Rim:
         # An axis along which the contact continues through the whole period does not count; without
         # any other, it is the number of cells of the grid.
         lines, counts = (self.rows, self.columns), self.grid.shape
-        touched = [len(each) for each in self._touched]
+        touched = [len(each) for each in self._touched_lines]
         ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
         return min(touched[k] for k in ends) if ends else max(counts)
 
@@ -169,7 +169,7 @@ def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers
         lines = np.arange(contact.shape[axis])[_block(contact, axis)]
         return lines, lines, slice(None)
     lines = _turn(contact, axis)
-    return lines, _beyond(lines, contact.shape[axis]), slice(MARGIN, -MARGIN)
+    return lines, _with_margin(lines, contact.shape[axis]), slice(MARGIN, -MARGIN)
 
 
 def _turn(contact: Bools, axis: int) -> Integers:
@@ -186,7 +186,7 @@ def _turn(contact: Bools, axis: int) -> Integers:
     return np.asarray((np.arange(-1, extent + 2) + touched[begins]) % count)
 
 
-def _beyond(lines: Integers, count: int) -> Integers:
+def _with_margin(lines: Integers, count: int) -> Integers:
     """Given lines, and more before and behind them."""
     return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
 

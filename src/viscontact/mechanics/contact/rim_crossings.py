@@ -46,7 +46,7 @@ def locate_rim(
 ) -> tuple[Floats, Floats]:
     """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
     intervals = _changes(contact)
-    touches, gaps = _padded(contact, outside=False), _padded(gap, outside=np.inf)
+    touches, gaps = _pad(contact, outside=False), _pad(gap, outside=np.inf)
     located, slope = _by_gaps(grid, intervals, touches.ravel(), gaps.ravel())
     at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
@@ -54,12 +54,12 @@ def locate_rim(
     fields = np.full((2, gaps.size), np.nan)
     # A line that the rim crosses at a small angle does not locate it well.
     oblique = np.abs(slope) > 1
-    _put(fields, intervals, np.where(oblique, np.nan, located))
+    _write_intervals(fields, intervals, np.where(oblique, np.nan, located))
     chosen = np.flatnonzero(oblique)
     if chosen.size:
         lines = intervals.some(chosen)
         chords = _by_chords(fields, lines, touches.ravel(), slope[chosen] > 0)
-        _put(fields, lines, np.where(np.isnan(chords), located[chosen], chords))
+        _write_intervals(fields, lines, np.where(np.isnan(chords), located[chosen], chords))
     inside = slice(PADDING, -PADDING)
     along_x, along_y = fields.reshape(2, *gaps.shape)[:, inside, inside]
     return along_x[:-1], along_y[:, :-1]
@@ -70,14 +70,14 @@ def places(where: Bools) -> tuple[Integers, Integers]:
     return np.divmod(np.flatnonzero(where), where.shape[1])
 
 
-def _padded(field: Numbers, outside: float) -> Numbers:
+def _pad(field: Numbers, outside: float) -> Numbers:
     """Field of a block with a value around it; `np.pad` takes several times as long."""
     padded = np.full([count + 2 * PADDING for count in field.shape], outside, field.dtype)
     padded[PADDING:-PADDING, PADDING:-PADDING] = field
     return padded
 
 
-def _put(fields: Floats, intervals: _Intervals, values: Floats) -> None:
+def _write_intervals(fields: Floats, intervals: _Intervals, values: Floats) -> None:
     """Write values of intervals to the fields along x and along y."""
     split = intervals.count_along_x
     fields[0, intervals.start[:split]] = values[:split]

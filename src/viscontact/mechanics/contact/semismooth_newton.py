@@ -60,7 +60,7 @@ def newton_search(
     max_steps: int = MAX_STEPS,
 ) -> NewtonResult:
     """Search from a balanced pressure until the residual on the whole grid meets the tolerance."""
-    iterate, checked = _measured(problem, domain, start.pressure, start)
+    iterate, checked = _balance(problem, domain, start.pressure, start)
     best, work = NewtonResult(iterate, checked, 0, 1.0), 1.0
     active = checked.in_contact | (checked.gap < 0)
     for step in range(1, max_steps + 1):
@@ -81,14 +81,14 @@ def newton_search(
         if balanced is None:
             break
         # Step 1: measure.
-        iterate, checked = _measured(problem, domain, balanced, iterate)
+        iterate, checked = _balance(problem, domain, balanced, iterate)
         work += 1 + system.convolutions * change.size / pressure.size
         if checked.error < best.error:
             best = NewtonResult(iterate, checked, step, work)
     return replace(best, convolutions=work)
 
 
-def _measured(
+def _balance(
     problem: ContactProblem, domain: MovingDomain, pressure: Floats, before: Guess
 ) -> tuple[Guess, ContactResidual]:
     """Balanced pressure with its displacement and best motion, and its residual."""
@@ -128,7 +128,7 @@ class _LinearSystem:
         left = norm
         while left > goal and len(directions) < MAX_VECTORS:
             column = len(directions)
-            direction, image = self._searched(basis[-1])
+            direction, image = self._direction(basis[-1])
             directions.append(direction[cells])
             images.append(image)
             # Modified Gram-Schmidt.
@@ -151,7 +151,7 @@ class _LinearSystem:
         gap -= plane.field(self._inverse @ plane.sums(np.where(cells, gap, 0.0)))
         return change, gap
 
-    def _searched(self, vector: Floats) -> tuple[Floats, Floats]:
+    def _direction(self, vector: Floats) -> tuple[Floats, Floats]:
         """Preconditioned direction of pressure [Pa], and its displacement [m]."""
         field = np.zeros(self.cells.shape)
         field[self.cells] = vector

@@ -37,7 +37,7 @@ def winkler_contact(
     gap = open_gap - plane.field(given)
     if not constraints.free[0]:
         # The approach is prescribed: only the tilts are unknown, whatever the stiffness.
-        motion, overlap = _tilted(gap, given, plane, constraints.free)
+        motion, overlap = _tilts_and_overlap(gap, given, plane, constraints.free)
         cells = max(int((overlap > 0).sum()), 1)
         return overlap / (compliance * np.sqrt(cell_area * cells)), given + motion
     # Stiffness from a guessed number of cells in contact, then from the number found.
@@ -50,7 +50,7 @@ def winkler_contact(
     return stiffness * overlap, given + motion
 
 
-def _tilted(
+def _tilts_and_overlap(
     gap: Floats,
     given: Floats,
     plane: RigidPlane,

@@ -57,7 +57,7 @@ class Convolution:
             (entries + 1) // 2 if axis == signed else entries
             for axis, entries in enumerate(coefficients.shape)
         ]
-        self.shape = _halved(counts, mirrored)
+        self.shape = _mirrored_shape(counts, mirrored)
         self._lengths = [
             padded_length(cells, unpadded=mirrored[axis], exact=periodic[axis])
             for axis, cells in enumerate(counts)
@@ -77,8 +77,8 @@ class Convolution:
         #: Padded lines for each thread, along the first and along the second axis.
         self._padded = [
             (
-                np.zeros(_put(first, self._lengths[first], self._lines[0].stop), self._number),
-                np.zeros(_put(second, self._lengths[second], self._waves[0].stop), kind),
+                np.zeros(_shape(first, self._lengths[first], self._lines[0].stop), self._number),
+                np.zeros(_shape(second, self._lengths[second], self._waves[0].stop), kind),
             )
             for _ in range(transforms.threads)
         ]
@@ -88,7 +88,7 @@ class Convolution:
         self._team = team or Team(transforms.threads)
         self._workspace = workspace
         #: Shape and kind of the spectrum along the first axis of cells with data.
-        self._half = _put(first, waves, self.shape[second]), np.dtype(kind)
+        self._half = _shape(first, waves, self.shape[second]), np.dtype(kind)
 
     def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
         """Weighted sum of operators on the same block, in the precision of this one."""
@@ -103,21 +103,21 @@ class Convolution:
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.
-        parts = [_cut(pressure, self._second, lines) for lines in self._lines]
+        parts = [_part(pressure, self._second, lines) for lines in self._lines]
         size = order_of(parts, self._number, self._team)
         half = self._half_spectrum()
-        self._each(self._lines, 0, partial(self._forth, pressure, size, half))
-        self._each(self._waves, 1, partial(self._multiply, half))
-        self._each(self._lines, 0, partial(self._back, result, size, half))
+        self._for_each_block(self._lines, 0, partial(self._transform, pressure, size, half))
+        self._for_each_block(self._waves, 1, partial(self._multiply, half))
+        self._for_each_block(self._lines, 0, partial(self._transform_back, result, size, half))
         return result
 
     def _half_spectrum(self) -> Numbers:
         """Array for the spectrum along the first axis; in the padded lines if they hold it."""
         if len(self._waves) == 1:
-            return _cut(self._padded[0][1], self._second, slice(self.shape[self._second]))
+            return _part(self._padded[0][1], self._second, slice(self.shape[self._second]))
         return self._workspace.array(*self._half) if self._workspace else np.empty(*self._half)
 
-    def _each(self, blocks: Sequence[slice], axis: int, work: _Work) -> None:
+    def _for_each_block(self, blocks: Sequence[slice], axis: int, work: _Work) -> None:
         """Work on all blocks; with several threads, each takes every so many of them."""
         threads = min(len(blocks), len(self._padded))
         if threads == 1:
@@ -131,7 +131,7 @@ class Convolution:
 
         self._team.each(share, range(threads))
 
-    def _forth(
+    def _transform(
         self,
         pressure: Field,
         size: float,
@@ -141,11 +141,11 @@ class Convolution:
     ) -> None:
         """Transform lines of the pressure along the first axis."""
         first, second, transforms = self._first, self._second, self._transforms
-        padded = _cut(padded, second, slice(lines.stop - lines.start))
+        padded = _part(padded, second, slice(lines.stop - lines.start))
         cells = self.shape[first]
-        fill_of_order(size, _cut(padded, first, slice(cells)), _cut(pressure, second, lines))
-        _cut(padded, first, slice(cells, None))[...] = 0
-        spectrum = _cut(half, second, lines)
+        fill_of_order(size, _part(padded, first, slice(cells)), _part(pressure, second, lines))
+        _part(padded, first, slice(cells, None))[...] = 0
+        spectrum = _part(half, second, lines)
         if self._even[first]:
             spectrum[...] = transforms.cosine_forward(padded, first)
         else:
@@ -154,27 +154,27 @@ class Convolution:
     def _multiply(self, half: Numbers, waves: slice, padded: Numbers) -> None:
         """Transform waves along the second axis, multiply them by the symbol, transform back."""
         first, second, transforms = self._first, self._second, self._transforms
-        spectrum = _cut(half, first, waves)
-        padded = _cut(padded, first, slice(waves.stop - waves.start))
-        data = _cut(padded, second, slice(self.shape[second]))
+        spectrum = _part(half, first, waves)
+        padded = _part(padded, first, slice(waves.stop - waves.start))
+        data = _part(padded, second, slice(self.shape[second]))
         apart = len(self._waves) > 1
         if apart:
             data[...] = spectrum
-        _cut(padded, second, slice(self.shape[second], None))[...] = 0
+        _part(padded, second, slice(self.shape[second], None))[...] = 0
         padded = self._along_second(transforms.cosine_forward, transforms.complex_forward, padded)
-        symbol = _cut(self._symbol, first, waves)
+        symbol = _part(self._symbol, first, waves)
         known = symbol.shape[second]
-        lower = _cut(padded, second, slice(known))
+        lower = _part(padded, second, slice(known))
         lower *= symbol
         if known < self._lengths[second]:  # the symbol is even: the rest is its mirror image
-            upper = _cut(padded, second, slice(known, None))
-            upper *= _cut(symbol, second, slice(self._lengths[second] - known, 0, -1))
+            upper = _part(padded, second, slice(known, None))
+            upper *= _part(symbol, second, slice(self._lengths[second] - known, 0, -1))
         padded = self._along_second(transforms.cosine_inverse, transforms.complex_inverse, padded)
-        found = _cut(padded, second, slice(self.shape[second]))
+        found = _part(padded, second, slice(self.shape[second]))
         if apart or not np.may_share_memory(found, spectrum):
             spectrum[...] = found
 
-    def _back(
+    def _transform_back(
         self,
         result: Field,
         size: float,
@@ -184,14 +184,14 @@ class Convolution:
     ) -> None:
         """Transform lines back along the first axis, into the result."""
         first, second, transforms = self._first, self._second, self._transforms
-        spectrum = _cut(half, second, lines)
+        spectrum = _part(half, second, lines)
         if self._even[first]:
             moved = transforms.cosine_inverse(spectrum, first)
         else:
-            padded = _cut(padded, second, slice(lines.stop - lines.start))
+            padded = _part(padded, second, slice(lines.stop - lines.start))
             moved = transforms.real_inverse(spectrum, padded, first)
-        moved = _cut(moved, first, slice(self.shape[first]))
-        restore_of_order(size, moved, _cut(result, second, lines))
+        moved = _part(moved, first, slice(self.shape[first]))
+        restore_of_order(size, moved, _part(result, second, lines))
 
     def _along_second(
         self,
@@ -207,16 +207,16 @@ class Convolution:
         return cosine(as_reals(spectrum), self._second).view(spectrum.dtype)[..., 0]
 
 
-def _halved(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
+def _mirrored_shape(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
     nx, ny = (cells // (1 + even) for cells, even in zip(shape, mirrored, strict=True))
     return nx, ny
 
 
-def _put(axis: int, along: int, across: int) -> tuple[int, int]:
+def _shape(axis: int, along: int, across: int) -> tuple[int, int]:
     """Shape of a number of lines along an axis, by their length and number."""
     return (along, across) if axis == 0 else (across, along)
 
 
-def _cut(field: Numbers, axis: int, part: slice) -> Numbers:
+def _part(field: Numbers, axis: int, part: slice) -> Numbers:
     """Part of a field along an axis, in the same memory."""
     return field[part] if axis == 0 else field[:, part]

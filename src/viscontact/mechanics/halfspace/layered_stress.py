@@ -127,7 +127,7 @@ class LayeredStress(StressResponse):
             free = own.waves(q / self._length)(depth)
             parts = (free.along, free.across, free.normal, free.shear)
             amplitudes = amplitudes - np.stack([part * free.decay for part in parts])
-        return _transformed(amplitudes, count, q, hankel)
+        return _hankel_table(amplitudes, count, q, hankel)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +160,7 @@ def _gauss(count: int) -> tuple[Floats, Floats]:
     return np.polynomial.legendre.leggauss(count)
 
 
-def _transformed(amplitudes: Numbers, count: int, q: Numbers, hankel: tuple[Any, Any]) -> _Table:
+def _hankel_table(amplitudes: Numbers, count: int, q: Numbers, hankel: tuple[Any, Any]) -> _Table:
     amplitudes = _without_tiny(amplitudes)
     t = STEP * np.arange(0.5, count)  # none at r = 0, where H1 is singular
     r = np.sinh(t)

@@ -24,12 +24,12 @@ class MovingSurface:
 
     def scaled(self, factor: float) -> MovingSurface:
         """Surface whose compliances are multiplied by a factor."""
-        return self._with(lambda compliance: compliance.scaled(factor))
+        return self._with_terms(lambda compliance: compliance.scaled(factor))
 
     def with_elastic(self, response: SurfaceResponse, added: float) -> MovingSurface:
         """Surface with an elastic compliance [1/Pa] of a response added to it."""
         if len(self.terms) == 1 and self.terms[0][0] == response:
-            return self._with(lambda own: replace(own, instant=own.instant + added))
+            return self._with_terms(lambda own: replace(own, instant=own.instant + added))
         if not added:
             return self
         elastic = MovingCompliance(added, np.empty(0), np.empty(0))
@@ -68,7 +68,7 @@ class MovingSurface:
         weights = tuple(compliance.relaxed / level for _, compliance in self.terms)
         return SummedResponse(tuple(response for response, _ in self.terms), weights)
 
-    def _with(self, change: Callable[[MovingCompliance], MovingCompliance]) -> MovingSurface:
+    def _with_terms(self, change: Callable[[MovingCompliance], MovingCompliance]) -> MovingSurface:
         return MovingSurface(tuple((response, change(each)) for response, each in self.terms))
 
     def _weighted(self, weights: list[float]) -> MovingCompliance:
@@ -76,11 +76,11 @@ class MovingSurface:
         parts = [each.scaled(w) for (_, each), w in zip(self.terms, weights, strict=True)]
         return MovingCompliance(
             sum(each.instant for each in parts),
-            _joined([each.amplitudes for each in parts]),
-            _joined([each.lengths for each in parts]),
-            _joined([each.periods for each in parts]),
+            _join([each.amplitudes for each in parts]),
+            _join([each.lengths for each in parts]),
+            _join([each.periods for each in parts]),
         )
 
 
-def _joined(parts: list[Floats]) -> Floats:
+def _join(parts: list[Floats]) -> Floats:
     return np.concatenate(parts)

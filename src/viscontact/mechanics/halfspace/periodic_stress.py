@@ -62,11 +62,11 @@ def periodic_stress_coefficients(
     # 2. The others, whose sum is smooth: at some points, and between them by polynomials.
     clearance = cells * edge - float(np.abs(x_edges).max())
     x, y = sampled_cells(x_edges, 2 * clearance), sampled_cells(y_edges, clearance)
-    beyond = _beyond(at, x, y, edge, cells, depth)
+    beyond = _image_stresses(at, x, y, edge, cells, depth)
     return found + x.at_all(y.at_all(beyond, axis=2), axis=1)
 
 
-def _beyond(
+def _image_stresses(
     at: Callable[[Floats, Floats], Floats],
     x: SampledCells,
     y: SampledCells,

@@ -160,12 +160,12 @@ class Spectra:
         size = order_of([field[each] for each in rows], self._number, self._team)
         block, spectrum = self._workspace.arrays((self._shape, self._number), self._spectrum)
         self._team.each(lambda here: fill_of_order(size, block[here], field[here]), rows)
-        spectrum = self._forth(block, spectrum)
+        spectrum = self._transform(block, spectrum)
         self._team.each(
             lambda here: np.multiply(spectrum[here], symbol[here], out=spectrum[here]),
             self._wave_rows,
         )
-        back = self._back(spectrum, block)
+        back = self._transform_back(spectrum, block)
         found = np.empty(self._shape) if into is None else into
         self._team.each(lambda here: restore_of_order(size, back[here], found[here]), rows)
         return found
@@ -183,7 +183,7 @@ class Spectra:
             values[shortest] = values[shortest].real
         return values
 
-    def _forth(self, block: Numbers, spectrum: Numbers) -> Numbers:
+    def _transform(self, block: Numbers, spectrum: Numbers) -> Numbers:
         for axis in self._even:
             block = self._transforms.cosine_forward(block, axis)
         if self._fourier:
@@ -192,7 +192,7 @@ class Spectra:
             block = self._transforms.complex_forward(block, axis)
         return block
 
-    def _back(self, spectrum: Numbers, block: Numbers) -> Numbers:
+    def _transform_back(self, spectrum: Numbers, block: Numbers) -> Numbers:
         for axis in self._fourier[1:]:
             spectrum = self._transforms.complex_inverse(spectrum, axis)
         if self._fourier:

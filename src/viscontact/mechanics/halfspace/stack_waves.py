@@ -62,7 +62,7 @@ class _LayerWaves:
             grown = wave_matrix(self.poisson_ratio) + np.eye(4)
             found = self.lower + below[:, None] * (self.lower @ grown.T)
         else:
-            height = _reached(q * self.thickness) - below
+            height = _limited_depth(q * self.thickness) - below
             height = np.where(height.real > 0, height, 0.0)
             found = (transfer(height, self.poisson_ratio) @ self.lower[:, :, None])[:, :, 0]
         return tuple((np.exp(-below)[:, None] * found).T)
@@ -77,7 +77,7 @@ class StackWaves:
 
     def stresses(self, depth: float) -> WaveStresses:
         """Stresses at a depth [m]; at an interface those of the layer above."""
-        part = self.parts[_place([each.top for each in self.parts], depth)]
+        part = self.parts[_layer_index([each.top for each in self.parts], depth)]
         along, _, shear, normal = part.amplitudes(self.q, depth)
         nu = part.poisson_ratio
         stretch = (2 * along + nu * normal) / (1 - nu)
@@ -92,7 +92,7 @@ def layer_at(stack: ElasticStack, depth: float) -> int:
         raise ValueError(
             f"depths must lie within the layers, which end at {end} on a rigid base; got {given}"
         )
-    return _place([0.0, *tops], depth)
+    return _layer_index([0.0, *tops], depth)
 
 
 def interface_depths(stack: ElasticStack) -> list[float]:
@@ -108,7 +108,7 @@ def stack_waves(stack: ElasticStack, q: Numbers) -> StackWaves:
     normal: Numbers = -np.ones_like(q)
     weights = _without_shear(planes[0].upper, normal)
     for index, (layer, plane) in enumerate(zip(stack.layers, planes, strict=False)):
-        own = _solved(plane.triangle, weights)
+        own = _solve(plane.triangle, weights)
         lower = (plane.lower @ own)[:, :, 0]
         found.append(_LayerWaves(lower, tops[index], layer.thickness, layer.poisson_ratio))
         own = own * np.exp(-q * layer.thickness)[:, None, None]
@@ -146,7 +146,7 @@ def _planes(stack: ElasticStack, q: Numbers) -> list[_Plane]:
         lower = vectors * np.array([ratio, ratio, 1.0, 1.0])[:, None]
         if not layer.bonded:
             lower = sliding(normal_compliance(lower))
-        depth = _reached(q * layer.thickness)
+        depth = _limited_depth(q * layer.thickness)
         vectors, triangle = np.linalg.qr(transfer(depth, layer.poisson_ratio) @ lower)
         found.append(_Plane(lower, vectors, triangle))
         modulus = layer.shear_modulus
@@ -155,18 +155,18 @@ def _planes(stack: ElasticStack, q: Numbers) -> list[_Plane]:
 
 def _without_shear(vectors: Numbers, normal: Numbers) -> Numbers:
     """Weights of vectors, (n, 2, 1), for a normal traction and no shear traction."""
-    return _solved(vectors[:, 2:], np.stack([np.zeros_like(normal), normal], axis=-1)[..., None])
+    return _solve(vectors[:, 2:], np.stack([np.zeros_like(normal), normal], axis=-1)[..., None])
 
 
-def _solved(matrices: Numbers, right: Numbers) -> Numbers:
+def _solve(matrices: Numbers, right: Numbers) -> Numbers:
     return np.asarray(np.linalg.solve(matrices, right))
 
 
-def _reached(depth: Numbers) -> Numbers:
+def _limited_depth(depth: Numbers) -> Numbers:
     """Wave number times thickness, no larger than where waves have vanished."""
     return depth * np.minimum(1.0, VANISHED / depth.real)
 
 
-def _place(tops: list[float], depth: float) -> int:
+def _layer_index(tops: list[float], depth: float) -> int:
     """Index of the last upper side above a depth, beyond rounding."""
     return max(int(np.searchsorted(np.array(tops) * (1 + ROUNDING), depth)) - 1, 0)

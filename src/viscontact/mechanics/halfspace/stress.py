@@ -113,12 +113,12 @@ def stress_on_section(
     along the surface: σxx = σyy = ν/(1 - ν) σzz.
     """
     response = _response(body)
-    below = _checked(depths, response)
+    below = _check_depths(depths, response)
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
         turned = pressure.swapaxes(-1, -2)
-        stress = stress_on_section(turned, _turned(grid), below, response, y=x, progress=progress)
+        stress = stress_on_section(turned, _swap(grid), below, response, y=x, progress=progress)
         # x and y are exchanged on the turned grid.
         return Stress(stress.components[EXCHANGED])
     y = grid.centre[1] if y is None else y
@@ -140,12 +140,12 @@ def stress_on_plane(
 ) -> Stress:
     """Stress on a plane parallel to the surface, at the cell centres, of shape (..., nx, ny)."""
     response = _response(body)
-    below = float(_checked([depth], response)[0])
+    below = float(_check_depths([depth], response)[0])
     if all(grid.periodic):
         found = waves_on_plane(pressure.reshape(-1, *grid.shape), grid, below, response)
         return Stress(found.reshape(6, *pressure.shape))
     if grid.periodic[1]:
-        turned = stress_on_plane(pressure.swapaxes(-1, -2), _turned(grid), below, response)
+        turned = stress_on_plane(pressure.swapaxes(-1, -2), _swap(grid), below, response)
         return Stress(turned.components[EXCHANGED].swapaxes(-1, -2))
     below = max(below, SURFACE * min(grid.cell_size))
     (nx, ny), (dx, dy) = grid.shape, grid.cell_size
@@ -166,7 +166,7 @@ def stress_on_plane(
     return Stress(found)
 
 
-def _turned(grid: Grid) -> Grid:
+def _swap(grid: Grid) -> Grid:
     """Grid with x and y exchanged."""
     periodic = (grid.periodic[1], grid.periodic[0])
     return Grid(grid.shape[::-1], grid.size[::-1], periodic, centre=grid.centre[::-1])
@@ -176,7 +176,7 @@ def _response(body: float | StressResponse) -> StressResponse:
     return body if isinstance(body, StressResponse) else HalfSpaceStress(body)
 
 
-def _checked(depths: ArrayLike, response: StressResponse) -> Floats:
+def _check_depths(depths: ArrayLike, response: StressResponse) -> Floats:
     below = np.atleast_1d(np.asarray(depths, dtype=float))
     if below.ndim != 1 or not (np.isfinite(below) & (below >= 0)).all():
         raise ValueError(f"depths must be numbers of metres, 0 or positive, got {depths!r}")

@@ -67,7 +67,7 @@ def along_lines(
     places = (np.arange(cells) - begin) % padded
     for index, depth in enumerate(np.maximum(depths, SURFACE * min(dx, dy)).tolist()):
         kernel = _kernel(grid, lines, reach, depth, response)
-        sums = np.stack(_products(_transformed(kernel, padded), even, odd))
+        sums = np.stack(_products(_transform(kernel, padded), even, odd))
         found[:, :, index] = scipy.fft.irfft(sums, padded, axis=1)[:, places].swapaxes(1, 2)
         if progress is not None:
             progress(index + 1, len(depths))
@@ -137,7 +137,7 @@ def _kernel(
     return response.coefficients(x_edges, y_edges, depth)
 
 
-def _transformed(kernel: Floats, padded: int) -> Complexes:
+def _transform(kernel: Floats, padded: int) -> Complexes:
     """Transforms along x of the components in pairs, shape (padded // 2 + 1, 4, lines)."""
     last = kernel.shape[1]
     whole = np.zeros((padded, 4, kernel.shape[2]))

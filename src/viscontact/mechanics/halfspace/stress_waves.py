@@ -45,10 +45,10 @@ def waves_on_section(
         xx[0, 0] = yy[0, 0] = -lateral
         normal[0, 0] = -1.0
         sums = [
-            *(_summed(each, even) for each in (xx, yy, normal)),
-            -1j * _summed(north * shear, odd),
-            -1j * _summed(east * shear, even),
-            _summed(east * north * (ahead - aside), odd),
+            *(_sum_waves(each, even) for each in (xx, yy, normal)),
+            -1j * _sum_waves(north * shear, odd),
+            -1j * _sum_waves(east * shear, even),
+            _sum_waves(east * north * (ahead - aside), odd),
         ]
         found[:, :, index] = scipy.fft.irfft(np.stack(sums), nx, axis=1).swapaxes(1, 2)
         if progress is not None:
@@ -104,7 +104,7 @@ def _both_directions(pressure: Floats, offset: float, across: Floats) -> tuple[F
     return as_reals(even), as_reals(odd)
 
 
-def _summed(weights: Floats, waves: Floats) -> Complexes:
+def _sum_waves(weights: Floats, waves: Floats) -> Complexes:
     """Sums over the waves across the section; (kx, fields)."""
     sums = np.einsum("ky,fkyr->kfr", weights, waves)
     return np.ascontiguousarray(sums).view(np.complex128)[..., 0]

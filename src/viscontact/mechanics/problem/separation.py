@@ -170,12 +170,12 @@ class _Collocation:
         while True:
             done = choice.count >= MOST_TERMS or not np.isfinite(choice.error)
             if choice.error <= ENOUGH or done:
-                found = self._finished(choice)
+                found = self._separation(choice)
                 best = found if best is None or found.error < best.error else best
                 if best.error <= SAFETY * ENOUGH or done:
                     return best
-            wave = self._moved(self._with_wave(choice))
-            parts = [self._with_part(choice, part) for part in self._unused(choice)]
+            wave = self._move_waves(self._with_wave(choice))
+            parts = [self._with_part(choice, part) for part in self._unused_functions(choice)]
             part = min(parts, key=lambda each: each.error, default=wave)
             # Exact functions, some of which are elastic, before those of waves.
             choice = part if part.error < max(ENOUGH, wave.error) else wave
@@ -183,7 +183,7 @@ class _Collocation:
     def _functions(self, choice: _Choice) -> tuple[SeriesCompliance, ...]:
         return (*choice.materials, *(self._at_wave(index) for index in choice.waves))
 
-    def _unused(self, choice: _Choice) -> list[SeriesCompliance]:
+    def _unused_functions(self, choice: _Choice) -> list[SeriesCompliance]:
         return [part for part in self._parts if part not in choice.materials]
 
     def _with_part(self, choice: _Choice, part: SeriesCompliance) -> _Choice:
@@ -193,7 +193,7 @@ class _Collocation:
         """Choice with the wave number of the largest error."""
         return self._collocated(replace(choice, waves=(*choice.waves, choice.worst)))
 
-    def _moved(self, choice: _Choice) -> _Choice:
+    def _move_waves(self, choice: _Choice) -> _Choice:
         """Choice with each wave number moved to a neighbour while the error falls."""
         for _ in range(ROUNDS):
             before = choice.error
@@ -222,7 +222,7 @@ class _Collocation:
         error[list(choice.waves)] = 0.0  # those in use are not taken twice
         return replace(choice, points=tuple(points), error=largest, worst=int(error.argmax()))
 
-    def _finished(self, choice: _Choice) -> Separation:
+    def _separation(self, choice: _Choice) -> Separation:
         """Terms of a choice, made passive, with their error on finer grids."""
         functions, s = self._functions(choice), self._s[list(choice.points)]
         weights = np.linalg.inv(_transforms(functions, s))
@@ -269,7 +269,7 @@ def _of_parts(materials: Sequence[Material], s: Numbers) -> tuple[SeriesComplian
     parts += [uniaxial_compression(each) for each in materials if each.bulk_modulus is not None]
     found: list[SeriesCompliance] = []
     for part in parts:
-        if not any(_alike(part, old, s) for old in found):
+        if not any(_are_proportional(part, old, s) for old in found):
             found.append(part)
     return tuple(found)
 
@@ -280,7 +280,7 @@ def _contact_compliance(material: Material) -> SeriesCompliance:
     return found
 
 
-def _alike(one: SeriesCompliance, other: SeriesCompliance, s: Numbers) -> bool:
+def _are_proportional(one: SeriesCompliance, other: SeriesCompliance, s: Numbers) -> bool:
     """True for two creep functions that are proportional to a few digits."""
     ratio = transformed(one, s) / transformed(other, s)
     return bool(ratio.max() < (1 + ALIKE) * ratio.min())

@@ -87,7 +87,7 @@ def _series_material(material: Material, span: Span) -> tuple[Material, float]:
     else:
         series, deviation = as_exponentials(creep, first, last)
     if series.instant == 0:
-        series = _advanced(series, AHEAD * first)
+        series = _after(series, AHEAD * first)
         deviation = deviation_between(creep, series, first / EARLIER, last)
     flows = series.fluidity * last > NO_FLOW * series(last)
     found = CreepSeries(
@@ -99,7 +99,7 @@ def _series_material(material: Material, span: Span) -> tuple[Material, float]:
     return replace(material, law=found), deviation
 
 
-def _advanced(series: SeriesCompliance, time: float) -> SeriesCompliance:
+def _after(series: SeriesCompliance, time: float) -> SeriesCompliance:
     """The series J(t + time), which has an instant compliance [s]."""
     left = series.amplitudes * np.exp(-time / series.times)
     lasting = left > NEGLIGIBLE * series.amplitudes

@@ -116,7 +116,7 @@ class AdaptiveSteps:
         # Error too large: repeat with a shorter duration.
         if error > self._allowed and step.duration > MIN_STEP_FRACTION * self._end:
             self._duration = step.duration * min(max(factor, MIN_FACTOR), 0.8)
-            self._step = self._next(step.smooth)
+            self._step = self._next_step(step.smooth)
             return False
         self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if error > 0 else MAX_FACTOR
         # A step that a stop cut short does not reduce the duration that it was cut from.
@@ -155,9 +155,9 @@ class AdaptiveSteps:
                 starts = step.is_jump or self._time in self._touches
                 before = 0.0 if starts else step.duration
                 self._duration = max(self._first_duration(), before)
-            self._step = self._next(smooth=not after_kink)
+            self._step = self._next_step(smooth=not after_kink)
 
-    def _next(self, smooth: bool) -> TimeStep:
+    def _next_step(self, smooth: bool) -> TimeStep:
         """Step of about the current duration, up to the next stop at most."""
         stop = next(stop for stop in self._stops if stop > self._time)
         way = stop - self._time
@@ -167,12 +167,12 @@ class AdaptiveSteps:
         # The last two steps before a stop are of equal length, so that none is very short.
         parts = math.ceil(way / duration * (1 - 1e-9))
         duration = way if parts <= 1 else way / 2 if parts == 2 else duration
-        time = stop if parts <= 1 else self._marked(self._time + duration)
+        time = stop if parts <= 1 else self._last_mark(self._time + duration)
         duration = duration if parts <= 1 else time - self._time
         jumps = parts <= 1 and stop in self._jumps
         return TimeStep(time, duration, None if jumps else time, smooth, before_jump=jumps)
 
-    def _marked(self, time: float) -> float:
+    def _last_mark(self, time: float) -> float:
         """The last mark of a step up to a time, or the time without one [s]."""
         before = int(np.searchsorted(self._marks, time * (1 + 1e-9))) - 1
         mark = float(self._marks[before]) if before >= 0 else -math.inf

@@ -165,19 +165,19 @@ class BoltzmannSum(HereditaryIntegral):
         is_planned = step < len(self._planned) and isclose(self._planned[step], end, rel_tol=1e-9)
         end = float(self._planned[step]) if is_planned else end
         self._end, self._step = end, shape
-        past = self._planned_history(step) if is_planned else self._summed(np.array([end]), 0)[0]
+        past = self._planned_history(step) if is_planned else self._sum_at(np.array([end]), 0)[0]
         return past.reshape(self._shape)
 
     def _planned_history(self, step: int) -> Floats:
         """Displacement at the end of a planned step from all increments so far."""
         if not self._ahead_from <= step < self._ahead_from + len(self._ahead):
-            self._ahead = self._summed(self._planned[step : step + BLOCK_STEPS], 0)
+            self._ahead = self._sum_at(self._planned[step : step + BLOCK_STEPS], 0)
             self._ahead_from, self._ahead_count = step, self._count
         # Increments since the block was computed are added singly.
-        recent = self._summed(self._planned[step : step + 1], self._ahead_count)[0]
+        recent = self._sum_at(self._planned[step : step + 1], self._ahead_count)[0]
         return np.asarray(self._ahead[step - self._ahead_from] + recent)
 
-    def _summed(self, ends: Floats, first: int) -> Floats:
+    def _sum_at(self, ends: Floats, first: int) -> Floats:
         """Displacements at some times from the increments so far, from the index `first` on."""
         began, ended = (each[first : self._count] for each in (self._began, self._ended))
         # Ages of each increment's rise at these times: its weight is the mean of J over them.

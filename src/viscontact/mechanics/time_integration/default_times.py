@@ -52,12 +52,12 @@ def default_times(load: LoadHistory, compliance: ContactCompliance) -> Floats:
         chosen = steps_of_one_cell(load, compliance, end)
         if math.isfinite(load.longest_step):  # every run divides its steps while it oscillates
             chosen = chosen[chosen >= load.kinks[-1]]
-        chosen = _apart(chosen, even)
+        chosen = _distinct_times(chosen, even)
     even = even[np.abs(even[:, None] - kinks).min(axis=1) > KINK_TOLERANCE * end]
     return np.unique(np.concatenate([even, chosen, kinks]))
 
 
-def _apart(times: Floats, others: Floats) -> Floats:
+def _distinct_times(times: Floats, others: Floats) -> Floats:
     """Those times that do not nearly coincide with others, compared with the steps between them."""
     if len(times) < 2:
         return times[:0]

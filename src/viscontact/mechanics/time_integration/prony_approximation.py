@@ -41,7 +41,7 @@ def as_exponentials(
     """
     best = None
     for density in TIMES_PER_DECADE:
-        series = _fitted(compliance, first, last, density)
+        series = _fit_series(compliance, first, last, density)
         error = deviation_between(compliance, series, first, last)
         if best is None or error < best[1]:
             best = series, error
@@ -51,7 +51,7 @@ def as_exponentials(
     return best
 
 
-def _fitted(
+def _fit_series(
     compliance: ContactCompliance, first: float, last: float, density: int
 ) -> SeriesCompliance:
     """Series of least squares with retardation times at a density a decade."""

@@ -124,7 +124,7 @@ class TimeErrors:
         """Accept a step, and return the error of pressure after it over the largest [-]."""
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
-            self._settle(alone=True)
+            self._add_first_step(alone=True)
             self._durations = self._durations[-1:]
         if step.is_jump:
             self._durations = []
@@ -134,7 +134,7 @@ class TimeErrors:
         elif len(self._durations) < 2:
             self._pending = (step.duration, error.travel)
         else:
-            self._settle(
+            self._add_first_step(
                 alone=False, interpolation_error=error.interpolation_error / step.duration**2
             )
             self._remember(step.duration, error.interpolation_error)
@@ -193,7 +193,7 @@ class TimeErrors:
         part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
         return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
 
-    def _settle(self, *, alone: bool, interpolation_error: float = 0.0) -> None:
+    def _add_first_step(self, *, alone: bool, interpolation_error: float = 0.0) -> None:
         """Add a pending first step, with the curvature of its successor if there is one."""
         if self._pending is None:
             return

@@ -25,7 +25,7 @@ class Difference(NamedTuple):
     now: Any  # likewise
 
     def __str__(self) -> str:
-        return f"{self.where}: was {_shown(self.before)}, is now {_shown(self.now)}"
+        return f"{self.where}: was {_value_text(self.before)}, is now {_value_text(self.now)}"
 
 
 def differences(before: Any, now: Any, where: str = "") -> tuple[Difference, ...]:
@@ -51,6 +51,6 @@ def _is_same(one: Any, other: Any) -> bool:
     return bool(one == other or (one != one and other != other))
 
 
-def _shown(value: Any) -> str:
+def _value_text(value: Any) -> str:
     text = f"{len(value)} entries" if isinstance(value, list) else str(value)
     return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."

@@ -50,8 +50,8 @@ class Lease(AbstractContextManager["Lease"]):
     def __init__(self, directory: Path, duration: float = DURATION) -> None:
         self._directory, self._duration = directory, duration
         self._turn, self._over = threading.Lock(), threading.Event()
-        self._take(_abandoned(directory))
-        self._thread = threading.Thread(target=self._keep, daemon=True)
+        self._take_over(_abandoned_lease(directory))
+        self._thread = threading.Thread(target=self._renew_until_closed, daemon=True)
         self._thread.start()
 
     def check(self) -> None:
@@ -67,7 +67,7 @@ class Lease(AbstractContextManager["Lease"]):
             (self._directory / LOCK_NAME).unlink()
         os.close(self._file)
 
-    def _keep(self) -> None:
+    def _renew_until_closed(self) -> None:
         while not self._over.wait(self._duration / _RENEWALS):
             try:
                 with self._turn:
@@ -83,17 +83,17 @@ class Lease(AbstractContextManager["Lease"]):
         if found is None:
             raise LockLost(f"{self._directory}: the lease of this run has been removed")
         if found.token != self._token:
-            raise self._lost(f" ({found.owner})")
-        if _now() - self._renewed > _LAPSE * self._duration:
+            raise self._lost_error(f" ({found.owner})")
+        if _clock() - self._renewed > _LAPSE * self._duration:
             # Another process may be taking it over at this moment: one of the two succeeds.
             lapsed = self._file
             try:
-                self._take(found)
+                self._take_over(found)
             except LeaseHeld:
-                raise self._lost("") from None
+                raise self._lost_error("") from None
             os.close(lapsed)
 
-    def _lost(self, owner: str) -> LockLost:
+    def _lost_error(self, owner: str) -> LockLost:
         return LockLost(
             f"{self._directory} was taken over by another run{owner}, after this one had not "
             f"renewed its lease for {format_quantity(self._duration, 's')}"
@@ -101,16 +101,16 @@ class Lease(AbstractContextManager["Lease"]):
 
     def _renew(self) -> None:
         # Through the open file: the lease of a successor is another file.
-        began = _now()
+        began = _clock()
         self._count += 1
         os.lseek(self._file, len(self._head), os.SEEK_SET)
         os.write(self._file, b"%012d\n" % self._count)
         os.fsync(self._file)
         self._renewed = began
 
-    def _take(self, found: LeaseFile | None) -> None:
+    def _take_over(self, found: LeaseFile | None) -> None:
         """Take a lease that is free, abandoned or this process's own; LeaseHeld if that fails."""
-        began, token = _now(), secrets.token_hex(16)
+        began, token = _clock(), secrets.token_hex(16)
         head = header(token, f"{os.getpid()} on {platform.node()}", self._duration).encode()
         fresh = self._directory / f"{LOCK_NAME}.{token}.new"
         file = os.open(fresh, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
@@ -146,7 +146,7 @@ def _link(fresh: Path, token: str, found: LeaseFile | None) -> None:
             found.path.unlink(missing_ok=True)
 
 
-def _abandoned(directory: Path) -> LeaseFile | None:
+def _abandoned_lease(directory: Path) -> LeaseFile | None:
     """Lease that may be taken over, None if there is no lease; LeaseHeld if it is renewed."""
     found = current_lease(directory)
     if found is None or is_gone(found):
@@ -162,7 +162,7 @@ def _abandoned(directory: Path) -> LeaseFile | None:
     return found
 
 
-def _now() -> float:
+def _clock() -> float:
     """Time of this machine [s], which on Linux passes while the machine sleeps."""
     if hasattr(clock, "CLOCK_BOOTTIME"):
         return clock.clock_gettime(clock.CLOCK_BOOTTIME)

@@ -68,7 +68,7 @@ def header(token: str, owner: str, duration: float) -> str:
 def current_lease(directory: Path) -> LeaseFile | None:
     """Last lease of the chain of successors in a directory; None if there is no lease."""
     last, path = None, directory / LOCK_NAME
-    while (found := _read(path)) is not None:
+    while (found := _read_lease(path)) is not None:
         last, path = found, successor(found)
     return last
 
@@ -117,7 +117,7 @@ def process_mark(number: int) -> str:
     return f"{boot} {space} {'ended' if state in 'ZX' else fields[18]}"
 
 
-def _read(path: Path) -> LeaseFile | None:
+def _read_lease(path: Path) -> LeaseFile | None:
     try:
         with path.open("rb") as file:
             return LeaseFile(path, file.read(_SIZE).decode("utf-8", errors="replace"))

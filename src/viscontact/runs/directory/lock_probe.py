@@ -27,7 +27,7 @@ def has_locks(directory: Path) -> bool:
     # may hold within one machine only, which no probe on that machine can see.
     if fcntl is None:  # locks of Windows are enforced by the server, too
         return True
-    return file_system(directory) in LOCAL and _excludes(directory)
+    return file_system(directory) in LOCAL and _locks_exclude(directory)
 
 
 def file_system(directory: Path) -> str:
@@ -41,7 +41,7 @@ def file_system(directory: Path) -> str:
     return found
 
 
-def _excludes(directory: Path) -> bool:
+def _locks_exclude(directory: Path) -> bool:
     """True if a lock of a file in a directory excludes another opener of the file."""
     with NamedTemporaryFile(dir=directory, prefix=".lock.") as file:
         second = os.open(file.name, os.O_RDWR)

@@ -27,7 +27,7 @@ _DAMAGE = (
 def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
     """Write arrays, numbers, texts and None, in lists and dicts, as an ``.npz`` archive."""
     arrays: list[Numbers] = []
-    outline = json.dumps(_outlined(restart_data, arrays))
+    outline = json.dumps(_outline(restart_data, arrays))
     with zipfile.ZipFile(file, "w") as archive:
         _add(archive, _OUTLINE, np.frombuffer(outline.encode(), dtype=np.uint8))
         for index, array in enumerate(arrays):
@@ -54,7 +54,7 @@ def read_plain(file: BinaryIO) -> RestartData:
             # Before any header is used: a damaged one could ask for all memory.
             if archive.zip.testzip() is not None:
                 raise ValueError("a checksum is wrong")
-            read = _filled(json.loads(bytes(archive[_OUTLINE]).decode()), archive)
+            read = _restore(json.loads(bytes(archive[_OUTLINE]).decode()), archive)
     except _DAMAGE as error:
         raise ValueError("it is damaged, or was written by something else") from error
     if not isinstance(read, dict):
@@ -72,22 +72,22 @@ def outline_of(file: BinaryIO) -> Any:
         raise ValueError("it is damaged, or was written by something else") from error
 
 
-def _outlined(value: Any, arrays: list[Numbers]) -> Any:
+def _outline(value: Any, arrays: list[Numbers]) -> Any:
     if isinstance(value, np.ndarray):
         arrays.append(value)
         return {_ARRAY: len(arrays) - 1}
     if isinstance(value, dict):
-        return {key: _outlined(each, arrays) for key, each in value.items()}
+        return {key: _outline(each, arrays) for key, each in value.items()}
     if isinstance(value, list | tuple):
-        return [_outlined(each, arrays) for each in value]
+        return [_outline(each, arrays) for each in value]
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _filled(value: Any, archive: Any) -> Any:
+def _restore(value: Any, archive: Any) -> Any:
     if isinstance(value, dict) and _ARRAY in value:
         return archive[f"a{value[_ARRAY]}"]
     if isinstance(value, dict):
-        return {key: _filled(each, archive) for key, each in value.items()}
+        return {key: _restore(each, archive) for key, each in value.items()}
     if isinstance(value, list):
-        return [_filled(each, archive) for each in value]
+        return [_restore(each, archive) for each in value]
     return value

@@ -65,14 +65,14 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     def append(self, state: ContactState, part: float | None = None) -> None:
         """Write a state and the finished part of the run [-]; OSError and no line if not whole."""
         entries = _entries(state)
-        encoded = _encoded(entries if part is None else entries | {"part": part})
+        encoded = _encode(entries if part is None else entries | {"part": part})
         begin = self._file.tell()
         self._check()
         self._file.truncate(begin)
         if self._file.write(encoded) != len(encoded):
             self._file.truncate(begin)
             self._file.seek(begin)
-            raise self._full()
+            raise self._full_disk_error()
         self.count += 1
 
     def flush_to_disk(self) -> None:
@@ -102,7 +102,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
                     if row == self.count - 1:
                         entries |= {"complete": True, "fields": fields and dict(fields)}
                         entries |= judged or {}
-                    file.write(_encoded(entries))
+                    file.write(_encode(entries))
             flush_to_disk(fresh)
             self._check()
             self._replace(fresh)
@@ -126,11 +126,11 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         if fresh.write(content) != len(content):
             fresh.close()
             self._path.unlink()
-            raise self._full()
+            raise self._full_disk_error()
         self._file.close()
         self._file = fresh
 
-    def _full(self) -> OSError:
+    def _full_disk_error(self) -> OSError:
         return OSError(f"{self._path} could not be written whole; is the disk full?")
 
     def close(self) -> None:
@@ -179,5 +179,5 @@ def _errors(errors: Mapping[str, Floats], row: int) -> dict[str, float | str | N
     }
 
 
-def _encoded(entries: Mapping[str, Any]) -> bytes:
+def _encode(entries: Mapping[str, Any]) -> bytes:
     return (json.dumps(entries, allow_nan=False, ensure_ascii=False) + "\n").encode()

@@ -85,7 +85,7 @@ class Recorder:
             opened.pop_all()
         record._rows, record._place = int(saved.result["rows"]), saved.reached
         _LOG.info("%s: resumed after %d states", recorded.directory, record._rows)
-        record.saved = record.shown = record.resumed = record._reached
+        record.saved = record.shown = record.resumed = record._reached_place
         return record
 
     def _set_up(
@@ -104,7 +104,7 @@ class Recorder:
         self.saved = self.shown = self.resumed = Reached(0, None)
 
     @property
-    def _reached(self) -> Reached:
+    def _reached_place(self) -> Reached:
         return Reached(self._rows, self._place)
 
     def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
@@ -158,7 +158,7 @@ class Recorder:
                 errors = None if bars is None else bars.values
                 self._lines.finish(errors, self._writer.described_fields(), judged)
             self._writer.finish(bars, attributes)
-            self.shown = self._reached
+            self.shown = self._reached_place
             self.close()
             self._recorded.check()
             remove_restart_files(self._recorded.directory)
@@ -232,10 +232,10 @@ class Recorder:
         state = (lines, self._place, self._writer.position, march, recorded.run.setup.transforms)
         checkpoint = Checkpoint(recorded.run.case, *state)
         save_checkpoint(recorded.directory / STATE_NAME, checkpoint, recorded.check)
-        self.saved = self._reached
+        self.saved = self._reached_place
 
     def _publish(self) -> bool:
         done = self._writer.publish()
         if done:
-            self.shown = self._reached
+            self.shown = self._reached_place
         return done

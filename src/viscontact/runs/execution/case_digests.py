@@ -70,16 +70,16 @@ def _files(data: Any) -> Iterator[str]:
 
 
 def _digest(value: Any) -> str:
-    text = json.dumps(_plain(value), sort_keys=True, default=str)
+    text = json.dumps(_normal_value(value), sort_keys=True, default=str)
     return hashlib.sha256(text.encode("utf-8", "backslashreplace")).hexdigest()[:_LENGTH]
 
 
-def _plain(value: Any) -> Any:
+def _normal_value(value: Any) -> Any:
     """Value of a case with texts without blanks, and with floats for all numbers."""
     if isinstance(value, dict):
-        return {str(key): _plain(each) for key, each in value.items()}
+        return {str(key): _normal_value(each) for key, each in value.items()}
     if isinstance(value, list):
-        return [_plain(each) for each in value]
+        return [_normal_value(each) for each in value]
     if isinstance(value, str):
         return "".join(value.split())
     return float(value) if isinstance(value, int) and not isinstance(value, bool) else value

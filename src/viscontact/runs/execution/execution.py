@@ -122,7 +122,7 @@ def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
         # A resumed run would stop at the same step.
         option = " with --overwrite" if record.shown.rows else ""
         remedy = f"with that changed, run it again{option}"
-        stop(*checked.prepared.case.error(str(error)).problems, _kept(checked, record), remedy)
+        stop(*checked.prepared.case.error(str(error)).problems, _note(checked, record), remedy)
     except LockLost as error:
         stop(f"{error}; that run continues, and this one has stopped before its next write")
     except (OSError, MemoryError) as error:
@@ -166,7 +166,7 @@ def _publish(record: Recorder) -> None:
         record.publish()
 
 
-def _kept(checked: CheckedRun, record: Recorder) -> str:
+def _note(checked: CheckedRun, record: Recorder) -> str:
     directory = checked.recorded.directory
     if _is_gone(checked, record):
         return f"{directory} no longer exists, and neither does what it kept"
@@ -178,7 +178,7 @@ def _kept(checked: CheckedRun, record: Recorder) -> str:
 def _resumable(checked: CheckedRun, record: Recorder) -> str:
     saved = record.saved.rows
     lost = saved < record.shown.rows and not _is_gone(checked, record)
-    return _kept(checked, record) + (f"; a resumed run continues after {saved}" if lost else "")
+    return _note(checked, record) + (f"; a resumed run continues after {saved}" if lost else "")
 
 
 def _remedy(checked: CheckedRun, record: Recorder) -> str:

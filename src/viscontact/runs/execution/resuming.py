@@ -38,7 +38,7 @@ def standing(request: RunRequest, recorded: Recorded, case: Case) -> RunStage:
     if not request.resume:
         refuse_occupied(directory, case, overwrite=request.overwrite)
         return RunStage.NEW
-    stored = _stored(directory)
+    stored = _stored_summary(directory)
     is_complete = isinstance(stored, StoredRun) and stored.complete
     if isinstance(stored, StoredRun) and is_complete and stored.case == recorded.run.case:
         return RunStage.FINISHED
@@ -66,7 +66,7 @@ def refuse_changed(directory: Path, case: Case, changes: Iterable[Difference]) -
     )
 
 
-def _stored(directory: Path) -> StoredRun | str | None:
+def _stored_summary(directory: Path) -> StoredRun | str | None:
     """Summary of the stored result, or the reason why it cannot be read; None without one."""
     result = directory / RESULT_NAME
     if not (result.exists() or result.is_symlink()):

@@ -22,7 +22,7 @@ def control_groups(controller: str, root: Path = ROOT) -> Iterator[Path]:
         if is_unified or controller in controllers.split(","):
             wanted = "cgroup2" if is_unified else controller
             for mount, top in _mounts(mounts, wanted, root):
-                yield from _upwards(mount, group, top)
+                yield from _with_ancestors(mount, group, top)
 
 
 def number_in(file: Path) -> float | None:
@@ -47,7 +47,7 @@ def _mounts(lines: list[str], wanted: str, root: Path) -> Iterator[tuple[Path, s
             yield root / directory.lstrip("/"), top
 
 
-def _upwards(mount: Path, group: str, top: str) -> Iterator[Path]:
+def _with_ancestors(mount: Path, group: str, top: str) -> Iterator[Path]:
     """Directory of a group and its ancestors, up to the mounted one."""
     # In a container the path of the group may begin above what is mounted there.
     below = Path(group).relative_to(top) if Path(group).is_relative_to(top) else Path()

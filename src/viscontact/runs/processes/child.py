@@ -100,13 +100,13 @@ class Child:
     def ended(self) -> Ended | None:
         """Return how the run has ended; None while it continues."""
         code = self._run.process.poll()
-        return None if code is None else self._ended(code)
+        return None if code is None else self._end_of(code)
 
     def wait(self) -> Ended:
         """Wait for the end of the run."""
-        return self._ended(self._run.process.wait())
+        return self._end_of(self._run.process.wait())
 
-    def _ended(self, code: int) -> Ended:
+    def _end_of(self, code: int) -> Ended:
         self._run.said.seek(0)
         lines = tuple(self._run.said.read().decode("utf-8", errors="replace").splitlines())
         self._run.close()

@@ -177,16 +177,16 @@ def _bar(
     # The relative error from the cells falls with their number in a growing contact; without
     # contact, what a scalar keeps has the errors of the instants around.
     cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
-    over = _over(by_cells, scale)
+    over = _quotient(by_cells, scale)
     touching = history["contact_area"] > 0
-    relative = np.where(touching, _around(cells * over) / cells, _around(over))
+    relative = np.where(touching, _largest_nearby(cells * over) / cells, _largest_nearby(over))
     by_steps = levels.by_steps
     if not kinds.divided:
         # What is prescribed does not differ between the grids.
         differs = between_known(by_cells) > run.problem.solver_error * scale
         estimated = model.of_time_error * moving_maximum(history["time_error"]) * own
         by_steps = np.fmax(by_steps, np.where(differs, estimated, 0.0))
-    relative += np.nan_to_num(_over(by_steps, scale))
+    relative += np.nan_to_num(_quotient(by_steps, scale))
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
     relative += run.problem.surface.splitting_error
     bar = (relative + run.problem.compliance.inversion_error) * scale
@@ -194,13 +194,13 @@ def _bar(
     return np.where(np.isnan(own), np.nan, bar)
 
 
-def _over(error: Floats, scale: Floats) -> Floats:
+def _quotient(error: Floats, scale: Floats) -> Floats:
     """Error over a scale; 0 where that is zero, NaN where the error is unknown."""
     nothing = np.where(np.isnan(error), np.nan, 0.0)
     return np.divide(error, scale, out=nothing, where=scale > 0)
 
 
-def _around(relative: Floats) -> Floats:
+def _largest_nearby(relative: Floats) -> Floats:
     """Largest error at an instant, the ones next to it and those that coarser runs leave out."""
     return moving_maximum(between_known(relative), 1)
 

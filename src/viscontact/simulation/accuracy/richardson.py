@@ -61,7 +61,7 @@ def richardson(values: ArrayLike, spacings: ArrayLike) -> Richardson:
     >>> bool(richardson(-np.log(spacings), spacings).converges)
     False
     """
-    found, lengths = _checked(values, spacings)
+    found, lengths = _check_values(values, spacings)
     fine, coarse = found[1] - found[0], found[2] - found[1]
     order = _observed_order(fine, coarse, lengths)
     believed = np.clip(order, LOWEST_ORDER, HIGHEST_ORDER)
@@ -75,7 +75,7 @@ def richardson(values: ArrayLike, spacings: ArrayLike) -> Richardson:
     return Richardson(np.where(endless, np.inf, error), order, ~endless)
 
 
-def _checked(values: ArrayLike, spacings: ArrayLike) -> tuple[Floats, Floats]:
+def _check_values(values: ArrayLike, spacings: ArrayLike) -> tuple[Floats, Floats]:
     found, lengths = np.asarray(values, dtype=float), np.asarray(spacings, dtype=float)
     if found.ndim == 0 or len(found) != 3:
         raise ValueError(f"values: wanted three sets of values, got shape {found.shape}")

@@ -92,7 +92,7 @@ def _grows_at_end(
     """Times at which the largest pressure lies next to the body's end and grows with the cells."""
     finest = _finest(results)
     share = finest.end_pressures[:, 0] / _positive(finest.scalars["peak_pressure"])
-    share = between_known(_at(times, finest, share))
+    share = between_known(_at_times(times, finest, share))
     lies_there = moving_maximum(share) >= 1 - SAME_PEAK
     own, coarser = levels.values[0], levels.values[1:]
     growth = np.log(_positive(own) / _positive(coarser))
@@ -120,7 +120,7 @@ def _does_not_converge(
     # A contact of few cells does not exist on the coarsest grid.
     fine = history["cells_across"] >= MIN_ACROSS * spacings[-1]
     finest = _finest(results)
-    bent = _at(history["time"], finest, finest.bend_growth) > UNBOUNDED_GROWTH
+    bent = _at_times(history["time"], finest, finest.bend_growth) > UNBOUNDED_GROWTH
     unbounded = np.where(known, ~verdict.converges & grows & fine & bent, np.nan)
     mean = moving_mean(unbounded)
     # Between instants that are farther apart than the window, as at one of the next ones.
@@ -131,7 +131,7 @@ def _end_excess(times: Floats, results: Sequence[CoarserResult]) -> Floats:
     """Relative excess of the peak near the body's end over the pressure farther from it [-]."""
     finest = _finest(results)
     inner = finest.end_pressures[:, 1] / _positive(finest.scalars["peak_pressure"])
-    return _at(times, finest, np.clip(1 - inner, 0.0, 1.0))
+    return _at_times(times, finest, np.clip(1 - inner, 0.0, 1.0))
 
 
 def _at_end(times: Floats, results: Sequence[CoarserResult]) -> Bools:
@@ -143,7 +143,7 @@ def _finest(results: Sequence[CoarserResult]) -> CoarserResult:
     return min(results, key=lambda each: each.spacing)
 
 
-def _at(times: Floats, result: CoarserResult, values: Floats) -> Floats:
+def _at_times(times: Floats, result: CoarserResult, values: Floats) -> Floats:
     """Values at the instants of a coarser run, at a run's times; NaN where there are none."""
     scalars = {"time": result.scalars["time"], "values": values}
     return aligned("values", times, replace(result, scalars=scalars))

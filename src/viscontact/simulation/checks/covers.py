@@ -35,7 +35,7 @@ class Cover:
 
 def covers_of(bodies: Iterable[Material | Layered], time: float) -> tuple[Cover, ...]:
     """Covers of the bodies that have layers, with the moduli that they creep to [s]."""
-    return tuple(_cover(body, time) for body in bodies if isinstance(body, Layered))
+    return tuple(_cover_of(body, time) for body in bodies if isinstance(body, Layered))
 
 
 def cover_warnings(
@@ -83,7 +83,7 @@ def _cells(count: float) -> str:
     return "is 1 cell" if number == "1" else f"are {number} cells"
 
 
-def _cover(body: Layered, time: float) -> Cover:
+def _cover_of(body: Layered, time: float) -> Cover:
     assert isinstance(body.bonded, tuple)  # one for each interface
     stiffness = [_shear_modulus(layer.material, time) for layer in body.layers]
     base = math.inf if isinstance(body.base, str) else _shear_modulus(body.base, time)

@@ -215,11 +215,11 @@ def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
         if not touched.size:
             return False
         near = math.ceil(distance / geometry.grid.cell_size[axis])
-        block.append(_around(touched, near, geometry.grid, axis))
+        block.append(_lines_around(touched, near, geometry.grid, axis))
     return bool(np.isinf(geometry.open_gap[np.ix_(*block)]).any())
 
 
-def _around(lines: Integers, distance: int, grid: Grid, axis: int) -> Integers:
+def _lines_around(lines: Integers, distance: int, grid: Grid, axis: int) -> Integers:
     """Lines of the grid from `distance` before the first given line to as many after the last."""
     count = grid.shape[axis]
     first, last = int(lines[0]) - distance, int(lines[-1]) + distance

@@ -40,7 +40,7 @@ class LoadSupport:
                     "or the grid"
                 )
         x, y = where
-        if x is not None and y is not None and not self._holds(x, y):
+        if x is not None and y is not None and not self._is_supported(x, y):
             raise ValueError(
                 f"load.eccentricity_x: the force acts at ({format_quantity(x, 'm', 6)}, "
                 f"{format_quantity(y, 'm', 6)}) at t = {format_quantity(time, 's', 6)}, outside "
@@ -57,7 +57,7 @@ class LoadSupport:
         below = _upper_envelope(along_x, -near) * np.array([[1.0], [-1.0]])
         return _upper_envelope(along_x, far), below
 
-    def _holds(self, x: float, y: float) -> bool:
+    def _is_supported(self, x: float, y: float) -> bool:
         far, near = (float(np.interp(x, *corners)) for corners in self._envelopes)
         rounding = 1e-12 * self._grid.size[1]
         return near - rounding <= y <= far + rounding

@@ -45,7 +45,7 @@ class Sampling:
     @cached_property
     def beyond(self) -> tuple[Floats, Floats, Floats]:
         """Points of the body outside the grid: x, y and gap [m]."""
-        found = [_outside(self.grid, *points) for points in self._sampled_points()]
+        found = [_points_outside(self.grid, *points) for points in self._sampled_points()]
         x, y = (np.concatenate(coordinates) for coordinates in zip(*found, strict=True))
         gap = self.indenter.gap(x, y)
         solid = np.isfinite(gap)
@@ -175,7 +175,7 @@ def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:
     }
 
 
-def _outside(grid: Grid, x: Floats, y: Floats) -> Points:
+def _points_outside(grid: Grid, x: Floats, y: Floats) -> Points:
     """The points that lie outside a grid, within the period along an axis that has one."""
     beyond = np.array(_from_middle(grid, x, y)) > 0.5
     repeats = np.array(grid.periodic)

@@ -57,11 +57,11 @@ def fitted_extents(
     """Extents near given ones on which cells, also joined in pairs, end with the body [m]."""
     # Cells take a body that ends within one of them as longer or shorter by up to half a cell. At a
     # logarithmic end, whose drop grows fast there, that moves the peak pressure by up to 20 %.
-    x, y = (_fitted(*each) for each in zip(size, shape, ends, strict=True))
+    x, y = (_fit_extent(*each) for each in zip(size, shape, ends, strict=True))
     return x, y
 
 
-def _fitted(extent: float, count: int, end: float) -> float:
+def _fit_extent(extent: float, count: int, end: float) -> float:
     pairs = round(count * end / (2 * extent)) if end < extent / 2 else 0
     fitted = count * end / (2 * pairs) if pairs else extent
     return fitted if abs(fitted / extent - 1) <= MAX_CHANGE else extent

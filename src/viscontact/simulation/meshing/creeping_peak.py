@@ -139,7 +139,7 @@ def contact_growth(
     largest: PointContact,
 ) -> ContactGrowth | None:
     """Growth of a contact up to `end` [s] and `largest`; None on a body that hardly creeps."""
-    last = _last(load, compliance, end)
+    last = _last_time(load, compliance, end)
     if not compliance(last) > (1 + LEAST_CREEP) * compliance.instant:
         return None
     times = steps_of_one_cell(load, compliance, last)
@@ -153,7 +153,7 @@ def contact_growth(
     return ContactGrowth(load, steps, plan.prony_approximation, reference, extents, peak)
 
 
-def _last(load: LoadHistory, compliance: ContactCompliance, end: float | None) -> float:
+def _last_time(load: LoadHistory, compliance: ContactCompliance, end: float | None) -> float:
     """End of the examined history: of the run, or of its first MAX_LOAD_STEPS load steps [s]."""
     last = default_end(load, compliance) if end is None else end
     kinks = load.kinks[load.kinks <= last]

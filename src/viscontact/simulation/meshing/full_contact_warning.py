@@ -24,7 +24,7 @@ def whole_map_warning(indenter: Indenter, found: PointContact, grid: Grid) -> di
     # The coarse estimate leaves out short waves, which open first: it only excludes the warning.
     if min(indenter.sample_spacing) <= 0 or not _is_whole(found.estimate):
         return {}
-    whole = _pressed(found, indenter.gap(grid.x[:, None], grid.y[None, :]), grid, found.point)
+    whole = _contact(found, indenter.gap(grid.x[:, None], grid.y[None, :]), grid, found.point)
     if not _is_whole(whole):
         return {}
     rim = trace_rim(grid, whole.in_contact, whole.gap, trace_outline(indenter, grid))
@@ -48,7 +48,7 @@ def opening_force(found: PointContact) -> float:
     estimate, force = found.estimate, found.point.force
     assert force is not None  # under an approach there is no such force
     doubled = replace(found.point, force=2 * force)
-    twice = _pressed(found, estimate.open_gap, estimate.grid, doubled).pressure
+    twice = _contact(found, estimate.open_gap, estimate.grid, doubled).pressure
     rise = np.where(twice > estimate.pressure, twice - estimate.pressure, math.inf)
     covered = np.isfinite(estimate.open_gap)
     return float(force * (1 - estimate.pressure / rise)[covered].max())
@@ -59,7 +59,7 @@ def _is_whole(estimate: ContactEstimate) -> bool:
     return bool(estimate.in_contact[np.isfinite(estimate.open_gap)].all())
 
 
-def _pressed(
+def _contact(
     found: PointContact, open_gap: Floats, grid: Grid, point: LoadPoint
 ) -> ContactEstimate:
     """Elastic contact under a load on a grid."""

@@ -219,7 +219,7 @@ def _refined_for_smallest(
     if excess > 1:
         cells = np.maximum(fewest / math.sqrt(excess), choice.cells * part)
         return replace(choice, cells=cells / part, warnings=choice.warnings | EARLY_WARNING)
-    found = _resolved(indenter, request, smallest, size, choice, fewest, most)
+    found = _refine(indenter, request, smallest, size, choice, fewest, most)
     chosen = choice.after(found, np.array(found.trial.shape) / part)
     if found.is_enough or found.at_finest:
         return chosen
@@ -234,7 +234,7 @@ def _refined_for_largest(
     choice: _MeshChoice,
 ) -> Mesh:
     """Step 4: refine for the largest contact, or refuse the tolerance with the one in reach."""
-    found = _resolved(indenter, request, largest, size, choice, choice.cells, MAX_CELLS)
+    found = _refine(indenter, request, largest, size, choice, choice.cells, MAX_CELLS)
     chosen = choice.after(found, np.array(found.trial.shape))
     if not found.is_enough:
         worst = max(chosen.errors, key=chosen.errors.__getitem__)
@@ -307,7 +307,7 @@ def _points(indenter: Indenter, contact: PointContact) -> tuple[float, float]:
     return length / dx, width / dy
 
 
-def _resolved(
+def _refine(
     indenter: Indenter,
     request: AutomaticGrid,
     contact: PointContact,

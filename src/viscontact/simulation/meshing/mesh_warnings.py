@@ -26,7 +26,7 @@ def spacing_warning(name: str, error: float, points: tuple[float, float]) -> dic
     """Warning that the spacing of a map limits the accuracy; `points` along and across."""
     return {
         "map spacing": (
-            f"cells as small as the steps of the height map leave {_about(error, points)} "
+            f"cells as small as the steps of the height map leave {_error_text(error, points)} "
             f"in the {name.replace('_', ' ')}; a map of smaller steps would be more accurate"
         )
     }
@@ -37,8 +37,8 @@ def facet_warning(error: float, points: tuple[float, float]) -> dict[str, str]:
     return {
         "facets": (
             "between its points the height map is taken as straight, which leaves "
-            f"{_about(error, points)} in the peak pressure however small the cells are; a map of "
-            "smaller steps would be more accurate"
+            f"{_error_text(error, points)} in the peak pressure however small the cells are; a map "
+            "of smaller steps would be more accurate"
         )
     }
 
@@ -55,7 +55,7 @@ def ring_warning(error: float) -> dict[str, str]:
     }
 
 
-def _about(error: float, points: tuple[float, float]) -> str:
+def _error_text(error: float, points: tuple[float, float]) -> str:
     """Relative error in words; one as large as the value itself is not known any closer."""
     if error < 1:
         return f"a relative error of about {error:.1g}"

@@ -19,7 +19,7 @@ def grid_over_path(grid: Grid, motion: Motion) -> Grid:
         if low == high == 0:
             continue
         before, behind = math.ceil(-low / cell - 1e-9), math.ceil(high / cell - 1e-9)
-        count = _fast(grid.shape[axis] + before + behind, cell)
+        count = _fast_count(grid.shape[axis] + before + behind, cell)
         behind = count - grid.shape[axis] - before
         shape[axis], size[axis] = count, cell * count
         centre[axis] += cell * (behind - before) / 2
@@ -35,7 +35,7 @@ def grid_over_path(grid: Grid, motion: Motion) -> Grid:
     )
 
 
-def _fast(least: int, cell: float) -> int:
+def _fast_count(least: int, cell: float) -> int:
     """A number of cells that suits the transforms and keeps the cell size to the bit."""
     count = least
     while True:

@@ -86,20 +86,20 @@ def refine_mesh(
         trial = try_mesh(pressing, shape, exact)
         _LOG.debug("trial grid: %d x %d cells", *trial.shape)
         trials.append(trial)
-        is_last = _is_last(trial, _refined(trial, names, tolerance, finest), most_cells)
+        is_last = _is_last(trial, _next_shape(trial, names, tolerance, finest), most_cells)
         doubtful = tuple(name for name in trial.unlimited if name in names)
         is_exact = (_factors(trial, doubtful, tolerance) == 1).all()
         # Step 4: a singular peak is not refined for, nor the width of the contact below it.
         if doubtful and not is_exact and _has_no_limit(trials, patient=not is_last):
             names = tuple(name for name in names if name not in doubtful)
         # Step 2: the first mesh that is fine enough for the remaining quantities, not by chance.
-        following = _refined(trial, names, tolerance, finest)
+        following = _next_shape(trial, names, tolerance, finest)
         is_last = _is_last(trial, following, most_cells)
         enough = [
             each
             for each in trials
             if (_factors(each, names, tolerance) == 1).all()
-            and _agree(each, trial, names, tolerance)
+            and _do_agree(each, trial, names, tolerance)
         ]
         if _needs_confirmation(trial, names) and not is_last:
             enough = enough[:-1] if enough and enough[-1] is trial else []
@@ -112,7 +112,7 @@ def refine_mesh(
         shape = following
 
 
-def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: float) -> bool:
+def _do_agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: float) -> bool:
     """True if two meshes agree in these quantities to the tolerance."""
     which = [MESH_QUANTITIES.index(name) for name in names]
     # Relative to the value, or to what an eccentricity or a tilt near zero counts against.
@@ -130,7 +130,7 @@ def _is_last(trial: MeshTrial, following: tuple[int, int], most_cells: float) ->
     return following == trial.shape or math.prod(following) > most_cells
 
 
-def _refined(
+def _next_shape(
     trial: MeshTrial, names: Sequence[str], tolerance: float, finest: ArrayLike
 ) -> tuple[int, int]:
     """Step 3: cells along x and y of the next mesh."""

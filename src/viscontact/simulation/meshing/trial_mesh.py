@@ -110,12 +110,12 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     """Solve a contact on a mesh (even shape), and on cells twice as long along x and along y."""
     (nx, ny), grid = shape, pressing.grid(shape)
     coarser = [
-        _found(pressing, replace(grid, shape=coarse), tolerance)
+        _solve_on(pressing, replace(grid, shape=coarse), tolerance)
         for coarse in ((nx // 2, ny), (nx, ny // 2))
     ]
     # Start from the mean of both coarse pressures, each spread to two cells.
     spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
-    fine = _found(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
+    fine = _solve_on(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
     at_end: Bools = np.any(end_cells(fine.open_gap, 1) & fine.in_contact, axis=(1, 2))
     excess = _end_excess(fine)
@@ -175,7 +175,7 @@ def _end_excess(found: _TrialSolution) -> Floats:
     return 1 - np.array(farther) / peak
 
 
-def _found(
+def _solve_on(
     pressing: ElasticContact,
     grid: Grid,
     tolerance: float,

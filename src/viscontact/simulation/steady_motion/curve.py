@@ -110,14 +110,14 @@ class SteadyCurve:
         solver, problem = self._run.solver, self._run.problem
         tolerance = problem.contact.tolerance
         coarse = solver.coarser(speed, grid, tolerance) if self._errors else None
-        near = _near(self._before, speed, grid) if coarse is None else coarse.neighbour
+        near = _nearby_contact(self._before, speed, grid) if coarse is None else coarse.neighbour
         contact = solver.solve(speed, grid, tolerance, near)
         work = contact.solution.work
         if coarse is not None:
             part = coarse.solution.values[0].size / contact.solution.values[0].size
             work += coarse.solution.work * part
         _refuse(contact, tolerance, chosen=not isinstance(problem.contact.grid, Grid))
-        fine = self._measured(contact)
+        fine = self._measure(contact)
         found = _warnings(problem, contact, fine.rim)
         if self._errors:
             passed = grid.cell_size[problem.axis] / speed
@@ -135,9 +135,9 @@ class SteadyCurve:
         problem = self._run.problem
         if coarse is None or not (coarse.solution.converged and coarse.in_contact.any()):
             return unknown_bars(problem)
-        return error_bars(problem, fine, self._measured(coarse), singular=singular)
+        return error_bars(problem, fine, self._measure(coarse), singular=singular)
 
-    def _measured(self, contact: SteadyContact) -> Measured:
+    def _measure(self, contact: SteadyContact) -> Measured:
         problem = self._run.problem
         rim = rim_of(problem, contact)
         against = resistance_of(problem, contact)
@@ -147,7 +147,7 @@ class SteadyCurve:
         return Measured(state, rim, against)
 
 
-def _near(before: Neighbour | None, speed: float, grid: Grid) -> Neighbour | None:
+def _nearby_contact(before: Neighbour | None, speed: float, grid: Grid) -> Neighbour | None:
     """Contact at the last speed, if it is close by: elsewhere a coarser grid helps more."""
     if before is None or before.grid != grid:
         return None

@@ -30,14 +30,14 @@ def on_grid(state: ContactState, grid: Grid) -> ContactState:
     if state.grid == grid or not state.pressure.size:
         return replace(state, grid=grid)
     fields: dict[str, Any] = {
-        name: _embedded(getattr(state, name), state.grid, grid, variable.beyond)
+        name: _embed(getattr(state, name), state.grid, grid, variable.beyond)
         for name, variable in FIELDS.items()
     }
-    line_load = _embedded(state.line_load, state.grid, grid, 0.0)
+    line_load = _embed(state.line_load, state.grid, grid, 0.0)
     return replace(state, grid=grid, line_load=line_load, **fields)
 
 
-def _embedded(field: Field, grid: Grid, wider: Grid, beyond: float) -> Field:
+def _embed(field: Field, grid: Grid, wider: Grid, beyond: float) -> Field:
     """A field on the grid of all speeds, with a value beyond its own."""
     whole = np.full(wider.shape[: field.ndim], beyond, dtype=field.dtype)
     first = [

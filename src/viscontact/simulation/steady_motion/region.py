@@ -118,10 +118,10 @@ def find_region(
         box = box.centred(centred)
         found = solver.solve(speed, box.grid(SEARCH_CELLS), SEARCH_TOLERANCE)
         work += found.solution.work
-        region, across, touched = _measured(found)
+        region, across, touched = _measure(found)
         if not touched.any() and across.min() >= FEWEST_ACROSS:
             return region, work
-        box = _next(box, region, touched, across)
+        box = _next_region(box, region, touched, across)
     raise ValueError(
         "grid: no region is found that holds the contact at "
         f"{format_quantity(speed, 'm/s')}; give a grid of your own, or check whether the load "
@@ -129,7 +129,7 @@ def find_region(
     )
 
 
-def _measured(
+def _measure(
     contact: SteadyContact,
 ) -> tuple[Region, Integers, Bools]:
     """Region under pressure, cells across it, and sides of the grid that it reaches, (2, 2)."""
@@ -145,7 +145,7 @@ def _measured(
     return Region(np.array(low), np.array(high)), np.array(across), np.array(touched)
 
 
-def _next(box: Region, region: Region, touched: Bools, across: Integers) -> Region:
+def _next_region(box: Region, region: Region, touched: Bools, across: Integers) -> Region:
     """Box of the next search, after a contact in a box."""
     # Where the contact reaches the box, the box grows along that axis and does not shrink: the
     # contact may have been pushed against its rim.

@@ -83,7 +83,7 @@ class EventSearch:
         self._observer = Observer(self._run, warns=False)
         self.states: list[ContactState] = []  # at the ends of the steps, without fields
         self.reach = (0.0, 0.0)  # of the contact from the middle of the grid, along x and y [m]
-        self._accept(self._solved(TimeStep(0.0, 0.0, 0.0, smooth=False)))
+        self._accept(self._solve(TimeStep(0.0, 0.0, 0.0, smooth=False)))
 
     def carry_out(self) -> MixedHistory:
         """March to the end of the program; EventError if a condition is never met."""
@@ -105,27 +105,27 @@ class EventSearch:
         """March up to the end of the segment that follows, or to the first condition met."""
         history, begin, end = self._course.history(), self._course.begin, self._course.planned_end
         self._stepper.continue_under(history)
-        steps = self._given(begin, end) if self._step_ends else self._adaptive(history, end)
+        steps = self._given_steps(begin, end) if self._step_ends else self._adaptive(history, end)
         while (step := steps.next_step()) is not None:
-            solved = self._solved(step)
+            solved = self._solve(step)
             if not steps.accept_step(solved.trial.error.relative):
                 continue
             found = [
-                (self._located(condition, solved), condition)
+                (self._locate(condition, solved), condition)
                 for condition in self._course.conditions
-                if _crosses(condition, self._state, solved.state)
+                if _is_met_between(condition, self._state, solved.state)
             ]
             if not found:
                 self._accept(solved)
                 continue
             solved, met = min(found, key=lambda each: each[0].step.time)
             if len(found) > 1:  # the history answers to the step that was solved last
-                solved = self._solved(solved.step)
+                solved = self._solve(solved.step)
             self._accept(solved)
             return met
         return None
 
-    def _given(self, begin: float, end: float) -> FixedSteps:
+    def _given_steps(self, begin: float, end: float) -> FixedSteps:
         """Steps through given instants within a segment, up to its end."""
         assert self._step_ends is not None
         wanted = self._step_ends(len(self._course.controls), begin, end)
@@ -160,7 +160,7 @@ class EventSearch:
         reach = _reach(self._run, solved.state)
         self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
 
-    def _solved(self, step: TimeStep) -> _SolvedStep:
+    def _solve(self, step: TimeStep) -> _SolvedStep:
         trial = self._stepper.trial(step)
         if trial.outcome is Outcome.NOT_CONVERGED:
             raise ConvergenceError(not_converged(self._run, step, trial.solution))
@@ -168,7 +168,7 @@ class EventSearch:
         observer = copy(self._observer)  # it adds the work of each step that it sees
         return _SolvedStep(step, trial, observer.evaluate(step, trial.point, solution), observer)
 
-    def _located(self, condition: Condition, crossed: _SolvedStep) -> _SolvedStep:
+    def _locate(self, condition: Condition, crossed: _SolvedStep) -> _SolvedStep:
         """Return the step up to the instant at which a condition is met."""
         step = crossed.step
         begin = step.time - step.duration
@@ -178,17 +178,17 @@ class EventSearch:
                 return _excess(condition, self._state)
             if time == step.time:
                 return _excess(condition, crossed.state)
-            return _excess(condition, self._solved(_until(time)).state)
+            return _excess(condition, self._solve(_step_to(time)).state)
 
-        def _until(time: float) -> TimeStep:
+        def _step_to(time: float) -> TimeStep:
             return TimeStep(time, time - begin, time, step.smooth)
 
         tolerance = self._event_tolerance * step.duration
         met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))
         # An event right at the begin would be a step of no length; a lost contact is past its root.
         least = 2 * KINK_TOLERANCE * step.time
-        return self._solved(
-            _until(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
+        return self._solve(
+            _step_to(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
         )
 
 
@@ -210,7 +210,7 @@ def _excess(condition: Condition, state: ContactState) -> float:
     return state.force
 
 
-def _crosses(condition: Condition, before: ContactState, after: ContactState) -> bool:
+def _is_met_between(condition: Condition, before: ContactState, after: ContactState) -> bool:
     """Test whether a condition is met within a step between two states, or at its end."""
     first, last = _excess(condition, before), _excess(condition, after)
     if condition.scalar == "contact":

@@ -45,19 +45,19 @@ def carried_out(problem: Problem, threads: int = 1, *, roughly: bool = False) ->
     if not (isinstance(load, MixedHistory) and load.awaits_events):
         return problem
     check_mixed(problem)
-    latest = _latest(problem)
+    latest = _latest_end(problem)
     grid = problem.grid
     if not isinstance(grid, Grid):
         found = _rough_march(problem, latest)
         grid = _grid_for(problem, found)
     elif roughly:
-        found = _searched(_with_few_steps(problem), _coarse(grid), latest)
+        found = _search(_with_few_steps(problem), _coarse(grid), latest)
     if not roughly:
-        found = _searched(problem, grid, latest, threads)
-    return _under(problem, grid, found, roughly=roughly)
+        found = _search(problem, grid, latest, threads)
+    return _under_history(problem, grid, found, roughly=roughly)
 
 
-def _latest(problem: Problem) -> float:
+def _latest_end(problem: Problem) -> float:
     """Latest end of the program [s]."""
     if problem.times is None:
         raise ValueError(
@@ -69,7 +69,7 @@ def _latest(problem: Problem) -> float:
     return problem.end
 
 
-def _searched(
+def _search(
     problem: Problem, grid: Grid, latest: float, threads: int = 1
 ) -> tuple[EventSearch, MixedHistory]:
     """March the program of a problem on a grid; return the search and what it found."""
@@ -93,7 +93,7 @@ def _rough_march(problem: Problem, latest: float) -> tuple[EventSearch, MixedHis
     for _ in range(ROUGH_MARCHES):
         grid = Grid((ROUGH_CELLS, ROUGH_CELLS), (float(size[0]), float(size[1])))
         try:
-            found = _searched(easy, grid, latest)
+            found = _search(easy, grid, latest)
         except (DomainError, ConvergenceError):  # too small, or cells of an awkward size
             size *= ENLARGED
             continue
@@ -172,7 +172,7 @@ def _grid_for(problem: Problem, found: tuple[EventSearch, MixedHistory]) -> Grid
     return mesh.grid
 
 
-def _under(
+def _under_history(
     problem: Problem, grid: Grid, found: tuple[EventSearch, MixedHistory], *, roughly: bool
 ) -> Problem:
     """The problem under a history that was found, with its events among the times."""

@@ -21,10 +21,10 @@ class LoadCycleWork:
 
     def record_work(self, step: TimeStep, work: float) -> None:
         """Record the work [J] at the end of a step where a cycle ends or begins."""
-        if self._cycles and _meets(step, self._cycles[0][1]):
+        if self._cycles and _ends_at(step, self._cycles[0][1]):
             self.last_loss = work - self._begun
             del self._cycles[0]
-        if self._cycles and _meets(step, self._cycles[0][0]):
+        if self._cycles and _ends_at(step, self._cycles[0][0]):
             self._begun = work
 
     def restart_data(self) -> RestartData:
@@ -37,7 +37,7 @@ class LoadCycleWork:
         self._begun, self.last_loss = restart_data["begun"], restart_data["last_loss"]
 
 
-def _meets(step: TimeStep, moment: LoadInstant) -> bool:
+def _ends_at(step: TimeStep, moment: LoadInstant) -> bool:
     """True if a step ends at a (time, side); without a jump there, on both sides."""
     time, side = moment
     other = (step.before_jump and side == "right") or (step.is_jump and side == "left")

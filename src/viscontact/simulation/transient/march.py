@@ -121,9 +121,9 @@ class March:
         self.outcome = trial.outcome
         if trial.outcome is Outcome.NOT_CONVERGED:
             self._failure = not_converged(self._run, step, trial.solution)
-        return self._complete(step, trial)
+        return self._complete_step(step, trial)
 
-    def _complete(self, step: TimeStep, trial: TrialStep) -> ContactState | None:
+    def _complete_step(self, step: TimeStep, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)

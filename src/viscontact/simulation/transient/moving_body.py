@@ -24,7 +24,7 @@ class PeriodicBody(Indenter):
     def gap(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the gap of the body in the period of each position; see `Indenter.gap`."""
         along_x, along_y = (
-            _wrapped(positions, middle, period) if repeats else positions
+            _wrap(positions, middle, period) if repeats else positions
             for positions, middle, period, repeats in zip(
                 (x, y), self.grid.centre, self.grid.size, self.grid.periodic, strict=True
             )
@@ -42,7 +42,7 @@ class PeriodicBody(Indenter):
         return self.body.sample_spacing
 
 
-def _wrapped(positions: ArrayLike, middle: float, period: float) -> Floats:
+def _wrap(positions: ArrayLike, middle: float, period: float) -> Floats:
     """Positions moved by whole periods to within half a period of the middle [m]."""
     offset = np.asarray(positions, dtype=np.float64) - middle
     return np.asarray(middle + offset - period * np.round(offset / period))

@@ -29,9 +29,9 @@ class ProgressBar:
             return
         self._said_at, spent = now, now - self._started
         filled = round(_WIDTH * done / total) if total else _WIDTH
-        left = f"about {_lasting(spent / done * (total - done))} left"
+        left = f"about {_duration_text(spent / done * (total - done))} left"
         ending = f", then {self._then}" if self._then else ""
-        said = left if done < total else f"{_lasting(spent)}{ending}"
+        said = left if done < total else f"{_duration_text(spent)}{ending}"
         line = f"{self._unit} {done}/{total} [{'#' * filled:<{_WIDTH}}], {said}"
         # Spaces over what the line before had more.
         text = f"\r{line:<{self._length}}" + ("" if done < total else "\n")
@@ -51,6 +51,6 @@ def reported(progress: _Report | bool | None, bar: ProgressBar) -> _Report | Pro
     return progress
 
 
-def _lasting(seconds: float) -> str:
+def _duration_text(seconds: float) -> str:
     """Return a duration, such as ``"12 s"`` or ``"3 min"``."""
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"

@@ -93,7 +93,7 @@ class Stepper:
     def trial(self, step: TimeStep) -> TrialStep:
         """Solve a step without accepting it."""
         posed = self._step_problem(step)
-        solution, outcome = self._solved(step, posed)
+        solution, outcome = self._solve_step(step, posed)
         response = posed.response
         pairs = self._history.pairs(response, solution.values)
         reference = ElasticReference(step.time, posed.drive, response.of(pairs), solution.motion)
@@ -162,7 +162,7 @@ class Stepper:
         if self._run.problem.motion.stands:
             guess = self._reference_guess(predict(known, step.time, drive, team), response, past)
         else:
-            moved = predict(self._moved(known, step), step.time, point.level, team)
+            moved = predict(self._move_known(known, step), step.time, point.level, team)
             guess = None if moved is None else self._moved_guess(moved, problem)
         return StepProblem(point, response, drive, problem, guess)
 
@@ -240,7 +240,7 @@ class Stepper:
         self._domain.team.each_part(increment, values, history)
         return Guess(values, reference.motion)
 
-    def _moved(self, known: list[ElasticReference], step: TimeStep) -> list[ElasticReference]:
+    def _move_known(self, known: list[ElasticReference], step: TimeStep) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
         run = self._run
         there = np.array(run.position_at(step.time))
@@ -256,7 +256,7 @@ class Stepper:
             moved.append(replace(each, fields=fields))
         return moved
 
-    def _solved(self, step: TimeStep, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
+    def _solve_step(self, step: TimeStep, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:

@@ -197,14 +197,14 @@ def fit_case(  # noqa: PLR0913
     ):
         evaluation = Evaluation(Budget(most), chosen, journal, progress)
         residuals = Residuals(experiments, unknowns, evaluation)
-        found = _searched(residuals, most)
+        found = _search(residuals, most)
         notes = tuple(notes_on(unknowns, found, confidence, most))
         for note in notes:
             warn(f"fit_case: {note}", AccuracyWarning, stacklevel=2)
         return result_of(residuals, found, confidence, notes, path, fixed)
 
 
-def _searched(residuals: Residuals, most: int) -> Optimum:
+def _search(residuals: Residuals, most: int) -> Optimum:
     """Least squares; ValueError if the runs are too few for any values."""
     try:
         return search(residuals, np.array([each.start for each in residuals.unknowns]))

@@ -47,7 +47,7 @@ class Residuals:
         runs = [run for each in responses for run in each]
         outcomes = iter(self.evaluation.outcomes(runs, is_limited=level == "coarse"))
         return [
-            self._compared(each, [next(outcomes) for _ in each], at)
+            self._compare(each, [next(outcomes) for _ in each], at)
             for each, at in zip(responses, values, strict=True)
         ]
 
@@ -59,12 +59,12 @@ class Residuals:
         ]
         return np.concatenate(parts)
 
-    def _compared(
+    def _compare(
         self, responses: Sequence[RecordRun], outcomes: Sequence[Entry], values: Mapping[str, str]
     ) -> list[tuple[Floats, Bools]] | str:
         try:
             return [
-                self._one(run, outcome, values)
+                self._compare_record(run, outcome, values)
                 for run, outcome in zip(responses, outcomes, strict=True)
             ]
         except NoResidualsError as error:
@@ -90,7 +90,7 @@ class Residuals:
             return Mounting(point)
         return Mounting(point, 1.0 / parse_any_quantity(values[MACHINE_STIFFNESS])[0])
 
-    def _one(
+    def _compare_record(
         self, run: RecordRun, outcome: Entry, values: Mapping[str, str]
     ) -> tuple[Floats, Bools]:
         """Fitted values of a record, and the mask of the rows that count."""

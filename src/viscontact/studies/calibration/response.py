@@ -87,7 +87,7 @@ class RecordRun:
         case = case_with(test.case, {**test.settings, **self.values})
         load, rows, instants = history_of(case, test.record, test.drive, self.mounting)
         if self.level == "case":
-            instants = _halved(instants)
+            instants = _halve_steps(instants)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AccuracyWarning)
             run = prepare_run(_problem(case, load, instants, cells))
@@ -160,7 +160,7 @@ def _coarse(run: RunSetup) -> Grid:
     return coarser_grid(run.grid, aligned_spacing(run, ratio, True), True)
 
 
-def _halved(instants: Floats) -> Floats:
+def _halve_steps(instants: Floats) -> Floats:
     """Instants with further ones in the middle of the steps, from time 0 on [s]."""
     whole = np.union1d([0.0], instants)
     return np.union1d(whole, (whole[1:] + whole[:-1]) / 2)

@@ -150,7 +150,7 @@ class CaseFit:
         parts = zip(self.unknowns, self.point, self.reach, self.shift, strict=True)
         return [
             (
-                *(u.name, _short(u.text(part))),
+                *(u.name, _short_key(u.text(part))),
                 f"{_bound(u, part - reach)} to {_bound(u, part + reach)}",
                 _difference(u, part, shift),
             )
@@ -186,7 +186,7 @@ def rounded(text: str) -> str:
     return f"{float(number):.{_DIGITS}g} {unit}".rstrip()
 
 
-def _short(text: str) -> str:
+def _short_key(text: str) -> str:
     number, unit = split_quantity(text)
     return f"{float(number):.4g} {unit}".rstrip()
 

@@ -83,11 +83,11 @@ def search(evaluate: Evaluate, start: Floats) -> Optimum:
         if found.jacobian is None:
             raise
     assert found.jacobian is not None
-    point, shift, residuals = _corrected(evaluate, found.best, found.jacobian)
+    point, shift, residuals = _correct(evaluate, found.best, found.jacobian)
     return Optimum(point, shift, residuals, found.jacobian, complete)
 
 
-def _all(evaluate: Evaluate, points: Sequence[Floats], level: Level) -> list[Floats]:
+def _all_residuals(evaluate: Evaluate, points: Sequence[Floats], level: Level) -> list[Floats]:
     """Residuals at all points; NoResidualsError if one has none."""
     found = []
     for each in evaluate(points, level):
@@ -119,7 +119,7 @@ class _Descent:
             if residuals is not None:
                 self._starts.append((float(residuals @ residuals), tuple(point.tolist())))
         reached = self.best if self._starts else self._start  # which raises the reason
-        self._penalty = 10.0 + np.abs(_all(self._evaluate, [reached], "coarse")[0])
+        self._penalty = 10.0 + np.abs(_all_residuals(self._evaluate, [reached], "coarse")[0])
 
     def descend(self) -> None:
         """Search from the best start, and from others if the search ends at a bound."""
@@ -167,17 +167,15 @@ class _Descent:
 
     def _differences(self, point: Floats, steps: Floats) -> Floats:
         moved = [point + step * unit for step, unit in zip(steps, np.eye(point.size), strict=True)]
-        here, *there = _all(self._evaluate, [point, *moved], "coarse")
+        here, *there = _all_residuals(self._evaluate, [point, *moved], "coarse")
         columns = [(each - here) / step for each, step in zip(there, steps, strict=True)]
         return np.stack(columns, axis=1)
 
 
-def _corrected(
-    evaluate: Evaluate, coarse: Floats, jacobian: Floats
-) -> tuple[Floats, Floats, Floats]:
+def _correct(evaluate: Evaluate, coarse: Floats, jacobian: Floats) -> tuple[Floats, Floats, Floats]:
     """Least squares on the case's cells with steps half as long: point, its shift, residuals."""
     # Gauss-Newton steps with the Jacobian of the coarse cells, which is near enough.
-    (residuals,), best = _all(evaluate, [coarse], "case"), coarse
+    (residuals,), best = _all_residuals(evaluate, [coarse], "case"), coarse
     inverse = np.linalg.pinv(jacobian)
     variance = float(residuals @ residuals) / (residuals.size - coarse.size)
     errors = np.sqrt(variance * np.diag(inverse @ inverse.T))

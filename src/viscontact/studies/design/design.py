@@ -168,7 +168,7 @@ def design(  # noqa: PLR0913
     budget = Budget(whole("runs", _default_runs(len(goals)) if runs is None else runs, 1))
     values = _own_values(case_with(path, fixed), (*space.keys, *(scatter or {})))
     scenarios = scenarios_of(over, scatter, space, values)
-    own = _checked(path, space, scenarios, fixed, goals[0])
+    own = _check_case(path, space, scenarios, fixed, goals[0])
     arguments = {
         **{"case": fingerprint(own), "change": repr(change), "goal": repr(goals)},
         **{"over": repr(over), "scatter": repr(scatter or None)},
@@ -182,7 +182,7 @@ def design(  # noqa: PLR0913
         evaluation = Evaluation(budget, chosen, journal, progress)
         levels: tuple[Level, ...] = ("coarse", "case") if of_case.coarse else ("case",)
         trials = Trials(space, of_case, goals, limits, evaluation, levels, len(scenarios))
-        found = _searched(trials, of_case, values, _unused_tolerances(own, scatter))
+        found = _search(trials, of_case, values, _unused_tolerances(own, scatter))
         if directory is not None:
             write_result(Path(directory), found)
         return found
@@ -195,7 +195,7 @@ def _default_runs(goals: int) -> int:
     return RUNS * (goals + len(compromises(goals)))
 
 
-def _searched(
+def _search(
     trials: Trials, of_case: CaseTrials, own: Mapping[str, str], known: Iterable[str]
 ) -> DesignResult:
     """Search, and describe the best trial, with notes `known` before; ValueError if none is."""
@@ -252,7 +252,7 @@ def _unused_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> list[st
     return [f"tolerances of the case count in a design only as scatter, as {left[0]}"]
 
 
-def _checked(
+def _check_case(
     path: Path,
     space: Space,
     scenarios: Sequence[Scenario],

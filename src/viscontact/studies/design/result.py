@@ -127,7 +127,7 @@ class DesignResult:
         OSError
             If the file cannot be written.
         """
-        title = f"Design of {self.case.stem}: {_listed(map(str, self.goals))}"
+        title = f"Design of {self.case.stem}: {_list_texts(map(str, self.goals))}"
         words = {"title": title, "headline": str(self)}
         runs, years = self.before_and_after(), self.over_a_year()
         write_study_report("design", self.table, runs, path, years=years, **words)
@@ -147,7 +147,7 @@ class DesignResult:
         the case, or the bodies do not creep after it. The instants of the case are followed by
         others, a day, a week and a year among them.
         """
-        runs = {"case": self._varied({}), "best": self._varied(self.settings)}
+        runs = {"case": self._deciding_run({}), "best": self._deciding_run(self.settings)}
         if not creeps_on(read_case(self.case, runs["best"].assignments)):
             return {}
         found: dict[str, xr.Dataset | str] = {}
@@ -161,7 +161,7 @@ class DesignResult:
         return found
 
     def _run(self, settings: Mapping[str, str]) -> xr.Dataset:
-        run = self._varied(settings)
+        run = self._deciding_run(settings)
         axis, places = places_of(read_case(self.case, run.assignments))
         ends = dict.fromkeys((float(places[0]), float(places[-1])))
         fields = f"[{', '.join(f'{place!r} {axis.unit}' for place in ends)}]"
@@ -169,7 +169,7 @@ class DesignResult:
             warnings.simplefilter("ignore", AccuracyWarning)  # they are among the notes
             return replace(run, settings={**run.settings, "output.fields": fields})()
 
-    def _varied(self, settings: Mapping[str, str]) -> VariedRun:
+    def _deciding_run(self, settings: Mapping[str, str]) -> VariedRun:
         """Run of some values in the scenario that decides."""
         values = self.best[f"{self.goal.scalar}_of_scenarios"].values
         number = values.argmax() if self.goal.least else values.argmin()
@@ -182,14 +182,14 @@ class DesignResult:
         values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
         if len(self.goals) == 1:
             goal = self.goal
-            return f"{goal}: {self._format(goal, self.number)} at {values}{self._before(goal)}"
-        each = (f"{g.scalar} {self._format(g, self.number)}{self._before(g)}" for g in self.goals)
+            return f"{goal}: {self._format(goal, self.number)} at {values}{self._prior(goal)}"
+        each = (f"{g.scalar} {self._format(g, self.number)}{self._prior(g)}" for g in self.goals)
         return (
-            f"{_listed(map(str, self.goals))}: {self.front.sizes['trial']} trials are not "
-            f"dominated; the compromise has {_listed(each)}, at {values}"
+            f"{_list_texts(map(str, self.goals))}: {self.front.sizes['trial']} trials are not "
+            f"dominated; the compromise has {_list_texts(each)}, at {values}"
         )
 
-    def _before(self, goal: Goal) -> str:
+    def _prior(self, goal: Goal) -> str:
         if not np.isfinite(self.table[goal.scalar].values[0]):
             return ""
         return f", where the case has {self._format(goal, 0)}"
@@ -256,7 +256,7 @@ def _on_front(
     return xr.Variable("trial", not_dominated(costs), about)
 
 
-def _listed(texts: Iterable[str]) -> str:
+def _list_texts(texts: Iterable[str]) -> str:
     return " and ".join(texts)
 
 

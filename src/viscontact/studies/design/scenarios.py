@@ -51,7 +51,7 @@ def scenarios_of(
     own: Mapping[str, str],
 ) -> list[Scenario]:
     """All scenarios of `design`, those of `over` at every corner of `scatter`; ValueError."""
-    given, spread = _given(over), _scattered(scatter, space, own)
+    given, spread = _plan_of(over), _scattered_ranges(scatter, space, own)
     found = []
     for row, corner in product(range(len(given.rows)), _corners(spread)):
         values = dict(zip(given.keys, given.rows[row], strict=True))
@@ -59,13 +59,13 @@ def scenarios_of(
         deviations = {
             key: Deviation(text, own[key]) for key, text in corner.items() if key in space.keys
         }
-        apart = "with " + ", ".join(f"{_short(key)} {text}" for key, text in corner.items())
+        apart = "with " + ", ".join(f"{_short_key(key)} {text}" for key, text in corner.items())
         name = f"{given.name(row)} {apart if corner else ''}".strip()
         found.append(Scenario(name, {**values, **texts}, deviations))
     return found
 
 
-def _given(over: Mapping[str, Sequence[Any]] | None) -> Design:
+def _plan_of(over: Mapping[str, Sequence[Any]] | None) -> Design:
     if not over:
         return NOTHING_VARIED
     for key, values in over.items():
@@ -79,7 +79,7 @@ def _given(over: Mapping[str, Sequence[Any]] | None) -> Design:
         raise ValueError(f"over: {error}") from None
 
 
-def _scattered(
+def _scattered_ranges(
     scatter: Mapping[str, Any] | None, space: Space, own: Mapping[str, str]
 ) -> list[Range]:
     """Ranges of the scattered keys: deviations for a parameter, values for any other key."""
@@ -117,5 +117,5 @@ def _corners(ranges: Sequence[Range]) -> list[dict[str, str]]:
     return [{}, *corners] if ranges else [{}]
 
 
-def _short(key: str) -> str:
+def _short_key(key: str) -> str:
     return key.rpartition(".")[2]

@@ -134,15 +134,15 @@ class _Search:
 
     def closest(self, level: Level) -> Score | None:
         """Point of a level with the least cost, feasible or not; None if all of them failed."""
-        done = (each for each in self._of(level) if not each.has_failed)
+        done = (each for each in self._scores_at(level) if not each.has_failed)
         return min(done, key=lambda each: each.cost, default=None)
 
-    def _of(self, level: Level) -> list[Score]:
+    def _scores_at(self, level: Level) -> list[Score]:
         return [each for each in self.tried.values() if each.level == level]
 
     def _ranked(self, level: Level) -> list[Score]:
         """Feasible points of a level, the best first."""
-        found = [each for each in self._of(level) if each.is_feasible]
+        found = [each for each in self._scores_at(level) if each.is_feasible]
         return sorted(found, key=lambda each: each.value)
 
     def explore(self, level: Level) -> None:
@@ -166,7 +166,7 @@ class _Search:
         """Search around the point that is closest to a feasible one, where none is feasible."""
         closest = self.closest(level)
         if closest is not None and self.space.ranges:
-            self._around(closest, level, WIDE_SIMPLEX)
+            self._search_around(closest, level, WIDE_SIMPLEX)
 
     def _try_ends(self, level: Level) -> None:
         """Try the end of a range that the best or least infeasible point is close to."""
@@ -215,10 +215,10 @@ class _Search:
         best = self.best(self.levels[-1])
         if best is None or not self.space.ranges:
             return
-        self._around(best, self.levels[-1], SIMPLEX)
+        self._search_around(best, self.levels[-1], SIMPLEX)
         self._try_ends(self.levels[-1])
 
-    def _around(self, best: Score, level: Level, edge: float) -> None:
+    def _search_around(self, best: Score, level: Level, edge: float) -> None:
         """Search around a point by Nelder and Mead, from a simplex with some edge."""
         start, ranges = np.array(best.point), self.space.ranges
         simplex = np.tile(start[list(ranges)], (len(ranges) + 1, 1))
@@ -271,12 +271,12 @@ class _Watched:
 
     def __call__(self, given: Any) -> float:
         before, point = len(self._search.tried), tuple(map(float, np.ravel(given)))
-        score = self._search.score_at(point, self._level, self._foreseen)
+        score = self._search.score_at(point, self._level, self._next_points)
         self._known[point] = score.cost
         self._watch(score, is_new=len(self._search.tried) > before)
         return score.cost
 
-    def _foreseen(self, count: int) -> list[Point]:
+    def _next_points(self, count: int) -> list[Point]:
         """Next points of the search, if each of them costs as much as the nearest known one."""
         # The first one is the present point. A method asks for several points before it decides on
         # their costs, and repeated with the known costs it takes the same way.

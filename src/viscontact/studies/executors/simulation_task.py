@@ -54,9 +54,9 @@ class SimulationTask:
         except CommandError as end:
             return TaskEnd("refused", STOPPED, end.lines)
         except (ConvergenceError, DomainError, OSError, MemoryError) as error:
-            return TaskEnd("stopped", STOPPED, (_said(error),))
+            return TaskEnd("stopped", STOPPED, (_error_text(error),))
         except (ValueError, TypeError) as error:
-            return TaskEnd("refused", STOPPED, (_said(error),))
+            return TaskEnd("refused", STOPPED, (_error_text(error),))
 
     def elsewhere(self, stop: Path) -> Self:
         """Return the task with an absolute path, which the file may stop."""
@@ -70,8 +70,8 @@ class SimulationTask:
             if _is_finished(recorded):
                 remove_restart_files(self.directory)
                 return TaskEnd("done", DONE)
-            with closing(_opened(recorded, check)) as record, stops.marching():
-                return _marched(recorded, record, stops)
+            with closing(_open_recorder(recorded, check)) as record, stops.marching():
+                return _march(recorded, record, stops)
 
 
 def recorded_simulation(arguments: Mapping[str, Any], directory: Path) -> Recorded:
@@ -143,7 +143,7 @@ def _is_finished(recorded: Recorded) -> bool:
     return False
 
 
-def _opened(recorded: Recorded, check: LockCheck) -> Recorder:
+def _open_recorder(recorded: Recorded, check: LockCheck) -> Recorder:
     held = replace(recorded, check=check)
     try:
         return Recorder.resume(held)
@@ -151,7 +151,7 @@ def _opened(recorded: Recorded, check: LockCheck) -> Recorder:
         return Recorder(held)
 
 
-def _marched(recorded: Recorded, record: Recorder, stops: StopRequests) -> TaskEnd:
+def _march(recorded: Recorded, record: Recorder, stops: StopRequests) -> TaskEnd:
     try:
         for state in record.steps():
             if stops.requested and not (state is not None and recorded.run.is_last(state)):
@@ -170,5 +170,5 @@ def _stop_if_requested(stops: StopRequests) -> None:
         raise KeyboardInterrupt
 
 
-def _said(error: Exception) -> str:
+def _error_text(error: Exception) -> str:
     return str(error) or type(error).__name__

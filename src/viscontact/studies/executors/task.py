@@ -59,7 +59,7 @@ class Task:
                 "compute the changed case in a new directory, or undo the change and continue"
             )
             return TaskEnd("refused", STOPPED, (why,))
-        return _attempted(self, stops)
+        return _attempt(self, stops)
 
     def elsewhere(self, stop: Path) -> Self:
         """Return the task with absolute paths, which the file may stop."""
@@ -126,28 +126,28 @@ def _is_there(directory: Path) -> bool:
     return directory.is_dir()
 
 
-def _attempted(task: Task, stops: StopRequests) -> TaskEnd:
+def _attempt(task: Task, stops: StopRequests) -> TaskEnd:
     """Resume an earlier attempt of this task, or begin."""
     request, mark = task.request, task.directory / ATTEMPT_NAME
     if request.resume:
-        return _computed(request, task.directory, stops)
+        return _compute(request, task.directory, stops)
     try:
         if mark.is_file() and mark.read_text(encoding="utf-8") == task.token:
             resumed = replace(request, resume=True, overwrite=False)
-            outcome = _computed(resumed, task.directory, stops)
+            outcome = _compute(resumed, task.directory, stops)
             # Killed before it had replaced an earlier run, it left nothing to resume.
             return (
-                outcome if outcome.word != "refused" else _computed(request, task.directory, stops)
+                outcome if outcome.word != "refused" else _compute(request, task.directory, stops)
             )
         task.directory.mkdir(exist_ok=True)
         mark.write_text(task.token, encoding="utf-8")
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         return TaskEnd("refused", STOPPED, (f"{task.directory}: cannot be written: {why}",))
-    return _computed(request, task.directory, stops)
+    return _compute(request, task.directory, stops)
 
 
-def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> TaskEnd:
+def _compute(request: RunRequest, directory: Path, stops: StopRequests) -> TaskEnd:
     try:
         with ONE_AT_A_TIME:
             checked = checked_run(replace(request, output=directory, quiet=True))
@@ -156,7 +156,7 @@ def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Task
                 return TaskEnd("done", DONE)
         return _in_process(checked, stops)
     except CommandError as end:
-        return _ended(end)
+        return _note_end(end)
     except KeyboardInterrupt:
         return TaskEnd("interrupted", INTERRUPTED)
     except MemoryError:
@@ -166,7 +166,7 @@ def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Task
         return TaskEnd("stopped", STOPPED, (why, "this is a fault of viscontact; report it"))
 
 
-def _ended(end: CommandError) -> TaskEnd:
+def _note_end(end: CommandError) -> TaskEnd:
     if end.code == INTERRUPTED:
         return TaskEnd("interrupted", INTERRUPTED)
     # Not the exit code of a refusal: other runs of the command have begun.

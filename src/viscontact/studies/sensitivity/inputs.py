@@ -42,7 +42,7 @@ def inputs_of(case: Case) -> list[CaseNumber]:
     # Those of a table within the case, such as the points of a load, are left out.
     found = []
     for section in SECTIONS:
-        for path, value in _leaves(case.document.data.get(section), (section,)):
+        for path, value in _values_in(case.document.data.get(section), (section,)):
             given = _input(dotted(path), value)
             if given is not None and given.value != 0.0:
                 found.append(given)
@@ -55,7 +55,7 @@ def input_of(case: Case, key: str) -> CaseNumber:
         raise ValueError(f"{key}: cells, steps and output of a case are no inputs of the contact")
     for data in (case.document.data, case.document.data_as_typed):
         for section in SECTIONS:
-            for path, value in _leaves(data.get(section), (section,), deep=True):
+            for path, value in _values_in(data.get(section), (section,), deep=True):
                 if dotted(path) != key:
                     continue
                 given = _input(key, value)
@@ -70,15 +70,15 @@ def input_of(case: Case, key: str) -> CaseNumber:
     raise ValueError(f"{key}: the case has no such number; its inputs are {known}")
 
 
-def _leaves(data: Any, path: KeyPath, *, deep: bool = False) -> Iterator[tuple[KeyPath, Any]]:
+def _values_in(data: Any, path: KeyPath, *, deep: bool = False) -> Iterator[tuple[KeyPath, Any]]:
     """Yield paths and values; lists within lists only if `deep`."""
     if isinstance(data, dict):
         for key, value in data.items():
-            yield from _leaves(value, (*path, key), deep=deep)
+            yield from _values_in(value, (*path, key), deep=deep)
     elif isinstance(data, list):
         is_table = any(isinstance(each, list) for each in data)
         for number, value in enumerate(data if deep or not is_table else ()):
-            yield from _leaves(value, (*path, number), deep=deep)
+            yield from _values_in(value, (*path, number), deep=deep)
     else:
         yield path, data
 

@@ -67,7 +67,7 @@ def samples_of(
     if not isinstance(scatter, Mapping):
         raise ValueError("scatter: must be a mapping, as {'load.force': ('9 kN', '11 kN')}")
     wanted, start = whole("samples", samples, 0, MOST_SAMPLES), whole("seed", seed, 0)
-    inputs = tuple(_scattered(key, given) for key, given in scatter.items())
+    inputs = tuple(_scatter_of(key, given) for key, given in scatter.items())
     if not inputs or wanted == 0:
         return None, []
     count = 2 ** max(1, math.ceil(math.log2(wanted)))
@@ -75,7 +75,7 @@ def samples_of(
     return Samples(inputs, count, start), [note] if count != wanted else []
 
 
-def _scattered(key: str, given: Any) -> Scatter:
+def _scatter_of(key: str, given: Any) -> Scatter:
     if key.partition(".")[0] in NO_INPUTS:
         raise ValueError(
             f"scatter: {key}: cells, steps and output of a case are no inputs of the contact"

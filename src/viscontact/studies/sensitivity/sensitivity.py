@@ -182,7 +182,7 @@ def sensitivity(  # noqa: PLR0913
             return_exceptions=True,
         )
 
-    return _computed(plan, outputs, at, notes, place, joint)
+    return _compute(plan, outputs, at, notes, place, joint)
 
 
 def _inputs(case: Case, change: Sequence[str] | None) -> list[CaseNumber]:
@@ -214,7 +214,7 @@ def _with_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> tuple[Any
     return {**given, **found}, notes
 
 
-def _computed(
+def _compute(
     plan: Plan,
     outputs: Sequence[str],
     at: At,
@@ -236,7 +236,7 @@ def _computed(
     table = derivative_table(plan, scalars, outputs)
     if plan.samples is not None:
         table = table.merge(scatter_table(plan.samples, scalars, outputs))
-    said = (*notes, *_failures(scalars, len(runs)), *_unknown(table), *warned)
+    said = (*notes, *_failures(scalars, len(runs)), *_unknown_errors(table), *warned)
     about["notes"] = "\n".join(said)
     return SensitivityResult(table.assign_attrs(about), said, len(runs))
 
@@ -261,7 +261,7 @@ def _failures(scalars: OutputScalars, count: int) -> Iterator[str]:
         yield f"... and {len(failed) - MOST_NAMED} more, which `viscontact status` lists"
 
 
-def _unknown(table: xr.Dataset) -> Iterator[str]:
+def _unknown_errors(table: xr.Dataset) -> Iterator[str]:
     """Yield notes on outputs whose error is not known, or not finite."""
     for name, error in zip(table["output"].values, table["value_error"].values, strict=True):
         if np.isnan(error) and table.sizes["input"]:

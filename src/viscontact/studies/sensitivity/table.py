@@ -87,7 +87,7 @@ def scatter_table(samples: Samples, scalars: OutputScalars, outputs: Sequence[st
     found = [indices_of(each, samples.seed) for each in values]
     over = ("output", "scattered")
     data: dict[str, Any] = {
-        f"{name}{end}": (over, [getattr(each, name)[row] for each in found], _about(name, end))
+        f"{name}{end}": (over, [getattr(each, name)[row] for each in found], _attributes(name, end))
         for name in ("first_order", "total_order")
         for row, end in enumerate(_ENDS)
     }
@@ -127,6 +127,6 @@ _INDICES = {
 }
 
 
-def _about(name: str, end: str) -> dict[str, str]:
+def _attributes(name: str, end: str) -> dict[str, str]:
     said = {"": "", "_low": ", lower end (95 %)", "_high": ", upper end (95 %)"}[end]
     return {"units": "1", "long_name": f"{_INDICES[name]}{said}"}

@@ -36,7 +36,7 @@ class SweepAxes:
 
 def sweep_axes(runs: Sequence[SweepRun]) -> SweepAxes:
     """Return the dimensions of a sweep: varied keys and cases of a grid, else ``run``."""
-    columns = {key: [run.settings.get(key, "") for run in runs] for key in _varied(runs)}
+    columns = {key: [run.settings.get(key, "") for run in runs] for key in _varied_keys(runs)}
     cases = [run.case for run in runs]
     if len(set(cases)) > 1:
         columns = {CASE: cases, **columns}
@@ -53,7 +53,7 @@ def sweep_axes(runs: Sequence[SweepRun]) -> SweepAxes:
     return SweepAxes(dims, shape, coords, tuple(columns))
 
 
-def _varied(runs: Sequence[SweepRun]) -> list[str]:
+def _varied_keys(runs: Sequence[SweepRun]) -> list[str]:
     """All varied keys, in the order of their first appearance."""
     return list(dict.fromkeys(key for run in runs for key in run.varied))
 
@@ -84,14 +84,14 @@ def coordinate(key: str, dim: str, texts: Sequence[str]) -> xr.Variable:
 
 def _numbers(key: str, texts: Sequence[str]) -> tuple[Floats, str]:
     """SI values and unit of quantities of one dimension, NaN where none; ValueError for others."""
-    found = [_parsed(key, text) if text else None for text in texts]
+    found = [_parse_value(key, text) if text else None for text in texts]
     units = {each[1] for each in found if each is not None}
     if len(units) != 1:
         raise ValueError("the values are not of one dimension")
     return np.array([math.nan if each is None else each[0] for each in found]), units.pop()
 
 
-def _parsed(key: str, text: str) -> tuple[float, str]:
+def _parse_value(key: str, text: str) -> tuple[float, str]:
     if key.rpartition(".")[2] in _DIFFERENCES and not text.replace(".", "").isdecimal():
         return parse_quantity(text, "temperature difference"), "K"
     return parse_any_quantity(text)

@@ -65,7 +65,7 @@ def continued(
         change = _change(before, run)
         if change and has_begun(directory / before.directory):
             raise OtherSweepError(f"its run {before.directory} has results {change}")
-        found.append(_kept(before, run) if change else _renumbered(before, run))
+        found.append(_keep_settings(before, run) if change else _renumber(before, run))
     for each in earlier:
         if each.directory not in kept and has_begun(directory / each.directory):
             raise OtherSweepError(
@@ -86,12 +86,12 @@ def _values(run: SweepRun) -> Hashable:
     return run.case, frozenset((key, comparable(key, run.settings[key])) for key in run.varied)
 
 
-def _renumbered(before: SweepRun, run: SweepRun) -> SweepRun:
+def _renumber(before: SweepRun, run: SweepRun) -> SweepRun:
     """Run of the manifest in its place among the runs of now."""
     return replace(before, run=run.run, varied=run.varied, design=run.design)
 
 
-def _kept(before: SweepRun, run: SweepRun) -> SweepRun:
+def _keep_settings(before: SweepRun, run: SweepRun) -> SweepRun:
     """Run with its new settings, and those that were set for it alone."""
     changed = tuple(key for key in before.changed if key not in run.varied)
     others = {key: value for key, value in run.settings.items() if key not in changed}

@@ -44,7 +44,7 @@ class Design:
             return f"{row:04d}"
         short = _short_names(self.keys)
         values = zip(short, self.rows[row], strict=True)
-        return "_".join(f"{_safe(key)}={_safe(value)}" for key, value in values)
+        return "_".join(f"{_safe_text(key)}={_safe_text(value)}" for key, value in values)
 
 
 #: Design of cases of which no key is varied.
@@ -87,7 +87,7 @@ def _short_names(keys: Sequence[str]) -> list[str]:
     return [name if count[name] == 1 else key for key, name in zip(keys, last, strict=True)]
 
 
-def _safe(text: str) -> str:
+def _safe_text(text: str) -> str:
     """Text with only those characters that directory names may have on any system."""
     words = re.sub(r"[^\w.+%-]+", "-", re.sub(r"\s+", "", text))
     return words.strip("-.") if text.strip()[:1] != "-" else "-" + words.strip("-.")

@@ -122,14 +122,14 @@ class JointLayout:
             name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
             for name, (values, title) in about.items()
         }
-        frame = xr.Dataset(texts, self.axes.coords, self._about)
+        frame = xr.Dataset(texts, self.axes.coords, self._attributes)
         if self.rows is not None:
             values = (self.over, self.rows, self.attributes(self.over))
             frame = frame.assign_coords({self.over: values})
         return frame
 
     @property
-    def _about(self) -> dict[str, str]:
+    def _attributes(self) -> dict[str, str]:
         about = {"Conventions": "CF-1.11", "source": f"viscontact {__version__}"}
         if self.has_fields and self.fields is None:
             about["fields"] = "on different grids: open_many(directory, tree=True) returns them"
@@ -162,7 +162,7 @@ def joint_layout(directory: str | Path, progress: Progress | None = None) -> Joi
     runs = list(read_manifest(manifest))
     shared, states = _Shared(), []
     for run in runs:
-        state, outline = _outlined(folder / run.directory)
+        state, outline = _state_and_outline(folder / run.directory)
         if outline is not None and not shared.add(outline):
             state = RunState(State.FAILED, f"it is over {outline.over}, and other runs are not")
         states.append(state)
@@ -187,7 +187,7 @@ def joint_layout(directory: str | Path, progress: Progress | None = None) -> Joi
     )
 
 
-def _outlined(directory: Path) -> tuple[RunState, RunOutline | None]:
+def _state_and_outline(directory: Path) -> tuple[RunState, RunOutline | None]:
     state = run_state(directory)
     if state.state is not State.DONE:
         return state, None

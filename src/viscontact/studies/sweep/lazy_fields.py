@@ -27,10 +27,10 @@ class _SweepField(BackendArray):
 
     def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
         return indexing.explicit_indexing_adapter(
-            key, self.shape, indexing.IndexingSupport.OUTER, self._read
+            key, self.shape, indexing.IndexingSupport.OUTER, self._read_values
         )
 
-    def _read(self, key: tuple[Any, ...]) -> Any:
+    def _read_values(self, key: tuple[Any, ...]) -> Any:
         count = len(self._layout.axes.shape)
         along = [np.atleast_1d(np.arange(n)[k]) for n, k in zip(self.shape, key, strict=True)]
         runs, inner = along[:count], along[count:]

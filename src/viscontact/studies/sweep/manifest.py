@@ -71,7 +71,7 @@ def read_manifest(path: Path) -> Iterator[SweepRun]:
         try:
             while line := lines.readline(_LONGEST_LINE):
                 number += 1
-                yield _read(line, number)
+                yield _read_run(line, number)
         except UnicodeDecodeError:
             raise ValueError(f"{path}: is not UTF-8 text, as a manifest is") from None
         except ValueError as error:
@@ -80,7 +80,7 @@ def read_manifest(path: Path) -> Iterator[SweepRun]:
         raise ValueError(f"{path}: holds no runs; remove it, and repeat the command of the sweep")
 
 
-def _read(line: str, number: int) -> SweepRun:
+def _read_run(line: str, number: int) -> SweepRun:
     try:
         found = json.loads(line)
     except ValueError:
@@ -97,7 +97,7 @@ def _read(line: str, number: int) -> SweepRun:
         _entry(found, "name", str),
         _entry(found, "directory", str),
         _texts(found, "settings"),
-        _varied(found),
+        _varied_keys(found),
         _entry(found, "case", str),
         _entry(found, "design", str),
         _names(found, "changed") if "changed" in found else (),
@@ -129,7 +129,7 @@ def _texts(found: dict[str, Any], entry: str) -> dict[str, str]:
     return texts
 
 
-def _varied(found: dict[str, Any]) -> tuple[str, ...]:
+def _varied_keys(found: dict[str, Any]) -> tuple[str, ...]:
     names = _names(found, "varied")
     for name in names:
         if name not in found["settings"]:

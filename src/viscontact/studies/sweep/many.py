@@ -223,7 +223,7 @@ def _results(
     futures = [executor.submit(_outcome, recipe) for recipe in recipes]
     found: list[Any] = []
     try:
-        for _ in _ended(futures, progress):
+        for _ in _as_ended(futures, progress):
             while len(found) < len(futures) and futures[len(found)].done():
                 found.append(_result(futures, len(found), return_exceptions))
     except BaseException:
@@ -233,7 +233,7 @@ def _results(
     return found
 
 
-def _ended(futures: list[Future[Any]], progress: Progress | None) -> Iterator[int]:
+def _as_ended(futures: list[Future[Any]], progress: Progress | None) -> Iterator[int]:
     """Yield the numbers of the runs as they end, and report each."""
     finished: SimpleQueue[Future[Any]] = SimpleQueue()
     numbers = {future: number for number, future in enumerate(futures)}

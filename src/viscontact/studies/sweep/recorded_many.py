@@ -45,7 +45,7 @@ def record_many(
     ValueError if a run cannot be recorded, or the directory holds other runs; RuntimeError after
     the end of all runs if any has failed, unless `return_exceptions`.
     """
-    runs = _recorded(recipes, directory)
+    runs = _write_runs(recipes, directory)
     jobs = [_job(run, recipe, directory) for run, recipe in zip(runs, recipes, strict=True)]
     given = {job.directory: recipe for job, recipe in zip(jobs, recipes, strict=True)}
     digests = {job.directory: run.digests for job, run in zip(jobs, runs, strict=True)}
@@ -67,7 +67,7 @@ def record_many(
         raise RuntimeError("\n".join((f"{len(failed)} of {len(jobs)} runs failed", *lines)))
 
 
-def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
+def _write_runs(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
     """Write the manifest of runs, and return its lines; ValueError if it is one of other runs."""
     if not recipes:
         raise ValueError("runs: there are none to record")

@@ -52,7 +52,7 @@ def run_outline(directory: Path) -> RunOutline:
     with open_file(directory / RESULT_NAME) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
-        return RunOutline(over, rows, frozenset(_stored(file)), described_fields(file))
+        return RunOutline(over, rows, frozenset(_stored_columns(file)), described_fields(file))
 
 
 def run_scalars(directory: Path) -> Floats:
@@ -83,13 +83,13 @@ def _row(entries: dict[str, Any]) -> list[Any]:
     return [entries.get(name) for name in COLUMNS]
 
 
-def _stored(file: netCDF4.Dataset) -> list[str]:
+def _stored_columns(file: netCDF4.Dataset) -> list[str]:
     return [name for name in COLUMNS if name in file.variables]
 
 
 def _of_result(path: Path) -> Floats:
     with open_file(path) as file:
         table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
-        for name in _stored(file):
+        for name in _stored_columns(file):
             table[:, COLUMNS.index(name)] = file.variables[name][:]
     return table

@@ -100,7 +100,7 @@ def _quantities(asked: CurveFitRequest) -> dict[str, float | None]:
     for name, dimension in dimensions.items():
         text = str(getattr(asked, name)).strip()
         try:
-            found[name] = _read(text, dimension) if text else None
+            found[name] = _read_quantity(text, dimension) if text else None
         except ValueError as error:
             problems.append(InputProblem(str(error), name))
     if not asked.poisson_ratio.strip() and not asked.bulk_modulus.strip():
@@ -116,7 +116,7 @@ def _quantities(asked: CurveFitRequest) -> dict[str, float | None]:
     return found
 
 
-def _read(text: str, dimension: str) -> float:
+def _read_quantity(text: str, dimension: str) -> float:
     if dimension:
         return parse_quantity(text, dimension)
     try:

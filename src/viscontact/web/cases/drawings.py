@@ -44,7 +44,7 @@ def drawings(
     try:
         return _of_case(cases, text, what, width)
     except RequestError:
-        alone = _alone(cases.parts(text), what, width)
+        alone = _draw_part(cases.parts(text), what, width)
         if alone is None:
             raise
         return [Captioned(alone)]
@@ -76,7 +76,7 @@ def _spectra(case: Case, width: Width | None) -> list[Captioned]:
     ]
 
 
-def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
+def _draw_part(parts: Parts, what: str, width: Width | None) -> Figure | None:
     """Drawing of a valid part of an invalid case, over a range of its own."""
     try:
         if what == "indenter" and parts.indenter is not None:

@@ -48,7 +48,7 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
         del labels[name], scalars[name]
     return {
         **{"begun": begun, "after": begun + len(lines), "labels": labels},
-        **{"reached": _place(last), "texts": _texts(last, labels)},
+        **{"reached": _place_of(last), "texts": _texts(last, labels)},
         **{"speed" if "speed" in written else "time": places, "scalars": scalars},
     }
 
@@ -58,9 +58,9 @@ class LiveScalars:
 
     def __init__(self, directory: Path) -> None:
         self._directory, self._lock = directory, threading.Lock()
-        self._clear()
+        self._forget_lines()
 
-    def _clear(self) -> None:
+    def _forget_lines(self) -> None:
         self._after, self.places, self.reached = 0, list[float](), ""
         self.scalars: dict[str, list[float | None]] = {}
         self.texts: dict[str, str] = {}
@@ -68,7 +68,7 @@ class LiveScalars:
     def drawn(self, axis: RunAxis, ends: tuple[float, float], look: Look) -> dict[str, Any]:
         """Return the number of states, the last one in words, and a figure of each scalar."""
         with self._lock:
-            self._read()
+            self._read_lines()
             figures = {
                 name: growing(name, self.places, np.array(values, dtype=float), axis, ends, look)
                 for name, values in self.scalars.items()
@@ -78,10 +78,10 @@ class LiveScalars:
                 "figures": {name: plain(figure) for name, figure in figures.items()},
             }
 
-    def _read(self) -> None:
+    def _read_lines(self) -> None:
         found = grown(self._directory, self._after)
         if found["begun"] == 0:
-            self._clear()
+            self._forget_lines()
         self._after = found["after"]
         places = found.get("speed", found.get("time"))
         if not places:
@@ -94,7 +94,7 @@ class LiveScalars:
         self.reached, self.texts = found["reached"], found["texts"]
 
 
-def _place(line: Mapping[str, Any]) -> str:
+def _place_of(line: Mapping[str, Any]) -> str:
     if not line:
         return ""
     return (SPEED if "speed" in line else TIME).place(reached_in(line), 6)

@@ -90,7 +90,7 @@ class RunQueue:
                 run.poll()
             if run.is_deleted and run.is_over:
                 self._remove(run)
-        while not self.is_closing and (chosen := self._next()) is not None:
+        while not self.is_closing and (chosen := self._next_run()) is not None:
             spare, self._spare = self._spare, None
             chosen.start(spare)
         if self._keeps_spare and self._spare is None and self._has_room():
@@ -129,7 +129,7 @@ class RunQueue:
             run.wait()
         self.poll()
 
-    def _next(self) -> ManagedRun | None:
+    def _next_run(self) -> ManagedRun | None:
         """Run to start next: coarse ones first, as they are short."""
         active = sum(run.is_at_work for run in self._runs.values())
         waiting = [run for run in self._runs.values() if run.entry.state == "waiting"]

@@ -121,8 +121,8 @@ def _message(run: ManagedRun, problems: Sequence[str]) -> str:
         "waiting": "waiting for its turn",
         "running": reached or "starting",
         "done": f"done: {made}",
-        "cancelled": f"cancelled {_kept(run)}",
-        "interrupted": f"the server was stopped {_kept(run)}",
+        "cancelled": f"cancelled {_kept_text(run)}",
+        "interrupted": f"the server was stopped {_kept_text(run)}",
         "failed": problems[0] if problems else "the run stopped without a message",
     }
     if run.is_estimating:
@@ -130,7 +130,7 @@ def _message(run: ManagedRun, problems: Sequence[str]) -> str:
     return messages[entry.state]
 
 
-def _kept(run: ManagedRun) -> str:
+def _kept_text(run: ManagedRun) -> str:
     """Part of a message: when the run was stopped, and what is kept."""
     entry, course, step = run.entry, run.course, _STEPS[run.axis]
     if not course.instants:

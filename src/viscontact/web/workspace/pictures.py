@@ -48,7 +48,7 @@ def figure_of(
 ) -> bytes:
     """Draw a figure of a run."""
     with opened(directory) as ds:
-        return _drawn(figures, ds, [ds], choice)
+        return _draw(figures, ds, [ds], choice)
 
 
 def comparison_of(
@@ -57,9 +57,9 @@ def comparison_of(
     """Draw a figure of several runs."""
     with ExitStack() as stack:
         results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
-        with _refused():
+        with _as_answer():
             require_one_axis(results)
-        return _drawn(figures, results, list(results.values()), choice)
+        return _draw(figures, results, list(results.values()), choice)
 
 
 def picture(figure: Figure, choice: PictureChoice) -> bytes:
@@ -108,14 +108,14 @@ def _why_none(directory: Path) -> str:
     return _NO_RESULT
 
 
-def _drawn(
+def _draw(
     figures: Mapping[str, Callable[..., Figure]],
     results: Any,
     runs: Sequence[xr.Dataset],
     choice: PictureChoice,
 ) -> bytes:
     """Draw results, which are those of some runs."""
-    with _refused():
+    with _as_answer():
         places = choice.keywords(choice.entry_in(figures))
         for run in runs:
             choice.require_within(run)
@@ -123,7 +123,7 @@ def _drawn(
 
 
 @contextmanager
-def _refused() -> Iterator[None]:
+def _as_answer() -> Iterator[None]:
     """Turn a refused choice into the answer to a request."""
     try:
         yield

@@ -48,9 +48,9 @@ class Inverse:
         values = self.curve(float(within.max(initial=0.0)))(within)
         if not (t > last).any():
             return values
-        return np.where(t > last, self._final(last), values)
+        return np.where(t > last, self._limit_after(last), values)
 
-    def _final(self, last: float) -> float:
+    def _limit_after(self, last: float) -> float:
         """Return the limit at infinite time, or the value at a very late time if there is none."""
         for late in (np.full(1, np.inf), np.full(1, last)):
             load = 1.0 if self._load is None else float(self._load.at(late)[0])

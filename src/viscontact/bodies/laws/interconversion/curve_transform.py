@@ -25,20 +25,20 @@ _DESCENTS, _DECAYED = np.polynomial.laguerre.laggauss(24)
 
 def oscillating(curve: LogCurve, omega: Floats) -> Complexes:
     """Return i ω L[f](i ω) at ω > 0 [rad/s]: the complex compliance of Phi, the modulus of G."""
-    values = [_at(curve, float(each)) for each in omega.ravel()]
+    values = [_transform_at(curve, float(each)) for each in omega.ravel()]
     return np.array(values, dtype=np.complex128).reshape(omega.shape)
 
 
-def _at(curve: LogCurve, omega: float) -> complex:
+def _transform_at(curve: LogCurve, omega: float) -> complex:
     early, late = _EARLY / omega, _LATE / omega
     start = np.array(early)
     begun = float(curve(start))
     behind = float(curve.mean(0 * start, start))
     risen = begun + 1j * _EARLY * (behind - begun)
-    return risen + _followed(curve, omega, early, late) + _descended(curve, omega, late)
+    return risen + _early_integral(curve, omega, early, late) + _late_integral(curve, omega, late)
 
 
-def _followed(curve: LogCurve, omega: float, start: float, end: float) -> complex:
+def _early_integral(curve: LogCurve, omega: float, start: float, end: float) -> complex:
     """Return ∫ exp(-i ω t) f' dt for small phases, on Gauss-Legendre panels between the points."""
     count = int(_PANELS * np.log10(end / start)) + 2
     points = curve.times[(curve.times > start) & (curve.times < end)]
@@ -50,7 +50,7 @@ def _followed(curve: LogCurve, omega: float, start: float, end: float) -> comple
     return complex(((rates * np.exp(-1j * omega * t)) @ _WEIGHTS) @ halves[:, 0])
 
 
-def _descended(curve: LogCurve, omega: float, start: float) -> complex:
+def _late_integral(curve: LogCurve, omega: float, start: float) -> complex:
     """Return ∫ exp(-i ω t) f' dt from a late phase to infinity, by steepest descent."""
     edges = np.append(start, curve.times[curve.times > start])
     middles = np.append(np.sqrt(edges[:-1]) * np.sqrt(edges[1:]), 2 * edges[-1])

@@ -87,8 +87,8 @@ def respond(
     `kinks` [s] are made nodes; r is `load` for a growing f with f(0) > 0, and 1 if left out.
     """
     coarse = _nodes(first, end, kinks)
-    middle = _halved(coarse)
-    fine = _halved(middle)
+    middle = _halved_grid(coarse)
+    fine = _halved_grid(middle)
     at_once, rough = march(function, mean, coarse, load)
     _, better = march(function, mean, middle, load)
     _, best = march(function, mean, fine, load)
@@ -200,7 +200,7 @@ def _nodes(first: float, end: float, kinks: Sequence[float]) -> Floats:
     return np.concatenate(parts)
 
 
-def _halved(nodes: Floats) -> Floats:
+def _halved_grid(nodes: Floats) -> Floats:
     """Return the grid of half the step in ln t; every other node is one of the old grid."""
     fine = np.empty(2 * nodes.size - 1)
     fine[::2] = nodes

@@ -81,8 +81,8 @@ def _close(blocks: list[Block], where: str, heading: str, data: list[DataLine]) 
     found = {}
     for parameter in parameters:
         name, _, value = parameter.partition("=")
-        found[_spaced(name)] = value.strip().strip('"')
-    blocks.append(Block(where, _spaced(keyword.removeprefix("*")), found, tuple(data)))
+        found[_with_spaces(name)] = value.strip().strip('"')
+    blocks.append(Block(where, _with_spaces(keyword.removeprefix("*")), found, tuple(data)))
 
 
 def _split_outside_quotes(heading: str) -> list[str]:
@@ -94,7 +94,7 @@ def _split_outside_quotes(heading: str) -> list[str]:
     return '"'.join(marked).split("\0")
 
 
-def _spaced(text: str) -> str:
+def _with_spaces(text: str) -> str:
     return " ".join(text.split()).upper()
 
 

@@ -41,7 +41,7 @@ def tested_material(
     shear = [(row[0], row[-1]) for row in rows]
     bulk = [(row[1], row[-1]) for row in rows] if combined else _volumetric(by_name)
     infinite = _infinite(source)
-    at_once = moduli.at_once(_left(source, infinite, creep, moduli))
+    at_once = moduli.at_once(_final_modulus(source, infinite, creep, moduli))
     law = _law(source, shear, creep, at_once, units, infinite, notes)
     return with_volume(law, moduli, relaxes=any(b != 1 for b, _ in bulk), alike=bulk == shear)
 
@@ -62,7 +62,7 @@ def _infinite(block: Block) -> float | None:
     return value
 
 
-def _left(block: Block, infinite: float | None, creep: bool, moduli: Moduli) -> float:
+def _final_modulus(block: Block, infinite: float | None, creep: bool, moduli: Moduli) -> float:
     """Return g_R at infinite time; 1 where it is not needed."""
     if moduli.instantaneous:
         return 1.0

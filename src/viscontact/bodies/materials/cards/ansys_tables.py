@@ -83,7 +83,7 @@ def collect(commands: list[Command]) -> dict[int, Numbered]:
     return found
 
 
-def _of(found: dict[int, Numbered], command: Command) -> Numbered:
+def _tables_of(found: dict[int, Numbered], command: Command) -> Numbered:
     number = command.number(1, default=1.0)
     if number != int(number) or number < 1:
         raise ValueError(f"{command.where}: a material's number is whole and positive")
@@ -91,7 +91,7 @@ def _of(found: dict[int, Numbered], command: Command) -> Numbered:
 
 
 def _property(found: dict[int, Numbered], command: Command) -> None:
-    label, material = command.word(0), _of(found, command)
+    label, material = command.word(0), _tables_of(found, command)
     if label not in _PROPERTIES:
         material.notes.append(f"{command.where}: MP,{label} is not used")
         return
@@ -103,7 +103,7 @@ def _property(found: dict[int, Numbered], command: Command) -> None:
 
 
 def _table(found: dict[int, Numbered], command: Command) -> DataTable | None:
-    label, material = command.word(0), _of(found, command)
+    label, material = command.word(0), _tables_of(found, command)
     if label not in _LABELS:
         material.notes.append(f"{command.where}: TB,{label} is not used")
         return DataTable(command)  # filled, and forgotten

@@ -76,7 +76,7 @@ def hysteresis(
         require_time(run, _NAME)
     if any(lacks_datum(run) for run in runs.values()):
         raise ValueError(f"{_NAME}: the approach of a line contact has no datum; draw history")
-    shown = {name: within_span(run, _needed(run), times, _NAME, name) for name, run in runs.items()}
+    shown = {name: within_span(run, _names(run), times, _NAME, name) for name, run in runs.items()}
     wide = page_width(width, style.ONE_COLUMN)
     figure = style.new_figure(wide, min(3.3, 0.8 * wide))
     axes, panel = figure.subplots(), loop_panel(shown, Loop(_NAME, "approach", "force"))
@@ -136,7 +136,7 @@ def compare_hysteresis(
     return hysteresis(runs, times=times, width=width)
 
 
-def _needed(run: xr.Dataset) -> list[str]:
+def _names(run: xr.Dataset) -> list[str]:
     return ["approach", "force", *(["loss_per_cycle"] if "loss_per_cycle" in run else [])]
 
 

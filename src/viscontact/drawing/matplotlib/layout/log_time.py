@@ -31,7 +31,7 @@ def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> 
         for place in ticks
     }
     start = {0.0: "0"} if is_whole else {}
-    labelled = _apart(start | ticks, {0.0: 0.0} | along)
+    labelled = _separate_labels(start | ticks, {0.0: 0.0} | along)
     axes.set_xticks(list(labelled), list(labelled.values()))
     axes.set_xticks([place for place in ticks if place not in labelled], minor=True)
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -46,7 +46,7 @@ def _axis_width(axes: Axes) -> float:
     return max(figure.get_figwidth() / place.get_gridspec().ncols - _BESIDE, 0.5)
 
 
-def _apart(texts: Mapping[float, str], along: Mapping[float, float]) -> dict[float, str]:
+def _separate_labels(texts: Mapping[float, str], along: Mapping[float, float]) -> dict[float, str]:
     """Labels that do not touch, at positions along an axis [inch]; whole units come first."""
     ranks = {place: number for number, place in enumerate(sorted(texts, reverse=True))}
     order = sorted(

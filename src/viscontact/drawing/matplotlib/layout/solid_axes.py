@@ -60,13 +60,13 @@ def solid_panels(
         )
         axes = Axes3D(figure, box, auto_add_to_figure=False, computed_zorder=False)
         figure.add_axes(axes)
-        _dress(axes, window, heights, labels, across)
+        _add_labels(axes, window, heights, labels, across)
         _fill(axes, Bbox.from_bounds(*box))
         panels.append(axes)
     return figure, panels
 
 
-def _dress(
+def _add_labels(
     axes: Axes3D,
     window: Window,
     heights: tuple[float, float],
@@ -114,7 +114,7 @@ def _fill(axes: Axes3D, place: Bbox) -> None:
     """Enlarge a panel to its place on the figure, texts included."""
     place = place.expanded(_FILLED, _FILLED)
     for _ in range(3):  # texts keep their size when the box grows
-        taken = _taken(axes)
+        taken = _covered_area(axes)
         larger = min(place.width / taken.width, place.height / taken.height)
         box = axes.get_position(original=True)
         x, y = (
@@ -127,7 +127,7 @@ def _fill(axes: Axes3D, place: Bbox) -> None:
         axes.set_position((x, y, larger * box.width, larger * box.height))
 
 
-def _taken(axes: Axes3D) -> Bbox:
+def _covered_area(axes: Axes3D) -> Bbox:
     """Area of the figure covered by the box and its texts."""
     figure = axes.figure
     figure.draw_without_rendering()  # gives the texts their size
@@ -163,7 +163,7 @@ def add_side_bar(
 def add_title(axes: Axes3D, text: str) -> None:
     """Add a title above the left corner of a three-dimensional panel."""
     figure = axes.figure
-    box = _taken(axes)
+    box = _covered_area(axes)
     figure.text(
         *(box.x0, box.y1, text),
         fontsize=style.TICK_SIZE,

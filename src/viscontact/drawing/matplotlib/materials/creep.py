@@ -61,7 +61,7 @@ def creep(
     ['Creep compliance Φ [1/GPa]', 'Relaxation modulus G [MPa]']
     """
     runs = runs_of(results, _NAME)
-    return _drawn(recorded_laws(runs), run_times(runs, times), width)
+    return _draw_laws(recorded_laws(runs), run_times(runs, times), width)
 
 
 def compare_creep(
@@ -149,10 +149,10 @@ def creep_curve(
         raise ValueError(
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"
         )
-    return _drawn({"": law} if isinstance(law, Law) else law, instants, width)
+    return _draw_laws({"": law} if isinstance(law, Law) else law, instants, width)
 
 
-def _drawn(laws: Mapping[str, Law], times: Floats, width: Width | None) -> Figure:
+def _draw_laws(laws: Mapping[str, Law], times: Floats, width: Width | None) -> Figure:
     drawn = creep_panels(laws, times)
     wide = page_width(width, style.TWO_COLUMNS if len(drawn) == 2 else style.ONE_COLUMN)
     columns = 1 if wide <= NARROW else len(drawn)

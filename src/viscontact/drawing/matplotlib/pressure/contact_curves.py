@@ -29,7 +29,7 @@ def draw_curves(
         raise ValueError(f"{curve.figure}: axes take a single result, got several")
     panels = contact_panels(results, curve, times)
     if several:
-        return _compared(panels, width)
+        return _draw_panels(panels, width)
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS * 0.8)
         axes = style.new_figure(wide, min(3.0, 0.75 * wide)).add_subplot()
@@ -39,7 +39,7 @@ def draw_curves(
     return style.figure_of(axes)
 
 
-def _compared(panels: list[Panel], width: Width | None) -> Figure:
+def _draw_panels(panels: list[Panel], width: Width | None) -> Figure:
     figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(panels) + 0.4)
     shared = figure.subplots(len(panels), sharex=True, sharey=True, squeeze=False)[:, 0]
     named = [draw_with_edges(axes, panel) for axes, panel in zip(shared, panels, strict=True)]

@@ -86,7 +86,7 @@ def contact_outline(
     style.add_heading(axes, maps.window.note, aside=True)
     lines = [Line2D([], [], **look) for look in looks]
     if several:
-        heading, labels = _compared(several, maps)
+        heading, labels = _names_of_runs(several, maps)
         style.add_heading(axes, heading)
         style.add_legend_below(style.figure_of(axes), lines, labels, columns=4)
     else:
@@ -114,7 +114,7 @@ def _instants(maps: Maps) -> list[str]:
     return [f"{a}, full contact" if full else a for a, full in zip(labels, whole, strict=True)]
 
 
-def _compared(names: list[str], maps: Maps) -> tuple[str, list[str]]:
+def _names_of_runs(names: list[str], maps: Maps) -> tuple[str, list[str]]:
     """Common instant of runs, and their names, or instants with the names if they differ."""
     instants = {heading for each in maps.snapshots for heading in headings_of([each])}
     if len(instants) == 1:

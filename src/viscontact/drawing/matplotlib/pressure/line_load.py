@@ -87,7 +87,7 @@ def _values(snapshot: Snapshot) -> tuple[Floats, Floats]:
     return np.concatenate([ends[:1], x[rows], ends[1:]]), np.pad(load[rows], 1)
 
 
-def _largest(snapshot: Snapshot) -> float:
+def _largest_load(snapshot: Snapshot) -> float:
     return float(snapshot.line_load()[1].max())
 
 
@@ -97,6 +97,6 @@ _CURVE = ContactCurve(
     "N/m",
     "x",
     _values,
-    _largest,
+    _largest_load,
     f"at a sharp end it {MESH_DEPENDENT}",
 )

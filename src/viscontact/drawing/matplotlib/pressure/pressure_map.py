@@ -210,12 +210,12 @@ def _label_contours(
     }
 
     def fits(corners: Floats) -> bool:
-        return bool(np.all(_touched(snapshot, corners * window.unit.factor)))
+        return bool(np.all(_is_in_contact(snapshot, corners * window.unit.factor)))
 
     label_contours(axes, lines, texts, fits)
 
 
-def _touched(snapshot: Snapshot, points: Floats) -> Bools:
+def _is_in_contact(snapshot: Snapshot, points: Floats) -> Bools:
     """Mask of points, shape (n, 2) [m], whose cells are in contact."""
     first = np.array([snapshot.x[0], snapshot.y[0]])
     i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T

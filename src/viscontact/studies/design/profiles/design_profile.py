@@ -154,13 +154,13 @@ def design_profile(  # noqa: PLR0913
         chosen_workers(workers, executor, client) as chosen,
     ):
         made = ProfileRuns(rollers, at, Evaluation(budget, chosen, journal, progress))
-        found = compared(made, _found(made, curves, tolerance), path, fixed)
+        found = compared(made, _search(made, curves, tolerance), path, fixed)
         if directory is not None:
             write_profile_design(Path(directory), found)
         return found
 
 
-def _found(search: ProfileRuns, curves: ConvexCurves, tolerance: float) -> FoundProfiles:
+def _search(search: ProfileRuns, curves: ConvexCurves, tolerance: float) -> FoundProfiles:
     """Search for the free profile, from the best of the named ones."""
     search.amplitude, grids = _amplitude_and_grids(search)
     search.grid = grids[0]
@@ -168,11 +168,11 @@ def _found(search: ProfileRuns, curves: ConvexCurves, tolerance: float) -> Found
     best = min(named[1:], key=lambda each: each.cost, default=named[0])
     size = _size(best, curves, search.amplitude)
     start = _start(search, curves, named, tolerance)
-    free = _least(search, curves, grids, start, size, tolerance)
+    free = _least_peak(search, curves, grids, start, size, tolerance)
     materials, elastic = without_creep(search.scenarios), None
     if materials is not None and not free.is_cut_short:
         search.materials = materials
-        elastic = _least(search, curves, grids, start, size, tolerance)
+        elastic = _least_peak(search, curves, grids, start, size, tolerance)
         search.materials, search.grid = {}, grids[-1]
     x = curves.table()
     return FoundProfiles(
@@ -220,7 +220,7 @@ def _start(
     return points[int(np.argmin([cost(each) for each in rows]))]
 
 
-def _least(
+def _least_peak(
     search: ProfileRuns,
     curves: ConvexCurves,
     grids: Sequence[Grid],

@@ -59,7 +59,7 @@ class ProfileRuns:
         runs = [self._search_run(each) for group in profiles for each in group]
         found = iter(self.evaluation.outcomes([run for each in runs for run in each]))
         return [
-            _joined([next(found) for _ in range(len(group) * len(self.scenarios))])
+            _join([next(found) for _ in range(len(group) * len(self.scenarios))])
             for group in profiles
         ]
 
@@ -68,7 +68,7 @@ class ProfileRuns:
         cells = f"{self.grid!r} {'elastic' if self.materials else ''}"
         return [
             RowPeaks(
-                f"rows {number} {_described(profile)} {cells}",
+                f"rows {number} {_profile_key(profile)} {cells}",
                 {**each.arguments(profile), **common, "fields": self._instants(each)},
                 self.scenarios[0].end,
                 self.amplitude,
@@ -82,7 +82,7 @@ class ProfileRuns:
         common = {**cells, "fields": "none", "errors": False}
         runs = [
             Widths(
-                f"widths {number} {_described(profile)} {self.grid!r}",
+                f"widths {number} {_profile_key(profile)} {self.grid!r}",
                 {**each.arguments(profile), **common},
             )
             for number, each in enumerate(self.scenarios)
@@ -101,7 +101,7 @@ class ProfileRuns:
         cells = fine_grid(self.grid)
         runs = [
             CertifiedPeak(
-                f"peak {number} {_described(profile)} {cells!r}",
+                f"peak {number} {_profile_key(profile)} {cells!r}",
                 each.certifying(profile, cells) | {"fields": "none"},
                 self.at,
             )
@@ -169,7 +169,7 @@ class CertifiedPeak:
         return {"value": value.value, "error": float(bar), "warnings": warned}
 
 
-def _described(profile: Profile | None) -> str:
+def _profile_key(profile: Profile | None) -> str:
     """Text that is the same for equal profiles."""
     if profile is None:
         return "case"
@@ -206,7 +206,7 @@ def _values(found: Sequence[Mapping[str, Any]]) -> tuple[list[Value], tuple[str,
     return values, tuple(dict.fromkeys([*failures, *lines]))
 
 
-def _joined(outcomes: Sequence[Entry]) -> RowPressures | None:
+def _join(outcomes: Sequence[Entry]) -> RowPressures | None:
     if any("failure" in each for each in outcomes):
         return None
     rows, forbidden = (
