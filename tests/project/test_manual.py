@@ -44,6 +44,8 @@ def listed() -> set[str]:
         for line in page.read_text(encoding="utf-8").splitlines():
             if found := re.match(r"\.\. currentmodule:: (\S+)", line):
                 module = found[1]
+            elif found := re.match(r"\.\. autofunction:: (viscontact\S+)", line):
+                names.add(found[1])
             elif found := re.fullmatch(r"   ([A-Za-z_.]+)|\.\. (?:autodata|py:data):: (\w+)", line):
                 names.add(f"{module}.{found[1] or found[2]}")
     return names

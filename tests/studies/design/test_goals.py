@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 
-from viscontact.studies.design.goals import Constraint, constraints_of
+from viscontact.studies.design.goals import Constraint, Goal, constraints_of
 from viscontact.studies.design.scenarios import Deviation, Scenario
 from viscontact.studies.design.trade_off import compromises, not_dominated
+from viscontact.studies.design.trials import ScenarioResult, Trial, goal_name
+from viscontact.studies.scalars import Value
 
 
 def test_violation_is_the_excess_relative_to_the_bound() -> None:
@@ -31,6 +33,15 @@ def test_scenario_adds_its_deviation_to_the_trial() -> None:
 def test_a_trial_that_is_equal_in_one_goal_and_worse_in_another_is_dominated() -> None:
     costs = [[0.0, 1.0], [0.0, 2.0], [1.0, 0.0], [2.0, 0.5], [math.nan, 0.0], [0.0, 1.0]]
     assert not_dominated(np.array(costs)).tolist() == [True, False, True, False, False, True]
+
+
+def test_a_value_without_a_limit_is_the_worst_of_the_scenarios() -> None:
+    goal, limitless = Goal("peak_pressure", least=True), Value(1.0, math.inf)
+    values = [Value(2.0, 0.1), limitless, Value(3.0, 0.1)]
+    results = tuple(ScenarioResult({goal_name(goal): each}) for each in values)
+    assert Trial({}, "case", results).worst(goal) == limitless
+    assert Trial({}, "case", results[::2]).worst(goal) == values[2]
+    assert Trial({}, "case", (*results, ScenarioResult({}, "failed"))).failure == "failed"
 
 
 def test_compromises_have_positive_weights_and_end_with_equal_ones() -> None:
