@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 from tests.studies.design.analytic import (
@@ -55,6 +56,25 @@ def test_the_search_needs_only_a_function_of_points() -> None:
     assert found.best.level == "fine"
     assert found.best.point[0] == pytest.approx(0.37, abs=0.03)
     assert not found.is_cut_short
+
+
+def test_points_within_their_errors_of_the_best_are_computed_on_the_finest_cells() -> None:
+    rough, fine, asked = (1.0, 1.1, 2.0), (1.3, 1.05, 0.5), []
+
+    def scores(points: Sequence[Point], level: Level, ahead: Foreseen | None) -> list[Score]:
+        numbers = [int(3 * point[0]) for point in points]
+        asked.extend((level, number) for number in numbers)
+        values, error = (rough, 0.5) if level == "rough" else (fine, 0.0)
+        return [
+            replace(_score(point, level, values[number]), error=error)
+            for point, number in zip(points, numbers, strict=True)
+        ]
+
+    found = search(scores, space_of({"load.x": ["0", "1", "2"]}), Budget(60), ("rough", "fine"))
+    assert found.best is not None
+    assert found.best.value == 1.05
+    # The third one is worse by more than its error.
+    assert [number for level, number in asked if level == "fine"] == [0, 1]
 
 
 def _score(point: Point, level: Level, value: float) -> Score:
