@@ -62,7 +62,7 @@ def test_probe_feels_and_loses_the_gel_as_ting_says(tmp_path: Path) -> None:
     assert float(ds.approach[-1]) == -4e-7
 
 
-def test_punch_that_swings_loses_what_its_complex_compliance_says(tmp_path: Path) -> None:
+def test_loss_of_an_oscillating_punch_follows_from_its_complex_compliance(tmp_path: Path) -> None:
     ds = run_as_a_user("punch-harmonic", tmp_path)
     # w = J F/(2 a) for a punch of any outline whose 1/(2 a) is w/(J F) at once: of the cells'
     # outline then, which is not quite a circle's.

@@ -78,7 +78,7 @@ def test_a_tilted_cylinder_is_a_shifted_one():
     assert np.abs(turned.pressure - pushed.pressure).max() < 1e-3 * pushed.peak_pressure[0]
 
 
-def test_load_that_falls_to_nothing_and_comes_again():
+def test_cylinder_is_loaded_again_after_a_separation():
     """Without force no contact; a creeping body is pressed a second time."""
     load = vc.ForceHistory(
         [0.0, 1.0, 1.0, 2.0, 2.0], LINE_LOAD * PERIOD * np.array([1, 1, 0, 0, 1])

@@ -32,7 +32,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def folder(kept: Path, tmp_path: Path) -> Path:
     """A folder with such a run."""
     shutil.copytree(kept, tmp_path / "runs" / RUN)
-    (tmp_path / "runs" / RUN / "found.json").unlink(missing_ok=True)
+    (tmp_path / "runs" / RUN / "summary.json").unlink(missing_ok=True)
     return tmp_path
 
 
@@ -134,3 +134,10 @@ def test_a_folder_that_cannot_be_written_to_is_refused_in_a_line(
     said = capsys.readouterr().err
     assert said.endswith("; choose another --dir DIR\n")
     assert said.count("\n") == 1
+
+
+def test_a_run_of_an_earlier_version_is_listed(kept: Path, tmp_path: Path) -> None:
+    run = tmp_path / "runs" / RUN
+    run.mkdir(parents=True)
+    shutil.copy(kept / "request.json", run / "asked.json")
+    assert [name for name, _ in Folder(tmp_path).runs()] == [RUN]

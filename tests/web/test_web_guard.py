@@ -157,4 +157,4 @@ def test_files_with_names_that_lead_elsewhere_are_refused(
     ):
         answer = client.post("/api/files", params={"name": name}, content=b"1")
         assert answer.status_code == 400, name
-    assert client.delete("/api/files/..%2f..%2fasked.json").status_code == 404
+    assert client.delete("/api/files/..%2f..%2frequest.json").status_code == 404

@@ -364,7 +364,7 @@ def test_a_damaged_run_hides_no_other_one(tmp_path: Path) -> None:
     for number, damage in enumerate(damages):
         (tmp_path / "runs" / str(number) / "run").mkdir(parents=True)
         text = json.dumps({**asked, **damage})
-        (tmp_path / "runs" / str(number) / "asked.json").write_text(text, encoding="utf-8")
+        (tmp_path / "runs" / str(number) / "request.json").write_text(text, encoding="utf-8")
     (tmp_path / "runs" / "0" / "run" / "progress.jsonl").write_bytes(b"5\n[]\n")
     with asking(tmp_path) as client:
         answer = client.get("/api/runs")
@@ -476,7 +476,7 @@ def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(
         assert seen.result()[-1]["state"] == "interrupted"  # whoever looks on sees the end
     assert code == 0
     assert said.splitlines() == ["stopping after this step; once more to stop now", "ended"]
-    (asked,) = (tmp_path / "page" / "runs").glob("*/asked.json")
+    (asked,) = (tmp_path / "page" / "runs").glob("*/request.json")
     assert json.loads(asked.read_text(encoding="utf-8"))["state"] == "interrupted"
     assert (asked.parent / "run" / "state.npz").is_file()
 

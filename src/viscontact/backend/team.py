@@ -104,7 +104,7 @@ class Workspace:
         self._bytes = np.empty(0, np.uint8)
 
     def array(self, shape: tuple[int, ...], kind: np.dtype[Any]) -> Numbers:
-        """Return an array without particular values, which is valid until the next one is asked."""
+        """Return an array without particular values, valid until the next call."""
         return self.arrays((shape, kind))[0]
 
     def arrays(self, *wanted: tuple[tuple[int, ...], np.dtype[Any]]) -> list[Numbers]:

@@ -36,10 +36,10 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield further statements on a run's accuracy: title and text."""
     residual = ds["residual"].values
     tolerance = float(ds.attrs.get("tolerance", math.nan))
-    asked = "" if math.isnan(tolerance) else f"; requested: {tolerance:.1e}"
+    requested = "" if math.isnan(tolerance) else f"; requested: {tolerance:.1e}"
     yield (
         "Residual",
-        f"{float(residual.max(initial=0.0)):.1e} at most, of the largest displacement{asked}. "
+        f"{float(residual.max(initial=0.0)):.1e} at most, of the largest displacement{requested}. "
         "The gap under pressure and penetration elsewhere are no larger.",
     )
     yield "Balance", _balance(ds)

@@ -67,7 +67,7 @@ class Snapshot:
         )
 
     def with_border(self, cells: int) -> Snapshot:
-        """The same fields with more cells at each border: next periods, or open cells."""
+        """Snapshot with more cells at each border: next periods, or open cells."""
         beyond = np.arange(1, cells + 1)[:, None] * self.cell_size
         x, y = (
             np.concatenate([at[0] - step[::-1], at, at[-1] + step])

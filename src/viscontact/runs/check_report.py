@@ -68,7 +68,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
 
 
 def _events(load: LoadHistory) -> Iterator[tuple[str, str]]:
-    """What ends the segments of a load program, and when, by a march on few cells."""
+    """Events that end the segments of a load program, and their times, by a march on few cells."""
     if isinstance(load, MixedHistory) and load.events:
         about = [
             f"{event.condition} at about {format_quantity(event.time, 's', 3)}"

@@ -79,7 +79,7 @@ class Calculator:
         """Yield the status of a run as events, at once and at each change, until it is over."""
         before, quiet = "", 0
         while True:
-            # Both may change while the status is on its way.
+            # Both may change while the status is sent.
             stage, is_last = run.stage, run.is_over
             status = json.dumps(await self.status(run), allow_nan=False, ensure_ascii=False)
             quiet = 0 if status != before else quiet + 1

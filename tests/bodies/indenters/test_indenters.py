@@ -398,7 +398,7 @@ def test_half_angle_in_degrees_is_met_with_the_remedy():
         {"half_width": 1.0},
     ],
 )
-def test_flat_punch_wants_one_shape(arguments):
+def test_flat_punch_is_either_round_or_rectangular(arguments):
     with pytest.raises(ValueError, match=r"either radius=.* or half_length= and half_width="):
         FlatPunch(**arguments)
 

@@ -147,7 +147,7 @@ def test_fractional_zener_without_rest_is_a_spring_and_a_spring_pot():
     np.testing.assert_allclose(zener.mean_creep(t, 10 * t), mean, rtol=1e-12)
 
 
-def test_laws_end_where_they_should():
+def test_limits_of_laws_after_infinite_time():
     assert FractionalZener(5.0, 1.0, 3.0, 0.4)(np.inf) == 0.5
     assert FractionalZener(5.0, 0.0, 3.0, 0.4)(np.inf) == np.inf
     assert FractionalZener(5.0, 1.0, 3.0, 0.4).relaxation(np.inf) == 1.0

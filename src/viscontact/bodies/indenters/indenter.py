@@ -265,7 +265,7 @@ class PlacedIndenter(Indenter):
 
     @property
     def period(self) -> float:
-        """That of the body [m]."""
+        """Period of the body [m]."""
         return self.body.period
 
     @property

@@ -138,7 +138,7 @@ class Roller(Indenter):
 
     @property
     def curvatures(self) -> tuple[float, float]:
-        """That of the profile in the middle, zero on a straight part, and 1/R across [1/m]."""
+        """Curvature of the profile in the middle, zero on a straight part, and 1/R across [1/m]."""
         return self.line.curvature(self.half_length), 1 / self.radius
 
 

@@ -49,7 +49,7 @@ class Sphere(Indenter):
 
     @property
     def curvatures(self) -> tuple[float, float]:
-        """The same curvature 1/R along x and y [1/m]."""
+        """Equal curvatures 1/R along x and y [1/m]."""
         return 1 / self.radius, 1 / self.radius
 
 

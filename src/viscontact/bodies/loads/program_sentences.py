@@ -54,7 +54,7 @@ SCALARS = {
 
 
 class ProgramSentence(NamedTuple):
-    """What a sentence says; `stops` is a condition that ends the run."""
+    """Meaning of a sentence; `stops` is a condition that ends the run."""
 
     rate: float = 0.0  # [m/s] or [N/s]
     control: Control = "approach"
@@ -73,10 +73,10 @@ def parsed_sentences(text: str) -> list[ProgramSentence]:
 
 def parsed_condition(text: str) -> ReadCondition:
     """Read a condition: name of the scalar, and value [SI unit]; ValueError for any other text."""
-    told = text.strip() if isinstance(text, str) else ""
-    if _LOST.fullmatch(told):
+    words = text.strip() if isinstance(text, str) else ""
+    if _LOST.fullmatch(words):
         return "contact", 0.0
-    match = _CONDITION.fullmatch(told)
+    match = _CONDITION.fullmatch(words)
     if match is None:
         raise ValueError(
             f"cannot read {quoted(str(text))} as a condition; write e.g. 'force reaches 10 nN', "

@@ -213,7 +213,7 @@ class _Frame:
         )
 
     def _readable(self, ticks: Iterable[tuple[float, str]]) -> Iterable[tuple[float, str]]:
-        """Those ticks along the bottom that leave each other room."""
+        """Ticks along the bottom whose labels do not touch."""
         free = -math.inf
         for place, text in ticks:
             at, half = float(self.across(np.array(place))), 0.5 * _LETTER * len(text)
@@ -229,7 +229,7 @@ def _runs(inside: Bools) -> list[slice]:
 
 
 def _with_neighbours(where: Bools) -> Bools:
-    """These points and their neighbours."""
+    """Mask of points and their neighbours."""
     wider = where.copy()
     wider[1:] |= where[:-1]
     wider[:-1] |= where[1:]

@@ -174,7 +174,7 @@ class RigidPlane:
         return self.inverse_of(moments, free)
 
     def inverse_of(self, moments: Sequence[Moments], free: Bools) -> Floats:
-        """The same of the moments of all blocks."""
+        """Inverse of the moments of all blocks."""
         total = moments[0] if len(moments) == 1 else tuple(map(sum, zip(*moments, strict=True)))
         return _inverse(total, free) * self._units
 

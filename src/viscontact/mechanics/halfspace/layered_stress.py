@@ -80,7 +80,7 @@ class LayeredStress(StressResponse):
         return self.stack.layers[0].thickness
 
     def poisson_ratio_at(self, depth: float) -> float:
-        """That of the layer, or of the base."""
+        """Poisson's ratio of the layer, or of the base."""
         place = layer_at(self.stack, depth)
         if place < len(self.stack.layers):
             return self.stack.layers[place].poisson_ratio

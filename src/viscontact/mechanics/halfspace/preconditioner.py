@@ -42,7 +42,7 @@ class Preconditioner:
             self._set_ratios(response.ratio(self.waves))
 
     def with_ratios(self, ratios: Floats) -> Self:
-        """The same block of another surface, of the ratios L at `waves`."""
+        """Block of another surface, of the ratios L at `waves`."""
         other = copy(self)
         other._set_ratios(ratios)
         return other

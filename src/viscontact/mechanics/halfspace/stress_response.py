@@ -49,5 +49,5 @@ class HalfSpaceStress(StressResponse):
         return at
 
     def poisson_ratio_at(self, depth: float) -> float:
-        """That of the half-space."""
+        """Poisson's ratio of the half-space."""
         return self.poisson_ratio

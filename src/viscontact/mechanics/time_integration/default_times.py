@@ -58,7 +58,7 @@ def default_times(load: LoadHistory, compliance: ContactCompliance) -> Floats:
 
 
 def _distinct_times(times: Floats, others: Floats) -> Floats:
-    """Those times that do not nearly coincide with others, compared with the steps between them."""
+    """Times that do not nearly coincide with others, compared with the steps between them."""
     if len(times) < 2:
         return times[:0]
     steps = np.diff(times)

@@ -80,7 +80,7 @@ class Child:
     def __init__(self, job: Job, spare: RunProcess | None = None) -> None:
         self.job = job
         self.course = RunProgress(job)
-        self._asked = False
+        self._stopping = False
         words = list(replace(job.request, output=job.directory, quiet=True).words())
         if spare is not None and not spare.begin(words):
             spare.close()
@@ -94,7 +94,7 @@ class Child:
         """Request that the run finishes its step, saves and ends; further calls do nothing."""
         # The end of its input is the request, on any system. Together with a Ctrl-C that has
         # reached the process too, it counts as one request.
-        self._asked = True
+        self._stopping = True
         self._run.end_input()
 
     def ended(self) -> Ended | None:
@@ -114,7 +114,7 @@ class Child:
             return Ended(self.job, "done", DONE)
         # Until the process handles signals, they end it at once.
         by_request = {INTERRUPTED, -signal.SIGINT, -signal.SIGTERM}
-        if code == INTERRUPTED or (self._asked and code in by_request):
+        if code == INTERRUPTED or (self._stopping and code in by_request):
             return Ended(self.job, "interrupted", INTERRUPTED)
         if code < 0:
             why = f"{self.job.directory}: the run was killed by signal {-code}"

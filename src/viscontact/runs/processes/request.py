@@ -34,7 +34,7 @@ class RunRequest:
 
     @property
     def repeating(self) -> str:
-        """The same shell command again."""
+        """Shell command that repeats the request."""
         return command(*self.words())
 
     def words(self) -> Iterator[str]:

@@ -72,7 +72,7 @@ def _straight_end(inside: Bools, crossings: Floats) -> float:
 
 
 def _positive_end(inside: Bools, crossings: Floats) -> float:
-    """That on the positive side."""
+    """End on the positive side."""
     last = int(np.flatnonzero(inside.any(axis=1))[-1])
     if last == len(inside) - 1:
         return np.inf

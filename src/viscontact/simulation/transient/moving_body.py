@@ -33,12 +33,12 @@ class PeriodicBody(Indenter):
 
     @property
     def curvatures(self) -> tuple[float, float]:
-        """Those of the body [1/m]."""
+        """Curvatures of the body [1/m]."""
         return self.body.curvatures
 
     @property
     def sample_spacing(self) -> tuple[float, float]:
-        """That of the body [m]."""
+        """Spacing of the samples of the body [m]."""
         return self.body.sample_spacing
 
 

@@ -41,7 +41,7 @@ class LocalWorkers(Executor):
         self._idle: list[_Worker] = []
         self._busy: list[_Worker] = []
         self._waiting: deque[_Call] = deque()
-        self._closed = self._unawaited = self._killed = self._asked = False
+        self._closed = self._unawaited = self._killed = self._stopping = False
         self._changed = threading.Condition(threading.RLock())
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
@@ -57,7 +57,7 @@ class LocalWorkers(Executor):
     def ask_to_stop(self) -> None:
         """Request that tasks finish their step, save and end; at once with the second request."""
         with self._changed:
-            self._asked = True
+            self._stopping = True
             for worker in (*self._idle, *self._busy):
                 worker.ask_to_stop()
 
@@ -94,7 +94,7 @@ class LocalWorkers(Executor):
     def _start(self, call: _Call) -> None:
         call.attempts += 1
         try:
-            worker = self._idle.pop() if self._idle else _Worker(is_asked=self._asked)
+            worker = self._idle.pop() if self._idle else _Worker(stopping=self._stopping)
             running = worker.submit(call.run)
         except BrokenExecutor:  # killed while it was idle
             call.attempts -= 1
@@ -131,9 +131,9 @@ class LocalWorkers(Executor):
 class _Worker:
     """Warm process, and the pipe of the requests to stop."""
 
-    def __init__(self, *, is_asked: bool) -> None:
+    def __init__(self, *, stopping: bool) -> None:
         self._receiver, self._sender = _SPAWN.Pipe(duplex=False)
-        if is_asked:
+        if stopping:
             self.ask_to_stop()
         self._pool = ProcessPoolExecutor(
             1, mp_context=_SPAWN, initializer=begin_worker, initargs=(self._receiver,)

@@ -28,7 +28,7 @@ class WorkerRequests(StopRequests):
         self.over = True  # until a run begins
         self.idle = threading.Event()
         self.idle.set()
-        self._asked = self._now = False
+        self._received = self._now = False
 
     def begin(self) -> None:
         """Begin a run: requests have an effect until it is over."""
@@ -43,10 +43,10 @@ class WorkerRequests(StopRequests):
     def ask(self) -> None:
         """Note a request in any thread: the second one stops at once."""
         # A signal that a batch system has sent to this process, too, is not the first of two.
-        if self._asked:
+        if self._received:
             self._now = True
             _thread.interrupt_main()
-        self._asked = self._requested = True
+        self._received = self._requested = True
 
     def interrupt(self, number: int, frame: FrameType | None) -> None:
         """Handle a signal; Ctrl-C at the terminal reaches this process, too, and is ignored."""

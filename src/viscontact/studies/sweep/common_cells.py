@@ -69,8 +69,8 @@ def keeps_own_cells(case: Path, design: Design, settings: Sequence[str]) -> bool
     # They do where the keys concern the grid, or where the grid or its largest cell is given.
     if len(design.rows) == 1 or any(key.partition(".")[0] == "grid" for key in design.keys):
         return True
-    asked = read_case(case, (*settings, *design.settings(0))).automatic_grid
-    return asked is None or asked.largest_cell is not None
+    automatic = read_case(case, (*settings, *design.settings(0))).automatic_grid
+    return automatic is None or automatic.largest_cell is not None
 
 
 def common_cells(

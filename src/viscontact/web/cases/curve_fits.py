@@ -58,17 +58,17 @@ class CurveFitRequest:
     bulk_modulus: str = ""
 
 
-def fitted_curve(asked: CurveFitRequest, folder: Path, look: Look) -> dict[str, Any]:
+def fitted_curve(request: CurveFitRequest, folder: Path, look: Look) -> dict[str, Any]:
     """Return the fit to a file of a folder: parameters, figures, and the material of a case."""
-    given = _quantities(asked)
+    given = _quantities(request)
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", AccuracyWarning)
-            record, contact = _record(asked, folder, given)
+            record, contact = _record(request, folder, given)
             fit = fit_indentation(
                 record,
-                asked.law,
-                terms=asked.terms,
+                request.law,
+                terms=request.terms,
                 poisson_ratio=given["poisson_ratio"],
                 bulk_modulus=given["bulk_modulus"],
             )
@@ -89,7 +89,7 @@ def fitted_curve(asked: CurveFitRequest, folder: Path, look: Look) -> dict[str, 
     }
 
 
-def _quantities(asked: CurveFitRequest) -> dict[str, float | None]:
+def _quantities(request: CurveFitRequest) -> dict[str, float | None]:
     """Quantities in SI, None where left out; RequestError with each that cannot be read."""
     dimensions = {
         **{"spring_constant": "stiffness", "sensitivity": "sensitivity"},
@@ -98,18 +98,18 @@ def _quantities(asked: CurveFitRequest) -> dict[str, float | None]:
     found: dict[str, float | None] = {}
     problems = []
     for name, dimension in dimensions.items():
-        text = str(getattr(asked, name)).strip()
+        text = str(getattr(request, name)).strip()
         try:
             found[name] = _read_quantity(text, dimension) if text else None
         except ValueError as error:
             problems.append(InputProblem(str(error), name))
-    if not asked.poisson_ratio.strip() and not asked.bulk_modulus.strip():
+    if not request.poisson_ratio.strip() and not request.bulk_modulus.strip():
         problems.append(
             InputProblem("give Poisson's ratio, such as 0.5, or a bulk modulus", "poisson_ratio")
         )
-    if asked.tip not in _TIPS:
+    if request.tip not in _TIPS:
         problems.append(InputProblem(f"must be one of {', '.join(_TIPS)}", "tip"))
-    elif not asked.size.strip():
+    elif not request.size.strip():
         problems.append(InputProblem("is missing; the size of the tip, such as 5 um", "size"))
     if problems:
         raise RequestError(422, *problems)
@@ -126,10 +126,10 @@ def _read_quantity(text: str, dimension: str) -> float:
 
 
 def _record(
-    asked: CurveFitRequest, folder: Path, given: dict[str, float | None]
+    request: CurveFitRequest, folder: Path, given: dict[str, float | None]
 ) -> tuple[IndentationRecord, ContactPoint | None]:
     """Record of indentation, and the contact point of a force curve."""
-    indenter, path = _tip(asked), _path(asked.file, folder)
+    indenter, path = _tip(request), _path(request.file, folder)
     stiffness = given["spring_constant"]
     if is_instrument_file(path):
         return _from_curve(read_force_curve(path, spring_constant=stiffness), indenter)
@@ -151,10 +151,10 @@ def _from_curve(curve: ForceCurve, indenter: Indenter) -> tuple[IndentationRecor
     return contact.record(), contact
 
 
-def _tip(asked: CurveFitRequest) -> Indenter:
-    kind, dimension = _TIPS[asked.tip]
+def _tip(request: CurveFitRequest) -> Indenter:
+    kind, dimension = _TIPS[request.tip]
     try:
-        return kind(parse_quantity(asked.size, dimension))
+        return kind(parse_quantity(request.size, dimension))
     except ValueError as error:
         raise RequestError(422, InputProblem(str(error), "size")) from error
 

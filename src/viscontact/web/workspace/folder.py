@@ -23,7 +23,7 @@ from viscontact.runs.directory.atomic_files import put_in_place
 from viscontact.web.workspace.problems import RequestError
 
 _FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
-_ENTRY_NAME, _SUMMARY_NAME = "asked.json", "found.json"
+_ENTRY_NAME, _SUMMARY_NAME = "request.json", "summary.json"
 
 
 #: Suffixes of shipped files that examples read.
@@ -61,6 +61,8 @@ class Folder:
         self.path = path.absolute()
         for part in (_FILES, _RUNS):
             (self.path / part).mkdir(parents=True, exist_ok=True)
+        for entry in (self.path / _RUNS).glob("*/asked.json"):  # of earlier versions
+            entry.replace(entry.with_name(_ENTRY_NAME))
         self._put_shipped_files()
 
     @property

@@ -47,8 +47,8 @@ class Extrapolated(NamedTuple):
 
     def error(self, start: float, end: float) -> float:
         """Return the largest estimated error between two times [s]."""
-        asked = (self.nodes >= start) & (self.nodes <= end * 1.5)  # a step further
-        return float(np.max(self.node_errors[asked], initial=0.0))
+        within = (self.nodes >= start) & (self.nodes <= end * 1.5)  # a step further
+        return float(np.max(self.node_errors[within], initial=0.0))
 
 
 def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:

@@ -11,18 +11,18 @@ from viscontact.bodies.materials.library.entry import entry, names
 def nearest_names(name: str) -> list[str]:
     """Return at most three shipped materials that a name such as ``"POM"`` may mean."""
     # Words of names begin with it, else words of title or family, else the most similar name.
-    asked = name.strip().lower()
-    if not asked:
+    query = name.strip().lower()
+    if not query:
         return []
     # At the beginning of a word only: "PU" is not in "computed", nor "PE" in "paper".
-    begins = re.compile(rf"\b{re.escape(asked)}")
+    begins = re.compile(rf"\b{re.escape(query)}")
     within = [each for each in names() if begins.search(each)]
     within = within or [
         each
         for each in names()
         if begins.search(f"{entry(each).title} {entry(each).family}".lower())
     ]
-    return within[:3] or difflib.get_close_matches(asked, names(), n=1)
+    return within[:3] or difflib.get_close_matches(query, names(), n=1)
 
 
 def unknown_name(name: str, kind: str = "shipped material") -> str:
