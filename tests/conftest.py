@@ -4,7 +4,7 @@ import multiprocessing
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 
 import pytest
 from hypothesis import settings
@@ -13,6 +13,7 @@ from hypothesis import settings
 # threads, which take up to thirty times as long when the cores are busy.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from viscontact.cli.quick_imports import quick_imports
 from viscontact.studies.executors import local
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
@@ -37,6 +38,14 @@ if "forkserver" in multiprocessing.get_all_start_methods():
         ["viscontact.cli.run.execution", "viscontact.studies.sweep.many", "pint"]
     )
     local._SPAWN = forked
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Collect half a million objects that stay, and that the collector of garbage leaves out."""
+    with quick_imports():
+        return (yield)
+
 
 CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line to the summary
 

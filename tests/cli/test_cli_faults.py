@@ -73,7 +73,7 @@ def _full(*arguments: Any, **options: Any) -> None:
         (recorder, "save_checkpoint"),
     ],
 )
-@pytest.mark.parametrize("calls", [0, 4, 10])
+@pytest.mark.parametrize("calls", [0, 4, pytest.param(10, marks=pytest.mark.slow)])
 def test_full_disk_stops_the_run_which_continues_once_there_is_space(
     calls: int,
     where: Any,
@@ -531,8 +531,8 @@ LAW = "time [s], relaxation_modulus [MPa]\n0.01, 10\n0.1, 9.5\n1, 7\n10, 5\n100,
     [
         ("result.nc", "load-result.nc"),
         ("Case.yaml", "load-Case.yaml"),
-        ("state.npz", "load-state.npz"),
-        ("progress.jsonl", "load-progress.jsonl"),
+        pytest.param("state.npz", "load-state.npz", marks=pytest.mark.slow),
+        pytest.param("progress.jsonl", "load-progress.jsonl", marks=pytest.mark.slow),
         (".lock", "load-.lock"),
         (".result.nc.working", "load-.result.nc.working"),
         ("../outside.csv", "outside.csv"),

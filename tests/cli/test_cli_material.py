@@ -71,8 +71,7 @@ def test_a_file_is_shown_like_a_shipped_material(
     assert "not measured" not in printed
 
 
-@pytest.mark.parametrize("which", ["polystyrene-130c", "zener.yaml"])
-@pytest.mark.parametrize("suffix", ["png", "svg"])
+@pytest.mark.parametrize(("which", "suffix"), [("polystyrene-130c", "png"), ("zener.yaml", "svg")])
 def test_a_figure_is_written_where_asked(
     folder: Path, which: str, suffix: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

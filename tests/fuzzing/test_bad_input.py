@@ -1,7 +1,7 @@
 """Bad input is refused in words: never a traceback, a hang, or more memory than was announced.
 
 Every family mutates valid input and adds what is none; see the modules beside this one. The
-default run tries 250 inputs in this process, the same ones each time. The slow campaign tries
+default run tries 150 inputs in this process, the same ones each time. The slow campaign tries
 10 600 more and takes about three minutes on two idle cores, five on busy ones; its seed is
 VISCONTACT_FUZZ_SEED, 6 if that is not set. A case that fails is shrunk by Hypothesis, which prints
 it.
@@ -27,7 +27,7 @@ from fuzzing.watch import Tally, set_free_memory
 SEED = int(os.environ.get("VISCONTACT_FUZZ_SEED", "6"))
 
 #: So many inputs in all.
-DEFAULT, SLOW = 250, 10_500
+DEFAULT, SLOW = 150, 10_500
 
 # What is thrown away is no matter here, and neither is the size of what is made.
 _ANY_HEALTH = list(HealthCheck)

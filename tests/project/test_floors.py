@@ -11,6 +11,7 @@ import ast
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -107,8 +108,9 @@ def targets(node: ast.AST, module: str, is_package: bool) -> list[str]:
     return []
 
 
-def imports(name: str, path: Path) -> Iterator[Import]:
-    """Yield every import of a file."""
+@cache
+def imports(name: str, path: Path) -> tuple[Import, ...]:
+    """Return every import of a file, which is read once."""
 
     def walk(node: ast.AST, hidden: bool) -> Iterator[Import]:
         for child in ast.iter_child_nodes(node):
@@ -118,7 +120,7 @@ def imports(name: str, path: Path) -> Iterator[Import]:
             function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
             yield from walk(child, hidden or function)
 
-    yield from walk(ast.parse(path.read_text(encoding="utf-8")), hidden=False)
+    return tuple(walk(ast.parse(path.read_text(encoding="utf-8")), hidden=False))
 
 
 def fault_of_other(place: str, floor: int, target: str) -> str | None:

@@ -280,7 +280,7 @@ def test_columns_cannot_be_written_to(tmp_path: Path) -> None:
         table(tmp_path, PLAIN)["time"][0] = 3.0
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(
     st.lists(st.floats(-1e30, 1e30, allow_subnormal=False), min_size=1, max_size=5),
     st.sampled_from(["Pa", "MPa", "psi"]),
@@ -304,7 +304,7 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.lists(PIECES, max_size=30).map("".join) | st.text(max_size=40) | st.binary(max_size=40))
 def test_any_file_is_a_finite_table_or_a_value_error(
     tmp_path_factory: pytest.TempPathFactory, content: str | bytes

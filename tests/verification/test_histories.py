@@ -73,7 +73,7 @@ def close(found, exact, bound=BOUND):
     assert np.abs(found - exact).max() <= bound * scale
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(material=materials(0.02), one=levels(), other=levels(), share=st.floats(0.1, 0.9))
 def test_forces_on_a_fixed_contact_are_superposed(material, one, other, share):
     """Boltzmann: approach and pressure of F1 + F2 are the sums of those of F1 and of F2.
