@@ -7,7 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from viscontact.drawing.matplotlib.materials.fitted_records import fitted_records
+from viscontact.drawing.matplotlib.materials.fitted import fitted_records
 from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import drawn_figure, listed_notes, remark, text_table
 from viscontact.report.study_page import StudyPage

@@ -10,17 +10,18 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters import Indenter, Sphere
+from viscontact.bodies.indenters import Indenter, Paraboloid, Sphere
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.loads import ApproachHistory, ForceHistory
 from viscontact.drawing.content.along_run import along_run, within_span
-from viscontact.drawing.content.exact_sphere import exact_sphere, sphere_radius
 from viscontact.drawing.content.panel import FAINT, TEXT, Axis, Curve, Ink, Mark, Panel
 from viscontact.reference import (
     AxisymmetricContact,
     LeeRadokContact,
     SphereProfile,
     clustered_times,
+    lee_radok_ramp,
+    lee_radok_step,
     press_axisymmetric,
 )
 from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_object
@@ -50,7 +51,7 @@ def exact_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
     names = ["force", "approach", "contact_area", "peak_pressure"]
     run = within_span(results, names, times, _NAME, "")
     within = np.isin(results["time"].values, run["time"].values)
-    x, label = along_run([run]), _label(results, theory.solution)
+    x, label = along_run([run]), exact_label(results, theory.solution)
     instants, panels, differences = run["time"].values, [], []
     compared = _compared_histories(results, run, theory)
     for number, (quantity, si, ours, theirs) in enumerate(compared):
@@ -106,9 +107,9 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
     return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
 
 
-def _label(results: xr.Dataset, solution: str) -> str:
+def exact_label(results: xr.Dataset, solution: str, figure: str = _NAME) -> str:
     """Legend of an exact solution, which replaces a sphere by its paraboloid."""
-    sphere = isinstance(recorded_object(results, "indenter", _NAME), Sphere)
+    sphere = isinstance(recorded_object(results, "indenter", figure), Sphere)
     return f"{'paraboloid' if sphere else 'exact'} ({solution})"
 
 
@@ -197,3 +198,41 @@ def _places() -> Floats:
     # Denser towards the rim, where the pressure of a fluid is largest.
     places: Floats = np.sin(np.linspace(0.0, np.pi / 2, _PLACES, endpoint=False))
     return places
+
+
+def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
+    """Lee-Radok solution for a sphere or paraboloid under a step or held ramp; None otherwise."""
+    indenter, load, material, other = (
+        recorded_object(results, part, figure)
+        for part in ("indenter", "load", "material", "indenter_material")
+    )
+    radius = sphere_radius(indenter)
+    if radius is None or not isinstance(load, ForceHistory):
+        return None
+    if is_layered(results) or is_layered(results, "indenter_material"):
+        return None
+    compliance = material.contact_compliance()
+    if other is not None:
+        compliance = compliance + other.contact_compliance()
+    return _growing_contact(load, radius, compliance)
+
+
+def sphere_radius(indenter: Indenter) -> float | None:
+    """Radius of a sphere or round paraboloid [m]; None for any other body."""
+    if isinstance(indenter, Sphere):
+        return indenter.radius
+    if isinstance(indenter, Paraboloid) and indenter.radius_x == indenter.radius_y:
+        return indenter.radius_x
+    return None
+
+
+def _growing_contact(load: ForceHistory, radius: float, compliance: Any) -> LeeRadokContact | None:
+    times, force = load.times, load.force
+    if times[0] != 0 or force[-1] <= 0:
+        return None
+    if (force == force[-1]).all():
+        return lee_radok_step(float(force[-1]), radius, compliance, compliance.relaxation)
+    if force[0] == 0 and times[1] > 0 and (force[1:] == force[-1]).all():
+        duration = float(times[1])
+        return lee_radok_ramp(float(force[-1]), duration, radius, compliance, compliance.relaxation)
+    return None

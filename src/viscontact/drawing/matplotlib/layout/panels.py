@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel
@@ -92,14 +93,23 @@ def draw_panel(axes: Axes, panel: Panel) -> list[ErrorBand]:
 
 
 def _draw_curve(axes: Axes, x: Floats, y: Floats, curve: Curve) -> None:
-    look = style.look_of(curve.ink)
     if curve.look == "bars":
-        axes.barh(y, x, height=0.65, color=look["color"], alpha=0.8, label=curve.name)
+        colour = style.look_of(curve.ink)["color"]
+        axes.barh(y, x, height=0.65, color=colour, alpha=0.8, label=curve.name)
     else:
-        look |= _LOOKS[curve.look]
-        if curve.symbol:
-            look["marker"] = style.MARKERS[curve.symbol]
-        axes.plot(x, y, label=curve.name, **look)
+        axes.plot(x, y, label=curve.name, **_look_of(curve))
+
+
+def legend_key(curve: Curve) -> Line2D:
+    """Line or marker of a curve for a legend."""
+    return Line2D([], [], **_look_of(curve))
+
+
+def _look_of(curve: Curve) -> dict[str, Any]:
+    look = style.look_of(curve.ink) | _LOOKS.get(curve.look, {})
+    if curve.symbol:
+        look["marker"] = style.MARKERS[curve.symbol % len(style.MARKERS)]
+    return look
 
 
 def scale_along(axes: Axes, axis: Axis) -> None:
