@@ -12,8 +12,10 @@ import xarray as xr
 
 from viscontact.drawing.content.design import parameters_of
 from viscontact.drawing.matplotlib.histories.history import compare_histories
-from viscontact.drawing.matplotlib.pressure.line_load import compare_line_loads
-from viscontact.drawing.matplotlib.pressure.pressure_profile import compare_pressure_profiles
+from viscontact.drawing.matplotlib.pressure.contact_curves import (
+    compare_line_loads,
+    compare_pressure_profiles,
+)
 from viscontact.drawing.matplotlib.sweeps.design import trade_off, trials
 from viscontact.drawing.svg.html import element
 from viscontact.report.creep_gains import gains_over_a_year, relative_change

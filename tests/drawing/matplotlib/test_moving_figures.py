@@ -9,8 +9,8 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
 
 import viscontact as vc
+from viscontact.drawing.matplotlib.pressure.contact_curves import pressure_profile
 from viscontact.drawing.matplotlib.pressure.pressure_map import pressure_map
-from viscontact.drawing.matplotlib.pressure.pressure_profile import pressure_profile
 from viscontact.plot import animation
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")

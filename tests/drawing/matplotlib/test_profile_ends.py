@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.drawing.matplotlib.pressure.pressure_profile import pressure_profile
+from viscontact.drawing.matplotlib.pressure.contact_curves import pressure_profile
 
 POLYMER = vc.Material(vc.Elastic(1e9), poisson_ratio=0.4)
 

@@ -15,8 +15,10 @@ from viscontact.drawing.content.compared_runs import Runs, runs_of
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import Axis, Curve, Ink, Panel
+from viscontact.results.recorded_case import across_period
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
+from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.units.formatting import readable_unit
 
 
@@ -153,3 +155,44 @@ def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float,
         return low - margin, high + margin
     borders = snapshots[0].borders()
     return max(low - margin, borders[side]), min(high + margin, borders[side + 1])
+
+
+def pressure_curve(
+    results: Runs, along: Literal["x", "y"] | None, at: float | None, figure: str
+) -> ContactCurve:
+    """Pressure along a line up to the ends of the body, by default along the motion."""
+    first = next(iter(runs_of(results, figure).values()))
+    way = along or motion_axis(first) or across_period(first) or "x"
+
+    def section(snapshot: Snapshot) -> tuple[Floats, Floats]:
+        # On a periodic grid continued by a cell.
+        shown = snapshot.with_border(1) if any(snapshot.periodic) else snapshot
+        return cut_at_ends(shown, way, at, shown.section(way, at))
+
+    return ContactCurve(
+        *(figure, "Pressure", "Pa", way, section),
+        largest=lambda snapshot: float(snapshot.pressure.max()),
+        note=f"peak {MESH_DEPENDENT}",
+        marks_edges=True,
+    )
+
+
+def _line_load(snapshot: Snapshot) -> tuple[Floats, Floats]:
+    x, load = snapshot.line_load()
+    cell, _ = snapshot.cell_size
+    if snapshot.periodic[0]:
+        return np.concatenate([x[:1] - cell, x, x[-1:] + cell]), np.pad(load, 1, mode="wrap")
+    touched = np.flatnonzero(snapshot.in_contact.any(axis=1))
+    if not touched.size:
+        return x, load
+    # The contact ends within half a cell of the border of its last cells.
+    rows = slice(int(touched[0]), int(touched[-1]) + 1)
+    ends = x[touched[0]] - cell / 2, x[touched[-1]] + cell / 2
+    return np.concatenate([ends[:1], x[rows], ends[1:]]), np.pad(load[rows], 1)
+
+
+LINE_LOAD = ContactCurve(
+    *("line-load", "Line load", "N/m", "x", _line_load),
+    largest=lambda snapshot: float(snapshot.line_load()[1].max()),
+    note=f"at a sharp end it {MESH_DEPENDENT}",
+)

@@ -40,18 +40,19 @@ from viscontact.drawing.matplotlib.materials.master_curve import master_curve
 from viscontact.drawing.matplotlib.materials.material_curves import material_curves
 from viscontact.drawing.matplotlib.motion.friction import friction
 from viscontact.drawing.matplotlib.motion.motion_profile import motion_profile
+from viscontact.drawing.matplotlib.pressure.contact_curves import (
+    compare_line_loads,
+    compare_pressure_profiles,
+    line_load,
+    pressure_profile,
+)
 from viscontact.drawing.matplotlib.pressure.contact_outline import (
     compare_contact_outlines,
     contact_outline,
 )
 from viscontact.drawing.matplotlib.pressure.contact_spots import contact_spots
 from viscontact.drawing.matplotlib.pressure.deformed_surface import deformed_surface
-from viscontact.drawing.matplotlib.pressure.line_load import compare_line_loads, line_load
 from viscontact.drawing.matplotlib.pressure.pressure_map import compare_pressure_maps, pressure_map
-from viscontact.drawing.matplotlib.pressure.pressure_profile import (
-    compare_pressure_profiles,
-    pressure_profile,
-)
 from viscontact.drawing.matplotlib.pressure.pressure_radial import pressure_radial
 from viscontact.drawing.matplotlib.pressure.pressure_surface import (
     compare_pressure_surfaces,
