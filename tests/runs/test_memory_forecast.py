@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from viscontact.runs.resources import PROGRAM
+from viscontact.runs.run_memory import PROGRAM
 
 #: A creeping sphere on many cells; the memory of the process before and after a run on a few.
 RUN = """
@@ -16,7 +16,7 @@ import ctypes
 
 import viscontact as vc
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.runs.resources import run_memory
+from viscontact.runs.run_memory import run_memory
 from viscontact.simulation.transient.setup import prepare_run
 
 def resident(key):

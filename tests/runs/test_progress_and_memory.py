@@ -9,7 +9,7 @@ from viscontact.bodies.laws import Zener
 from viscontact.bodies.materials.material import Material
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.progress_made import progress_made
-from viscontact.runs.resources import fitting, least_memory, needed_memory
+from viscontact.runs.run_memory import fitting, least_memory, needed_memory
 
 
 def test_command_that_resumes_a_run_is_quoted_for_the_shell() -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
-from viscontact.studies.executors.chosen import ChosenWorkers
+from viscontact.studies.executors.executor_choice import ChosenWorkers
 from viscontact.studies.journal import journal_in
 
 

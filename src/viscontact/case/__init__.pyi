@@ -2,8 +2,8 @@
 
 from .case import Case as Case
 from .errors import CaseError as CaseError
-from .parts import Parts as Parts
-from .parts import read_parts as read_parts
+from .incomplete_case import Parts as Parts
+from .incomplete_case import read_parts as read_parts
 from .reader import read_case as read_case
 from .reader import read_case_text as read_case_text
 from .sections import case_schema as case_schema

@@ -16,7 +16,7 @@ from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast, forecast, run_seconds
 from viscontact.runs.grid_error import grid_error_rows
 from viscontact.runs.progress_made import progress_made
-from viscontact.runs.resources import run_memory
+from viscontact.runs.run_memory import run_memory
 from viscontact.simulation.accuracy.coarser_results import History
 from viscontact.simulation.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.simulation.transient.march import March

@@ -15,7 +15,7 @@ from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.over_time import OverTime
-from viscontact.runs.resources import least_memory
+from viscontact.runs.run_memory import least_memory
 from viscontact.simulation.steady_motion.preparation import prepare
 from viscontact.simulation.steady_motion.problem import steady_problem
 from viscontact.simulation.transient.found_events import carried_out

@@ -7,7 +7,7 @@ from collections import Counter
 from viscontact.bodies.grid import Grid
 from viscontact.runs.forecast import Forecast, convolution_time
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import curve_memory
+from viscontact.runs.run_memory import curve_memory
 from viscontact.simulation.checks.half_space_theory import warnings_of_covers
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.simulation.steady_motion.curve import geometry_of, run_warnings

@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any, Literal, Protocol
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.studies.executors.chosen import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
+from viscontact.studies.executors.executor_choice import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
 from viscontact.studies.journal import Journal
 
 #: Called with the numbers of runs, done and allowed, after each run.

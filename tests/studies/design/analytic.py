@@ -15,7 +15,7 @@ from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level
-from viscontact.studies.executors.chosen import ChosenWorkers
+from viscontact.studies.executors.executor_choice import ChosenWorkers
 from viscontact.studies.scalars import Value
 
 #: Values of the parameters to the objective and, by name of the constraint, the other scalars.

@@ -14,7 +14,7 @@ import xarray as xr
 from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
-from viscontact.studies.executors import chosen
+from viscontact.studies.executors import executor_choice
 from viscontact.studies.executors.local import LocalWorkers
 
 RADIUS, MODULUS = 5e-3, 4e6  # m, E* = 4 G in Pa at nu = 0.5
@@ -152,7 +152,7 @@ def test_several_workers_are_used_and_give_the_same_result(
             ball, change, minimise="contact_area", constraints=limit, runs=12, workers=workers
         ).table
 
-    monkeypatch.setattr(chosen, "LocalWorkers", Counted)
+    monkeypatch.setattr(executor_choice, "LocalWorkers", Counted)
     xr.testing.assert_identical(designed(2), designed(1))
     assert max(at_a_time) == 2
     assert at_a_time.count(2) >= 4  # of the six pairs of 12 runs

@@ -18,7 +18,7 @@ from viscontact.cli.sweep.recorded_sweep import (
 )
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.terminal.messages import say
-from viscontact.runs import resources
+from viscontact.runs import run_memory
 from viscontact.runs.execution.case_digests import Digests
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
@@ -80,7 +80,7 @@ def _warn_of_memory(jobs: Sequence[Job]) -> None:
 
 def fitting(jobs: Sequence[Job]) -> int:
     """Return how many of the runs fit into the free memory at the same time, at least 1."""
-    return max(1, resources.fitting((job.memory for job in jobs), available_memory()))
+    return max(1, run_memory.fitting((job.memory for job in jobs), available_memory()))
 
 
 def resource_warnings(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:

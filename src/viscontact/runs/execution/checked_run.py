@@ -10,9 +10,9 @@ from viscontact.results.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded
-from viscontact.runs.execution.filing import filed_case
+from viscontact.runs.execution.case_attributes import filed_case
+from viscontact.runs.execution.directory_state import standing
 from viscontact.runs.execution.prepared_case import prepare
-from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun
 from viscontact.runs.processes.job import Job, RunStage

@@ -17,7 +17,7 @@ from viscontact.runs.directory.lock_check import LockLost
 from viscontact.runs.directory.recorded import ChangedCaseError, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder, Undisturbed
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
-from viscontact.runs.execution.resuming import refuse_changed
+from viscontact.runs.execution.directory_state import refuse_changed
 from viscontact.runs.execution.run_directory import reserved, write_case
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.job import RunStage

@@ -33,7 +33,7 @@ from viscontact.studies.case_values import (
     texts,
 )
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
-from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_at
 from viscontact.units.numbers import whole
 

@@ -34,7 +34,7 @@ from viscontact.studies.design.scenarios import Scenario, scenarios_of
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation, Level, Progress
-from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space

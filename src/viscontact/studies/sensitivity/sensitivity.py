@@ -23,7 +23,7 @@ from viscontact.studies.case_values import (
     texts,
 )
 from viscontact.studies.evaluation import Progress
-from viscontact.studies.executors.chosen import refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import refuse_import_by_a_worker
 from viscontact.studies.scalars import At, require_instant
 from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.case import read_case
-from viscontact.runs import resources
+from viscontact.runs import run_memory
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.execution.prepared_case import prepare
 from viscontact.runs.machine.memory import available_memory
@@ -92,5 +92,5 @@ def _is_affordable(run: Analysis[Any, Any], cell: tuple[float, float], available
     """Test whether a run on smaller cells fits into the limit and into some memory [bytes]."""
     before = math.prod(run.grid.shape)
     now = math.prod(size / length for size, length in zip(run.grid.size, cell, strict=True))
-    arrays = (run.memory - resources.PROGRAM) * now / before
-    return now <= max(before, MOST_CELLS) and resources.PROGRAM + arrays < available
+    arrays = (run.memory - run_memory.PROGRAM) * now / before
+    return now <= max(before, MOST_CELLS) and run_memory.PROGRAM + arrays < available

@@ -13,22 +13,22 @@ from typing import Any, overload
 import xarray as xr
 
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import fitting
+from viscontact.runs.run_memory import fitting
 from viscontact.runs.single import simulate
 from viscontact.simulation.transient.progress_bar import ProgressBar, reported
-from viscontact.studies.executors.chosen import (
+from viscontact.studies.executors.dask import dask_executor
+from viscontact.studies.executors.driver import Workers
+from viscontact.studies.executors.executor_choice import (
     BEHIND_MAIN,
     number_of_workers,
     refuse_import_by_a_worker,
     require_executor,
 )
-from viscontact.studies.executors.dask import dask_executor
-from viscontact.studies.executors.driver import Workers
 from viscontact.studies.executors.local import LocalTasks, LocalWorkers
 from viscontact.studies.executors.remote import RemoteTasks
 from viscontact.studies.sweep.open_many import open_many
-from viscontact.studies.sweep.recipes import Recipe, checked_recipes, known_memory
 from viscontact.studies.sweep.recorded_many import Progress, record_many
+from viscontact.studies.sweep.specifications import Recipe, checked_recipes, known_memory
 
 #: Longest time in which an interruption is not noticed on Windows [s].
 _PAUSE = 0.5

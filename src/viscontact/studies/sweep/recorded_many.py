@@ -22,7 +22,7 @@ from viscontact.studies.sweep.continuation import (
     recorded_runs,
 )
 from viscontact.studies.sweep.manifest import SweepRun, write_manifest
-from viscontact.studies.sweep.recipes import Recipe, known_memory
+from viscontact.studies.sweep.specifications import Recipe, known_memory
 from viscontact.studies.sweep.varied_runs import VariedRun, case_name, sweep_run
 
 #: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.

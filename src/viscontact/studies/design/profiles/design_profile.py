@@ -30,7 +30,7 @@ from viscontact.studies.design.profiles.result_files import write_profile_design
 from viscontact.studies.design.profiles.tables import finite_table, tabulated
 from viscontact.studies.design.scenarios import scenarios_of
 from viscontact.studies.evaluation import Budget, Evaluation
-from viscontact.studies.executors.chosen import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space

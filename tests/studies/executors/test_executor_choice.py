@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from viscontact.studies.executors import chosen
-from viscontact.studies.executors.chosen import chosen_workers, number_of_workers
+from viscontact.studies.executors import executor_choice
+from viscontact.studies.executors.executor_choice import chosen_workers, number_of_workers
 from viscontact.studies.executors.local import LocalWorkers
 
 
@@ -16,7 +16,7 @@ def test_a_worker_starts_no_further_ones_by_default() -> None:
 
 
 def test_the_cores_that_may_be_used_are_the_default(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(chosen, "usable_cores", lambda: 3)
+    monkeypatch.setattr(executor_choice, "usable_cores", lambda: 3)
     assert number_of_workers(None) == 3
     for most, count in ((2, 2), (8, 3)):
         with chosen_workers(None, most=most) as found:

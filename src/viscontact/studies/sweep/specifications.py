@@ -10,7 +10,7 @@ import xarray as xr
 
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.materials.material import Material
-from viscontact.runs.resources import PROGRAM, least_memory
+from viscontact.runs.run_memory import PROGRAM, least_memory
 from viscontact.runs.single import simulate
 
 #: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
