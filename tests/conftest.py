@@ -50,6 +50,23 @@ def pytest_collection() -> Generator[None, object, object]:
 CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line to the summary
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put slow campaigns at the beginning of each half of the tests.
+
+    Each of two processes begins with one half, and takes over tests that the other one has not
+    begun: short ones at the end keep both in use.
+    """
+    dear = [item for item in items if _is_slow_campaign(item)]
+    others = [item for item in items if not _is_slow_campaign(item)]
+    half = len(others) // 2
+    items[:] = [*dear[::2], *others[:half], *dear[1::2], *others[half:]]
+
+
+def _is_slow_campaign(item: pytest.Item) -> bool:
+    fixtures = getattr(item, "fixturenames", ())
+    return CAMPAIGN in fixtures and item.get_closest_marker("slow") is not None
+
+
 @pytest.fixture
 def campaign(record_property: Callable[[str, object], None]) -> Callable[[str], None]:
     """Return `campaign(line)`, which adds a line of figures to the end of pytest's output.
