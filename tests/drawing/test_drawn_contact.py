@@ -9,6 +9,7 @@ from synthetic_results import ellipse
 from viscontact.drawing.content.contact_area import area_panel
 from viscontact.drawing.content.history import drawn_scalars, response_names
 from viscontact.drawing.content.map import maps_over
+from viscontact.results.contact_spots import contact_spots
 
 
 def adhering() -> xr.Dataset:
@@ -31,6 +32,11 @@ def test_outline_lies_around_the_cells_in_tension() -> None:
     for pulled, pressed in zip(maps_over(adhering()).maps, maps_over(ellipse()).maps, strict=True):
         [outline], [expected] = pulled.outline, pressed.outline
         np.testing.assert_array_equal(outline, expected)
+
+
+def test_window_and_nominal_area_include_cells_in_tension() -> None:
+    assert maps_over(adhering()).window == maps_over(ellipse()).window
+    xr.testing.assert_identical(contact_spots(adhering()), contact_spots(ellipse()))
 
 
 def test_area_is_drawn_between_the_given_instants() -> None:
