@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -92,6 +93,15 @@ def test_finished_part_of_adaptive_steps_is_that_of_the_time() -> None:
 def test_material_creeps_up_to_the_end_or_while_the_slowest_body_passes_the_grid() -> None:
     assert standing().longest_creep == 1.0
     assert steady().longest_creep == pytest.approx(2.4e-3 / 1e-3)
+
+
+def test_a_curve_that_ends_early_has_the_grid_of_its_first_speeds() -> None:
+    run = steady()
+    wider = replace(run.setup, grids=(GRID, GRID.widened((32, 32))))
+    whole, first = OverSpeed(wider), next(iter(run.states()))
+    assert first is not None
+    assert whole.grid.shape == (32, 32)
+    assert whole.after([first]).grid == GRID
 
 
 def test_body_without_a_motion_has_none_of_its_scalars() -> None:
