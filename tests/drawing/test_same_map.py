@@ -125,6 +125,9 @@ def test_tension_is_drawn_in_colours_that_diverge_from_zero() -> None:
     assert (red, blue) == (True, False)
     figure = plot.pressure_map(tensile, style="contours")
     assert figure.axes[-1].get_ylim() == pytest.approx((-0.5, 3.0))
+    _, bar, section, *_ = plot.animation(tensile, seconds=1.0, fps=2.0).figure.axes
+    assert bar.get_ylim() == pytest.approx((-0.5, 3.0))
+    assert section.get_ylim()[0] == pytest.approx(1.05 * low)
 
 
 def test_levels_end_below_peaks_that_depend_on_the_mesh() -> None:

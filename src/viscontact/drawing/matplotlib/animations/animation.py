@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import xarray as xr
@@ -16,10 +15,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
 from viscontact.drawing.content.history import drawn_scalars, history_panel, needed_variables
-from viscontact.drawing.content.map import BodyPlace, Map, body_of
-from viscontact.drawing.content.notes import peak_note
-from viscontact.drawing.content.scale import ColourScale, pressure_scale
-from viscontact.drawing.content.window import Window, window_over
+from viscontact.drawing.content.scene import Scene, scene_of
 from viscontact.drawing.matplotlib.animations.sheet import AnimationSheet, new_sheet
 from viscontact.drawing.matplotlib.histories.history import draw_histories
 from viscontact.drawing.matplotlib.layout import style
@@ -27,9 +23,7 @@ from viscontact.drawing.matplotlib.layout.log_time import BEFORE_FIRST
 from viscontact.drawing.matplotlib.layout.map_axes import mark_body, show_window
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.drawing.matplotlib.pressure.pressure_map import draw_contours, fill_colour_bar
-from viscontact.results.recorded_case import across_period
-from viscontact.results.recorded_motion import contact_edges, motion_axis
-from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
+from viscontact.results.snapshots import Snapshot, field_times
 from viscontact.results.stated_errors import lacks_curve
 from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import format_quantity, time_labels
@@ -76,30 +70,6 @@ class Animation:
     def seconds(self) -> float:
         """Duration of the animation [s]."""
         return self.instants.size / self.frames_per_second
-
-
-@dataclass(frozen=True, eq=False)
-class _Scene:
-    """Fixed parts of an animation: fields, limits and colours."""
-
-    stored: Floats
-    read: Callable[[int], Snapshot]
-    place: Callable[[float], BodyPlace] | None  # of a moving body at an instant [s]
-    window: Window
-    scale: ColourScale
-    along: Literal["x", "y"]
-    note: str
-    top: float  # of the section, the largest pressure of all instants [Pa]
-
-    def at(self, instant: float) -> Map:
-        """Map at a stored instant [s]."""
-        snapshot = self.read(int(np.abs(self.stored - instant).argmin()))
-        return Map("", snapshot, body=self.place and self.place(snapshot.time))
-
-    def edges(self, shown: Map) -> tuple[float, float] | None:
-        """Leading and trailing edge of a moving contact on the section [m]."""
-        way = 0.0 if shown.body is None else shown.body.way(self.along)
-        return contact_edges(*shown.snapshot.contact_section(self.along), way)
 
 
 def animation(
@@ -165,7 +135,7 @@ def animation(
             f"{format_quantity(first, 's')} and {format_quantity(last, 's')}, got {shown.size}; "
             "run again with 'output: fields: all'"
         )
-    scene = _scene(results, stored, shown)
+    scene = scene_of(results, stored, shown, _NAME)
     wide = page_width(width, style.TWO_COLUMNS)
     names = _histories(run, wide)
     sheet = new_sheet(scene.window, wide, len(names), scene.along)
@@ -186,32 +156,6 @@ def _frames(seconds: float, fps: float) -> int:
             f"{seconds:g} s with {fps:g} a second"
         )
     return count
-
-
-def _scene(results: xr.Dataset, stored: Floats, shown: Floats) -> _Scene:
-    """Find the limits of all instants to be shown."""
-    note, read = peak_note([results], shown), snapshot_reader(results)
-    boxes, peak, ordinary = [], 0.0, 0.0
-    tops: dict[Literal["x", "y"], float] = {"x": 0.0, "y": 0.0}
-    for index in np.flatnonzero(np.isin(stored, shown)):
-        snapshot = read(int(index))
-        if snapshot.touching:
-            boxes.append(snapshot.extent())
-            peak = max(peak, float(snapshot.pressure.max()))
-            ordinary = max(ordinary, Map("", snapshot).ordinary)
-            for way in tops:
-                tops[way] = max(tops[way], float(snapshot.section(way)[1].max()))
-    if not boxes:
-        raise ValueError(
-            f"{_NAME}: the bodies do not touch at any stored instant from "
-            f"{format_quantity(shown[0], 's')} to {format_quantity(shown[-1], 's')}; choose other "
-            "times"
-        )
-    window = window_over(boxes, snapshot.borders() if any(snapshot.periodic) else None)
-    scale = pressure_scale(0.0, peak, ordinary if note else None)
-    is_long = window.x[1] - window.x[0] >= window.y[1] - window.y[0]
-    along = motion_axis(results) or across_period(results) or ("x" if is_long else "y")
-    return _Scene(stored, read, body_of(results), window, scale, along, note, tops[along])
 
 
 def _histories(run: xr.Dataset, width: float) -> list[str]:
@@ -241,7 +185,7 @@ def _place_on_axis(instants: Floats, run: xr.Dataset) -> Floats:
 
 
 def _stage(
-    sheet: AnimationSheet, scene: _Scene, run: xr.Dataset, names: list[str]
+    sheet: AnimationSheet, scene: Scene, run: xr.Dataset, names: list[str]
 ) -> Callable[[float], None]:
     """Draw the fixed parts; return a function that draws the rest at an instant."""
     curve, edges = _set_up_fields(sheet, scene)
@@ -280,7 +224,7 @@ def _stage(
     return show
 
 
-def _set_up_fields(sheet: AnimationSheet, scene: _Scene) -> tuple[Line2D, list[Line2D]]:
+def _set_up_fields(sheet: AnimationSheet, scene: Scene) -> tuple[Line2D, list[Line2D]]:
     """Prepare map and section; return its empty curve, and markers of leading and trailing edge."""
     window, unit = scene.window, scene.scale.unit
     show_window(sheet.surface, window)
@@ -293,7 +237,8 @@ def _set_up_fields(sheet: AnimationSheet, scene: _Scene) -> tuple[Line2D, list[L
     fill_colour_bar(sheet.bar, scene.scale)
     limits = window.x if scene.along == "x" else window.y
     sheet.section.set(xlim=window.unit(limits), xlabel=window.unit.label(scene.along))
-    sheet.section.set(ylim=(0.0, float(unit(1.05 * scene.top))), ylabel=scene.scale.label)
+    ends = 1.05 * scene.scale.limits[0], 1.05 * scene.top
+    sheet.section.set(ylim=unit(ends), ylabel=scene.scale.label)
     across = "y" if scene.along == "x" else "x"
     middle = scene.read(0).middle[1 if scene.along == "x" else 0]
     style.add_heading(
@@ -309,7 +254,7 @@ def _set_up_fields(sheet: AnimationSheet, scene: _Scene) -> tuple[Line2D, list[L
     return curve, edges
 
 
-def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Floats, Floats]:
+def _section(snapshot: Snapshot, scene: Scene) -> tuple[Floats, Floats]:
     """Pressure along the middle line, as drawn."""
     wide = snapshot.with_border(1) if any(snapshot.periodic) else snapshot
     positions, pressure = wide.section(scene.along)
