@@ -90,7 +90,7 @@ def test_quadrilateral_with_a_hidden_corner_is_left_out() -> None:
 
 
 def test_colours_of_a_signed_scale_are_neutral_at_zero() -> None:
-    assert pressure_scale(0.0, 1e6).colours(2) == ["#ffffd9", "#081d58"]
+    assert pressure_scale(0.0, 1e6).colours(2) == ["#f1f9b9", "#2072b2"]
     assert pressure_scale(-1e6, 1e6).colours(3)[1] == "#f7f7f7"
 
 

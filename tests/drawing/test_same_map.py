@@ -1,4 +1,4 @@
-"""A run's map is the same in Matplotlib, Plotly and SVG: range, unit, levels and outline."""
+"""A map is the same in Matplotlib, Plotly and SVG: range, unit, levels, colours, outline."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
-from synthetic_results import ellipse
+from synthetic_results import ellipse, roller
 from viscontact import plot
 from viscontact.drawing.content.map import Maps, maps_over
 from viscontact.drawing.plotly.parts import plain
@@ -83,8 +84,30 @@ def test_levels_are_the_same() -> None:
     # A band that no cell of the last instant lies in has no cells.
     bands = np.searchsorted(levels, scale.unit(content().snapshots[-1].pressure), side="right") - 1
     present = sorted(set(bands[content().snapshots[-1].pressure > 0].tolist()))
-    colours = scale.colours(levels.size - 1, 0.18, 1.0)
+    colours = scale.colours(levels.size - 1)
     assert [each.get("stroke") for each in paths("cells")] == [colours[n] for n in present]
+
+
+def test_colours_are_the_same() -> None:
+    scale, heat = content().scale(), interactive_map(content()).data[0]
+    ends = [colour for _, colour in heat.colorscale][:: len(heat.colorscale) - 1]
+    assert ends == scale.colours(2)
+    for style in ("contours", "colours"):
+        bar = still_map(style)[-1].collections[-1]
+        drawn = [to_hex(colour) for colour in bar.get_cmap().colors]
+        assert drawn == scale.colours(len(drawn))
+
+
+def test_stretch_is_the_same_and_noted() -> None:
+    run = roller(times=(0.0, 1.0))
+    maps = maps_over(run)
+    note = maps.window.note
+    assert note.startswith("y stretched")
+    assert interactive_map(maps).layout.meta["note"].endswith(f"MPa; {note}")
+    assert f"x [mm]; {note}" in "".join(map_drawing(maps).itertext())
+    still = plot.pressure_map(run).axes[0]
+    assert still.get_title(loc="right") == note
+    assert still.get_aspect() == interactive_map(maps).layout.yaxis.scaleratio
 
 
 def test_outline_is_the_same() -> None:

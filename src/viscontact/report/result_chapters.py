@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
-from typing import Literal
 from urllib.parse import quote
 from xml.etree.ElementTree import Element
 
@@ -17,7 +16,6 @@ from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.history import load_names
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Lines, line_load, section
-from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.panel_over_run import LINEAR, LOGARITHMIC
 from viscontact.drawing.plotly.pressure_map import map_remarks
 from viscontact.drawing.svg.html import element
@@ -36,9 +34,6 @@ from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.summary import headline
 from viscontact.results.variables import MESH_DEPENDENT, Place
 from viscontact.units.formatting import format_quantity
-
-_WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))
-_OVER_MOTION = "Along {}, the direction of motion"
 
 
 def title_of(ds: xr.Dataset) -> str:
@@ -74,19 +69,12 @@ def pressure_part(ds: xr.Dataset, maps: Maps | None, figures: list[Figure]) -> I
         return
     yield _map(maps)
     yield element("h3", "Sections through the pressure")
-    moved = motion_axis(ds)
-    titles = {
-        along: _OVER_MOTION.format(along) if along == moved else title for along, title in _WAYS
-    }
-    lines = {section(maps, along): title for along, title in titles.items()}
-    unit = maps.window.unit
-    sections = (_lines(maps, each, f"{title}, {each.place(unit)}") for each, title in lines.items())
+    lines, unit = [section(maps, "x"), section(maps, "y")], maps.window.unit
+    sections = (_lines(maps, each, f"{each.title}, {each.place(unit)}") for each in lines)
     yield element("div", *sections, class_="pair")
-    own = {"map", *(each.name for each in lines)}
     if maps.is_long:
-        load = line_load(maps)
-        yield _lines(maps, load, entry_of("line-load").heading)
-        own.add(load.name)
+        lines.append(line_load(maps))
+        yield _lines(maps, lines[-1], lines[-1].title)
     yield element(
         "p",
         f"Bold: the {maps.snapshots[0].axis.row} of the slider.",
@@ -98,7 +86,8 @@ def pressure_part(ds: xr.Dataset, maps: Maps | None, figures: list[Figure]) -> I
         ),
         class_="faint",
     )
-    for about in (each.layout.meta for each in figures if each.layout.meta["name"] not in own):
+    placed = {"map", *(each.name for each in lines)}
+    for about in (each.layout.meta for each in figures if each.layout.meta["name"] not in placed):
         yield element("h3", about["title"])
         yield element("figure", element("div", "", id=about["name"], class_="plot"))
     yield from still_figures(ds, "pressure", beside_interactive=True)

@@ -85,6 +85,7 @@ class Maps:
     window: Window  # part of the surface that contains every contact
     stored: int = 0  # number of instants with fields in the result
     is_long: bool = False  # a contact whose line load is of use
+    motion: str | None = None  # axis of a motion
     reference: Maps | None = None  # compared with them
 
     @property
@@ -202,7 +203,7 @@ def maps_over(run: xr.Dataset) -> Maps:
     stored = field_times(run, "map")
     chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
     maps = maps_at(run, stored[chosen], "map")
-    return replace(maps, stored=stored.size, is_long=is_long(run))
+    return replace(maps, stored=stored.size, is_long=is_long(run), motion=motion_axis(run))
 
 
 def maps_if_any(run: xr.Dataset) -> Maps | None:

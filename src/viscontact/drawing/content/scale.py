@@ -14,9 +14,9 @@ from viscontact.units.formatting import ReadableUnit, readable_unit
 
 #: Steps between levels or ticks, of a decade.
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-#: Parts of the colours for cells, whose palest one differs from the white without contact, and for
-#: areas between contours, pale enough for dark labels.
-CELLS, AREAS = (0.18, 1.0), (0.0, 0.62)
+#: Part of the colours that is used: the palest one differs from the white without contact, and the
+#: darkest one from the labels of contours.
+_PART = 0.1, 0.7
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,10 +35,10 @@ class ColourScale:
         """Quantity with its unit."""
         return self.unit.label(self.quantity)
 
-    def colours(self, count: int, begin: float = 0.0, end: float = 1.0) -> list[str]:
-        """Colours from the lower to the upper limit, or of parts of those if none is negative."""
+    def colours(self, count: int) -> list[str]:
+        """Colours from the lower to the upper limit."""
         if not self.diverges:
-            return shades(PRESSURE, count, begin, end)
+            return shades(PRESSURE, count, *_PART)
         low, high = self.limits
         return shades(SIGNED, count, *(0.5 + each / max(-low, high) / 2 for each in (low, high)))
 

@@ -8,11 +8,13 @@ from typing import Literal
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.panel import Axis, Units
+from viscontact.drawing.figures import entry_of
 from viscontact.results.recorded_motion import contact_edges
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 #: Direction of a line.
 Along = Literal["x", "y"]
+_TITLES = {"x": "Along x", "y": "Across, along y"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +22,7 @@ class Lines:
     """A quantity along an axis at each instant."""
 
     name: str
+    title: str
     quantity: str
     si: str
     along: Along
@@ -51,11 +54,13 @@ def section(maps: Maps, along: Along) -> Lines:
     ways = [0.0 if each.body is None else each.body.way(along) for each in maps.maps]
     edges = tuple(contact_edges(*line, way) for line, way in zip(touched, ways, strict=True))
     values, name = tuple(values for _, values in lines), f"section-{along}"
-    return Lines(name, "Pressure", "Pa", along, lines[0][0], values, crossings, edges)
+    title = f"Along {along}, the direction of motion" if along == maps.motion else _TITLES[along]
+    return Lines(name, title, "Pressure", "Pa", along, lines[0][0], values, crossings, edges)
 
 
 def line_load(maps: Maps) -> Lines:
     """Pressure integrated over y [N/m]."""
     lines = [each.line_load() for each in maps.snapshots]
     values = tuple(values for _, values in lines)
-    return Lines("line-load", "Line load", "N/m", "x", lines[0][0], values)
+    title = entry_of("line-load").heading
+    return Lines("line-load", title, "Line load", "N/m", "x", lines[0][0], values)

@@ -10,7 +10,8 @@ import plotly.graph_objects as go
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.map import BodyPlace, Map, Maps
-from viscontact.drawing.content.scale import CELLS, ColourScale
+from viscontact.drawing.content.scale import ColourScale
+from viscontact.drawing.content.window import Window
 from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.run_axis import TIME
@@ -35,7 +36,7 @@ def pressure_map(maps: Maps, look: Look = LIGHT) -> go.Figure:
     ]
     at_x, at_y = maps.centres(MOST_CELLS)
     low, high = scale.unit(scale.limits).tolist()
-    colours = scale.colours(_COLOURS, *CELLS)
+    colours = scale.colours(_COLOURS)
     place = f"x %{{x:.4g}} {x.unit.symbol}, y %{{y:.4g}} {y.unit.symbol}"
     heat = {
         "type": "heatmap",
@@ -98,8 +99,6 @@ def map_remarks(maps: Maps) -> str:
     said = [f"{line}{'w' if line else 'W'}ithout colour: no contact."]
     if maps.moves:
         said.append("The cross is the body's axis, the arrow the direction of its motion.")
-    if maps.window.note:
-        said.append(f"In this drawing {maps.window.note.replace(' stretched', ' is stretched')}.")
     along_x, along_y = maps.strides(MOST_CELLS)
     if max(along_x, along_y) > 1:
         said.append(
@@ -114,7 +113,7 @@ def map_remarks(maps: Maps) -> str:
 
 def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[Part], Part]]:
     """Yield what differs between the instants: parts of the traces, and of the layout."""
-    shape, headings = _shape(maps, around=130, most=600), _headings(maps, look)
+    shape, headings = _shape(maps, around=170, most=600), _headings(maps, look)
     unit, reference = maps.axes(look.unit)[0].unit, maps.reference
     for index, each in enumerate(maps.maps):
         z = numbers(scale.unit(maps.cells(index, MOST_CELLS).T))
@@ -124,7 +123,8 @@ def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[P
         # Outlines of many spots would cover the pressure.
         rims = [[] if maps.many_spots else every.outline for every in shown]
         traces: list[Part] = [{"type": "heatmap", "z": z}, *(_line(rim, unit) for rim in rims)]
-        meta = {"name": "map", "title": headings[index], "note": _note(each, scale)} | shape
+        note = _note(each, scale, maps.window)
+        meta = {"name": "map", "title": headings[index], "note": note} | shape
         layout: Part = {"meta": meta}
         if each.body is not None:
             x, y = unit(each.body.axis).tolist()
@@ -141,12 +141,13 @@ def _headings(maps: Maps, look: Look) -> list[str]:
     return [f"{axis.symbol}{look.quantity(each.time, axis.unit)}" for each in maps.snapshots]
 
 
-def _note(shown: Map, scale: ColourScale) -> str:
-    """Largest pressure, with ``>`` in front if it depends on the mesh."""
+def _note(shown: Map, scale: ColourScale, window: Window) -> str:
+    """Largest pressure, with ``>`` in front if it depends on the mesh, and the stretch."""
     if not shown.snapshot.touching:
         return "No contact"
     peak = format_compact(float(scale.unit(shown.snapshot.pressure.max())), 4)
-    return f"Largest pressure {'>' * shown.depends_on_mesh}{peak} {scale.unit.symbol}"
+    text = f"Largest pressure {'>' * shown.depends_on_mesh}{peak} {scale.unit.symbol}"
+    return "; ".join(filter(None, (text, window.note)))
 
 
 def _line(curves: list[Floats], unit: ReadableUnit) -> Part:

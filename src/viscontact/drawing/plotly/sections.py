@@ -7,7 +7,6 @@ import plotly.graph_objects as go
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Along, Lines, line_load, section
-from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import ReadableUnit
@@ -21,7 +20,7 @@ def sections(maps: Maps, look: Look = LIGHT) -> list[go.Figure]:
 def draw_section(maps: Maps, along: Along, look: Look = LIGHT) -> go.Figure:
     """Draw the pressure along x or y at every instant, that of a reference dashed."""
     lines, unit = section(maps, along), maps.axes(look.unit)[0].unit
-    titles = [f"Along {along}, {lines.place(unit, at)}" for at in lines.crossings]
+    titles = [f"{lines.title}, {lines.place(unit, at)}" for at in lines.crossings]
     others = None if maps.reference is None else section(maps.reference, along)
     return _curves(maps, look, lines, titles, others)
 
@@ -30,9 +29,9 @@ def line_loads(maps: Maps, look: Look = LIGHT) -> list[go.Figure]:
     """Draw the line load along x at every instant, with a frame for each, if it is of use."""
     if not maps.is_long:
         return []
-    titles = [entry_of("line-load").heading] * len(maps.maps)
+    lines = line_load(maps)
     others = None if maps.reference is None else line_load(maps.reference)
-    return [_curves(maps, look, line_load(maps), titles, others)]
+    return [_curves(maps, look, lines, [lines.title] * len(maps.maps), others)]
 
 
 def _curves(

@@ -11,7 +11,7 @@ import numpy as np
 from viscontact.backend.arrays import Integers
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import Map, Maps
-from viscontact.drawing.content.scale import CELLS, ColourScale
+from viscontact.drawing.content.scale import ColourScale
 from viscontact.drawing.svg.svg_panel import ColouredCells, Stroke, map_panel
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import format_compact
@@ -25,7 +25,7 @@ _ARROW = 0.15
 def map_drawing(maps: Maps) -> Element:
     """Draw the last map: the pressure in bands between its levels, and the outline."""
     scale, (x, y) = maps.scale(), maps.centres(_MOST)
-    cells = ColouredCells(x, y, _bands(maps, scale), scale.colours(len(scale.levels) - 1, *CELLS))
+    cells = ColouredCells(x, y, _bands(maps, scale), scale.colours(len(scale.levels) - 1))
     low, high = (format_compact(float(each)) for each in scale.unit(scale.levels[[0, -1]]))
     instant = labels_of(maps.snapshots)[-1]
     return map_panel(
@@ -34,6 +34,8 @@ def map_drawing(maps: Maps) -> Element:
         cells,
         marks=_marks(maps, maps.maps[-1]),
         aside=f"{low} to {high}, {instant}",
+        stretch=maps.window.stretch,
+        note=maps.window.note,
     )
 
 
@@ -46,11 +48,12 @@ def _bands(maps: Maps, scale: ColourScale) -> Integers:
 
 def _marks(maps: Maps, shown: Map) -> Iterator[Stroke]:
     """Yield the outline, where it does not cover the pressure, and the moving body."""
+    stretch = maps.window.stretch
     for curve in [] if maps.many_spots else shown.outline:
         x, y = curve[:: math.ceil(len(curve) / _POINTS)].T
         yield Stroke(x, y, "rim")
     if shown.body is not None:
-        (x, y), arrow = shown.body.axis, shown.body.arrow(1.0, _ARROW * np.ptp(maps.window.x))
+        (x, y), arrow = shown.body.axis, shown.body.arrow(stretch, _ARROW * np.ptp(maps.window.x))
         yield Stroke([x], [y], "dots", ORANGE)
         if arrow is not None:
-            yield Stroke([x, x + arrow[0]], [y, y + arrow[1]], colour=ORANGE)
+            yield Stroke([x, x + arrow[0]], [y, y + arrow[1] / stretch], colour=ORANGE)

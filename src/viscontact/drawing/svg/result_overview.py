@@ -7,18 +7,17 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.drawing.content.along_run import along_run
-from viscontact.drawing.content.history import is_idle
+from viscontact.drawing.content.history import history_panel, is_idle
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import maps_at
+from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.pressure_map import map_drawing
 from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
 from viscontact.drawing.svg.svg_panel import Stroke, panel
 from viscontact.results.formatting import format_scalar
-from viscontact.results.run_axis import in_order, run_axis
+from viscontact.results.run_axis import RunAxis, in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
-from viscontact.results.stated_errors import errors_of
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.results.summary import headline
 from viscontact.results.variables import REQUIRED, Place, shown_in
@@ -76,17 +75,16 @@ def _map(ds: xr.Dataset) -> list[Element]:
 
 def _course(ds: xr.Dataset) -> Element:
     """Contact area over time or speed."""
-    places, area = run_axis(ds).values(ds), ds["contact_area"].values
-    errors = errors_of(ds, "contact_area")
-    y = linear("area", "m2", 0.0, 1.1 * float(area.max()), 3)
-    marks = [Stroke(places, area)]
-    if np.isfinite(errors).all():
-        marks += [Stroke(places, area + s * errors, dashed=True) for s in (-1.0, 1.0)]
-    return panel("contact area", _along(ds), y, marks)
+    drawn = history_panel({"": ds}, "contact_area")
+    (curve,) = drawn.curves
+    marks = [Stroke(curve.x, curve.y)]
+    if curve.error is not None and np.isfinite(curve.error).all():
+        marks += [Stroke(curve.x, curve.y + s * curve.error, dashed=True) for s in (-1.0, 1.0)]
+    y = linear("area", "m2", *(drawn.y.limits or (0.0, 1.0)), 3)
+    return panel("contact area", _along(drawn.x, run_axis(ds)), y, marks)
 
 
-def _along(ds: xr.Dataset) -> AxisScale:
-    axis, over = along_run([ds]), run_axis(ds)
+def _along(axis: Axis, over: RunAxis) -> AxisScale:
     start, end = axis.limits or (0.0, 1.0)
     if axis.scale == "linear":
         return linear(over.name, over.unit, start, end)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 from xml.etree.ElementTree import Element
 
@@ -21,7 +21,7 @@ _Path = list[tuple[float, float]]
 WIDTH, _HEIGHT = 222, 158
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 12, 24, 36
 #: Least and largest height of the axes of a map [px].
-_HEIGHTS = 56.0, 190.0
+_HEIGHTS = 28.0, 190.0
 #: Inside the axes [px].
 ROOM = WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
 #: Width of a letter, about [px].
@@ -92,15 +92,18 @@ def map_panel(
     *,
     marks: Iterable[Stroke] = (),
     aside: str = "",
+    stretch: float = 1.0,
+    note: str = "",
 ) -> Element:
-    """Map between limits of x and y [m], in true shape if it is not very low."""
+    """Map between limits of x and y [m], with a stretch of y; very low ones are stretched more."""
     x, y = limits
-    height = ROOM[0] * (y[1] - y[0]) / (x[1] - x[0])
+    height = ROOM[0] * stretch * (y[1] - y[0]) / (x[1] - x[0])
     # Room at both sides of a high map.
     more = max(height / _HEIGHTS[1] - 1.0, 0.0) * (x[1] - x[0]) / 2
+    along = linear("x", "m", x[0] - more, x[1] + more)
     return panel(
         heading,
-        linear("x", "m", x[0] - more, x[1] + more),
+        replace(along, label="; ".join(filter(None, (along.label, note)))),
         linear("y", "m", *y, 3),
         marks,
         cells=cells,

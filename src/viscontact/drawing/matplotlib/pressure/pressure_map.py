@@ -19,7 +19,7 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.compared_runs import Runs
 from viscontact.drawing.content.map import Map, Maps, maps_at
 from viscontact.drawing.content.rim import beyond_period
-from viscontact.drawing.content.scale import AREAS, CELLS, ColourScale
+from viscontact.drawing.content.scale import ColourScale
 from viscontact.drawing.content.squared_pressure import squared_pressure
 from viscontact.drawing.content.window import Window
 from viscontact.drawing.matplotlib.layout import style
@@ -232,11 +232,11 @@ def fill_colour_bar(axes: Axes, scale: ColourScale) -> None:
 
 def _level_colours(scale: ColourScale) -> ScalarMappable:
     """Colours of the areas between levels."""
-    colours = ListedColormap(scale.colours(len(scale.levels) - 1, *AREAS))
+    colours = ListedColormap(scale.colours(len(scale.levels) - 1))
     return ScalarMappable(BoundaryNorm(scale.unit(scale.levels), colours.N), colours)
 
 
 def _cell_colours(scale: ColourScale) -> ScalarMappable:
     """Colours of cells."""
-    colours = ListedColormap(scale.colours(_COLOURS, *CELLS))
+    colours = ListedColormap(scale.colours(_COLOURS))
     return ScalarMappable(Normalize(*scale.unit(scale.limits)), colours)

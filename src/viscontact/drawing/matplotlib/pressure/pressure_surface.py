@@ -31,8 +31,6 @@ from viscontact.results.snapshots import Snapshot
 _NAME = "pressure-3d"
 #: A contact longer than this against its width is stretched: a blade shows nothing in space.
 _SLENDER = 2.2
-#: Part of the colours of pressure.
-_COLOURS = 0.12, 0.95
 
 
 def pressure_surface(
@@ -82,7 +80,7 @@ def pressure_surface(
         *(len(maps.maps), maps.window, (1.02 * low, 1.02 * high), (x.label, y.label)),
         page_width(width, usual),
     )
-    shown = ScalarMappable(Normalize(low, high), ListedColormap(scale.colours(256, *_COLOURS)))
+    shown = ScalarMappable(Normalize(low, high), ListedColormap(scale.colours(256)))
     for axes, each in zip(panels, maps.maps, strict=True):
         if each.snapshot.touching:
             _draw_foot(axes, each.snapshot, maps.window)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.notes import peak_note
-from viscontact.drawing.content.scale import AREAS, ColourScale, pressure_scale
+from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.stress_planes import StressPlane, grouped_sections
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.contour_labels import label_contours
@@ -118,7 +118,7 @@ def _draw(
     """Draw filled contours and their lines."""
     across, depths = length(section.across), length(section.depths)
     levels, values = scale.unit(scale.levels), scale.unit(section.stress)
-    colours = ListedColormap(scale.colours(len(levels) - 1, *AREAS))
+    colours = ListedColormap(scale.colours(len(levels) - 1))
     filled = axes.contourf(across, depths, values, levels=levels, cmap=colours)
     lines = axes.contour(
         across, depths, values, levels=levels[1:-1], colors=style.INK, linewidths=0.5
