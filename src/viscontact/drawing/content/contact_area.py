@@ -1,4 +1,4 @@
-"""Contact area over time: traced between the cells, and by counting cells."""
+"""Contact area over time, traced between the cells and by counting them, and areas of spots."""
 
 from __future__ import annotations
 
@@ -9,11 +9,21 @@ from numpy.typing import ArrayLike
 from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.drawing.content.history import limits_around
 from viscontact.drawing.content.panel import Axis, Curve, Ink, Panel
-from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
+from viscontact.results.contact_spots import spots_of
+from viscontact.results.snapshots import (
+    Snapshot,
+    field_times,
+    labels_of,
+    snapshot_reader,
+    take_snapshots,
+)
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import ReadableUnit, format_number, readable_unit
 
 _NAME = "contact_area"
+#: Least number of spots on a logarithmic axis.
+_MANY = 10
 
 
 def area_panel(results: xr.Dataset, times: ArrayLike | None, figure: str) -> Panel:
@@ -35,3 +45,30 @@ def _area_of_cells(snapshot: Snapshot) -> float:
     """Area of the cells in contact [m²]."""
     dx, dy = snapshot.cell_size
     return int(snapshot.in_contact.sum()) * dx * dy
+
+
+def spots_panel(results: xr.Dataset, times: ArrayLike | None, figure: str) -> Panel:
+    """Panel of the number of spots of an area or larger at some instants, named with the share."""
+    snapshots = [each for each in take_snapshots(results, times, figure) if each.touching]
+    found = [spots_of(results, each) for each in snapshots]
+    inks = [Ink("ordered", place) for place in np.linspace(0.0, 1.0, len(found)).tolist()]
+    curves = tuple(
+        Curve(
+            *(spots.areas, np.arange(1.0, spots.number + 1)),
+            f"{label}: {spots.number}, {format_number(100 * spots.fraction, 3)} %",
+            *(ink, "joined"),
+        )
+        for label, spots, ink in zip(labels_of(snapshots), found, inks, strict=True)
+    )
+    is_log = max(each.number for each in found) >= _MANY
+    largest = readable_unit("m²", max(each.areas[0] for each in found))
+    of = "period" if found[0].is_period else "convex hull"
+    return Panel(
+        Axis("Area of a spot", largest, scale="log"),
+        Axis(
+            *("Spots of this area or larger", ReadableUnit("-", 1.0)),
+            scale="log" if is_log else "linear",
+        ),
+        curves,
+        title=f"number of spots, contact in % of the {of}",
+    )

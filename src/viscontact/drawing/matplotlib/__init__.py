@@ -30,14 +30,18 @@ from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresi
 from viscontact.drawing.matplotlib.histories.margins import margin_history
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
-from viscontact.drawing.matplotlib.materials.creep import compare_creep, creep, creep_curve
 from viscontact.drawing.matplotlib.materials.fitted import (
     fitted_indentation,
     fitted_records,
     fitted_series,
 )
+from viscontact.drawing.matplotlib.materials.law_curves import (
+    compare_creep,
+    creep,
+    creep_curve,
+    material_curves,
+)
 from viscontact.drawing.matplotlib.materials.master_curve import master_curve
-from viscontact.drawing.matplotlib.materials.material_curves import material_curves
 from viscontact.drawing.matplotlib.motion.friction import friction
 from viscontact.drawing.matplotlib.motion.motion_profile import motion_profile
 from viscontact.drawing.matplotlib.pressure.contact_curves import (

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike
 
+from viscontact.drawing.content.contact_area import spots_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.results.contact_spots import spots_of
-from viscontact.results.snapshots import labels_of, take_snapshots
-from viscontact.units.formatting import format_number, readable_unit
-
-_NAME = "contact-spots"
+from viscontact.drawing.matplotlib.layout.panels import draw_panel
 
 
 def contact_spots(
@@ -52,27 +48,14 @@ def contact_spots(
     >>> contact_spots(ds).axes[0].get_ylabel()
     'Spots of this area or larger [-]'
     """
-    snapshots = [each for each in take_snapshots(results, times, _NAME) if each.touching]
-    found = [spots_of(results, each) for each in snapshots]
+    panel = spots_panel(results, times, "contact-spots")
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.4)
     axes = figure.subplots()
-    unit = readable_unit("m²", max(each.areas[0] for each in found))
-    for each, colour in zip(found, style.time_colours(len(found)), strict=True):
-        counts = np.arange(1, each.number + 1)
-        dot = {"marker": "o", "markersize": 3.2, "color": colour}
-        axes.loglog(unit(each.areas), counts, linewidth=style.LINE_WIDTH, **dot)
-    if max(each.number for each in found) < 10:
-        axes.set_yscale("linear")
+    draw_panel(axes, panel)
+    for line in axes.get_lines():
+        line.set_markersize(3.2)
+    if panel.y.scale == "linear":
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_ylim(0, None)
-    axes.set_xlabel(unit.label("Area of a spot"))
-    axes.set_ylabel("Spots of this area or larger [-]")
-    of = "period" if found[0].is_period else "convex hull"
-    labels = [
-        f"{label}: {each.number}, {format_number(100 * each.fraction, 3)} %"
-        for label, each in zip(labels_of(snapshots), found, strict=True)
-    ]
-    style.add_heading(axes, f"number of spots, contact in % of the {of}")
-    style.add_legend_below(figure, axes.get_lines(), labels)
-    style.dress(axes)
+    style.add_legend_below(figure, *axes.get_legend_handles_labels())
     return figure
