@@ -28,6 +28,7 @@ from viscontact.drawing.matplotlib.histories.exact import exact
 from viscontact.drawing.matplotlib.histories.history import compare_histories, history
 from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresis, hysteresis
 from viscontact.drawing.matplotlib.histories.margins import margin_history
+from viscontact.drawing.matplotlib.histories.steady_motion import friction, motion_profile
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.drawing.matplotlib.materials.fitted import (
@@ -42,8 +43,6 @@ from viscontact.drawing.matplotlib.materials.law_curves import (
     material_curves,
 )
 from viscontact.drawing.matplotlib.materials.master_curve import master_curve
-from viscontact.drawing.matplotlib.motion.friction import friction
-from viscontact.drawing.matplotlib.motion.motion_profile import motion_profile
 from viscontact.drawing.matplotlib.pressure.contact_curves import (
     compare_line_loads,
     compare_pressure_profiles,

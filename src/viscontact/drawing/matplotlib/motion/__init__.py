@@ -1,1 +1,0 @@
-"""Figures of contacts in steady motion: friction over speed, pressure along the motion."""
