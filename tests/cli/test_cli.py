@@ -645,7 +645,7 @@ def test_approach_control_is_shown_and_drawn_like_any_run(
     said = "press to 90 um in 1 s; withdraw to -50 um in 1 s"
     load = f"load={{kind: history, sentences: {said}, tilt_x: 2 mrad}}"
     assert main(["run", "case.yaml", "-q", *ADAPTIVE, "--set", load]) == 0
-    for figure in ("history", "hysteresis", "pressure-profile", "pressure-map"):
+    for figure in ("history", "hysteresis", "pressure-profile"):
         assert main(["plot", "case", figure]) == 0
     assert main(["show", "case"]) == 0
     shown = capsys.readouterr().out
@@ -811,11 +811,11 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
         return whole(replace(request, settings=("grid.shape=[64, 32]", "time.steps=2")))
 
     monkeypatch.setattr(execution, "execute", coarse)
-    two = ("pressure-map", "history")
-    monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", two)
+    one = ("history",)
+    monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", one)
     assert main(["demo", "-q"]) == 0
     kept = {path.name for path in Path("viscontact-demo").iterdir()}
-    assert {"result.nc", "case.yaml", "pressure-map.png", "history.png"} <= kept
+    assert {"result.nc", "case.yaml", "history.png"} <= kept
     monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", ())
     assert main(["demo", "-q"]) == 0
 

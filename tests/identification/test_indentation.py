@@ -143,7 +143,7 @@ def test_intervals_shrink_with_the_scatter_and_the_root_of_the_rows():
 
     assert width(101, 0.01) / width(101, 0.001) == pytest.approx(10.0, rel=0.01)
     # The scatter itself is estimated from the rows: 1/sqrt(2 * 25) uncertain.
-    assert width(25, 0.01) / width(401, 0.01) == pytest.approx(4.0, rel=0.3)
+    assert width(25, 0.01) / width(225, 0.01) == pytest.approx(3.0, rel=0.3)
 
 
 def test_the_elastic_interval_is_that_of_linear_regression():

@@ -36,11 +36,11 @@ def _rough():
 
 
 def _table():
-    # Past and present of 2 x 128 x 128 numbers, 40 times: what is summed is long enough for
+    # Past and present of 2 x 128 x 128 numbers, 20 times: what is summed is long enough for
     # libraries of linear algebra to share it out among threads.
     grid = vc.Grid((128, 128), (1.2e-3, 1.2e-3))
     load = vc.triangle(0.03, 4.0, eccentricity_x=2e-5)
-    return (vc.Sphere(5e-3), measured, load, grid, np.linspace(0.0, 10.0, 41)), {}
+    return (vc.Sphere(5e-3), measured, load, grid, np.linspace(0.0, 10.0, 21)), {}
 
 
 def _adaptive():

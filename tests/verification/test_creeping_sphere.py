@@ -86,10 +86,7 @@ def test_curved_load_of_a_users_class_is_followed_between_few_requested_times():
 
 
 #: Of each kind of law one; the others with the slow tests.
-BY_DEFAULT = {
-    *("zener", "solid_ball_on_a_fluid", "power_law", "fractional_maxwell_with_elastic_bulk"),
-    *("tabulated_creep", "tabulated_relaxation"),
-}
+BY_DEFAULT = {"zener", "solid_ball_on_a_fluid", "power_law", "tabulated_creep"}
 
 
 @pytest.mark.parametrize(

@@ -125,7 +125,7 @@ def test_area_and_extents_are_of_second_order(name: str) -> None:
     The extents end at the row or column nearest to their end, with a scatter of its own.
     """
     cells = np.array([10, 16, 26, 41])
-    errors = mean_errors(CASES[name](), cells, [24, 24, 16, 12])
+    errors = mean_errors(CASES[name](), cells, [16, 16, 12, 8])
     assert order(1 / cells, errors[:, 0]) > 1.7
     assert min(order(1 / cells, errors[:, k]) for k in (1, 2)) > 1.3
     assert errors[-1, 0] < 0.2 / cells[-1] ** 2

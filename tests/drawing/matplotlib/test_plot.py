@@ -55,8 +55,12 @@ def drawn(sphere: xr.Dataset) -> Callable[[str], Figure]:
 
 @pytest.mark.parametrize("name", sorted(FIGURES))
 def test_every_figure_of_a_sphere_draws(
-    name: str, drawn: Callable[[str], Figure], tmp_path: Path
+    name: str,
+    drawn: Callable[[str], Figure],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 80)
     path = tmp_path / f"{name}.png"
     save_figure(drawn(name), path)
     assert path.stat().st_size > 5000

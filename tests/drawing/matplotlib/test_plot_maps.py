@@ -122,7 +122,12 @@ def _map(contact: str) -> Figure:
     return FIGURES["pressure-map"](_result(*CONTACTS[contact]))
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+#: Those that another one is like.
+ALIKE = {"waves, 87 %", "waves upside down, 30 %", "rough"}
+EACH = [pytest.param(name, marks=pytest.mark.slow) if name in ALIKE else name for name in CONTACTS]
+
+
+@pytest.mark.parametrize("contact", EACH)
 def test_map_is_coloured_where_the_surface_is_pressed_and_nowhere_else(contact: str) -> None:
     figure = _map(contact)
     axes = figure.axes[0]
@@ -134,7 +139,7 @@ def test_map_is_coloured_where_the_surface_is_pressed_and_nowhere_else(contact: 
     np.testing.assert_array_equal(painted, pressed[shown])
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@pytest.mark.parametrize("contact", EACH)
 def test_outline_runs_along_the_rim_and_nowhere_else(contact: str) -> None:
     """Not along the border of a period, that is: contact runs on there."""
     height, share, periodic = CONTACTS[contact]

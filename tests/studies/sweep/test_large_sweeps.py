@@ -58,7 +58,7 @@ def test_memory_of_collecting_does_not_grow_with_the_scalars(
         return most
 
     peak(5)  # the first call imports
-    few, many = 20, 200
+    few, many = 20, 100
     scalars = 8 * 33 * 41  # [bytes a run]
     assert peak(many) - peak(few) < 0.2 * (many - few) * scalars
 
