@@ -73,7 +73,7 @@ def _full(*arguments: Any, **options: Any) -> None:
         (recorder, "save_checkpoint"),
     ],
 )
-@pytest.mark.parametrize("calls", [0, 4, pytest.param(10, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("calls", [0, 4, pytest.param(6, marks=pytest.mark.slow)])
 def test_full_disk_stops_the_run_which_continues_once_there_is_space(
     calls: int,
     where: Any,
@@ -106,7 +106,7 @@ def test_full_disk_stops_the_run_which_continues_once_there_is_space(
         number = 0
     else:
         number = int(kept.removeprefix("case keeps ").split()[0])
-        assert kept.startswith(f"case keeps {number} of 11 instants")
+        assert kept.startswith(f"case keeps {number} of 7 instants")
         assert number > 0
         _, less, saved = kept.partition("; a resumed run continues after ")
         number = int(saved) if less else number
@@ -115,7 +115,7 @@ def test_full_disk_stops_the_run_which_continues_once_there_is_space(
     assert main(words) == 0
     said = capsys.readouterr().err
     if number:
-        assert said.startswith(f"case: continuing after {number} of 11 instants")
+        assert said.startswith(f"case: continuing after {number} of 7 instants")
     assert same_bits("case", whole)
 
 
@@ -490,7 +490,7 @@ def test_failed_step_stands_at_the_end_of_the_result(
         assert main(["run", "case.yaml", "-q"]) == 1
     why, kept, remedy = said_in_lines(capsys)
     assert "short of the tolerance" in why
-    assert kept == "case keeps 4 of 11 instants"
+    assert kept == "case keeps 4 of 7 instants"
     assert "--resume" not in remedy
     with vc.open_results("case") as ds:
         assert ds.outcome.values.tolist()[-2:] == [vc.Outcome.CONVERGED, vc.Outcome.NOT_CONVERGED]

@@ -43,8 +43,9 @@ def test_mean_is_the_integral_over_the_interval(start, end):
     assert compliance.mean(end, end) == pytest.approx(compliance(end), rel=1e-12)
 
 
-@pytest.mark.parametrize("law", [TABLE, MODULI], ids=["creep table", "modulus table"])
-@pytest.mark.parametrize("bulk", [5e8, 5e9])
+@pytest.mark.parametrize(
+    ("law", "bulk"), [(TABLE, 5e8), (MODULI, 5e9)], ids=["creep table", "modulus table"]
+)
 def test_elastic_bulk_with_a_table_is_that_of_the_series_it_was_sampled_from(law, bulk):
     exact = Material(ZENER, bulk_modulus=bulk).contact_compliance()
     ours = Material(law, bulk_modulus=bulk).contact_compliance()

@@ -99,7 +99,7 @@ def test_inverse_over_twelve_decades_is_the_closed_form_within_its_estimate(pair
 @each_pair
 def test_inverse_keeps_its_direction_and_its_sign(pair):
     """Also long after everything has relaxed, where a line through each step would ring."""
-    values, _ = invert(pair.function, pair.mean, np.logspace(-6, 6, 1201))
+    values, _ = invert(pair.function, pair.mean, np.logspace(-6, 6, 601))
     direction = np.sign(pair.inverse(T)[-1] - pair.inverse(T)[0])
     assert (values > 0).all()
     assert (direction * np.diff(values) >= 0).all()
@@ -107,9 +107,9 @@ def test_inverse_keeps_its_direction_and_its_sign(pair):
 
 @each_pair
 def test_march_is_of_second_order_in_the_step_of_log_time(pair):
-    """Three halvings, from nodes a hundred times longer than the fastest relaxation on."""
+    """Two halvings, from nodes a hundred times longer than the fastest relaxation on."""
     errors = []
-    for steps in (8, 16, 32, 64):
+    for steps in (8, 16, 32):
         nodes = np.geomspace(1e-9, 1e5, 14 * steps + 1)
         values = march(pair.function, pair.mean, nodes, None)[1]
         nodes = nodes[: values.size]
