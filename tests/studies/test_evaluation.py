@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,7 @@ import pytest
 
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
 from viscontact.studies.executors.executor_choice import ChosenWorkers
-from viscontact.studies.journal import journal_in
+from viscontact.studies.journal import Entry, journal_in
 
 
 @dataclass(frozen=True)
@@ -26,11 +26,11 @@ class Root:
         """The number."""
         return repr(self.number)
 
-    def __call__(self) -> Mapping[str, Any]:
+    def __call__(self) -> Entry:
         """Compute it."""
         if self.number < 0:
             raise ValueError(f"no root of {self.number}\nand a second line")
-        return {"root": self.number**0.5}
+        return Entry({"root": self.number**0.5})
 
 
 class AtOnce(Executor):
@@ -49,7 +49,9 @@ class AtOnce(Executor):
 
 def roots(evaluation: Evaluation, *numbers: float, **options: Any) -> list[float]:
     """Roots of some numbers."""
-    return [each["root"] for each in evaluation.outcomes([Root(n) for n in numbers], **options)]
+    return [
+        each.values["root"] for each in evaluation.outcomes([Root(n) for n in numbers], **options)
+    ]
 
 
 def test_a_run_is_computed_and_counted_once() -> None:
@@ -77,7 +79,7 @@ def test_runs_beyond_the_budget_are_refused_before_they_begin() -> None:
 
 def test_a_failed_run_has_the_first_line_of_its_reason() -> None:
     found = Evaluation(Budget(2)).outcomes([Root(-1.0), Root(1.0)])
-    assert found == [{"failure": "no root of -1.0"}, {"root": 1.0}]
+    assert found == [Entry(failure="no root of -1.0"), Entry({"root": 1.0})]
 
 
 def test_outcomes_of_a_journal_count_but_are_not_computed(tmp_path: Path) -> None:

@@ -2,34 +2,55 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
 import pytest
 
-from viscontact.studies.journal import JOURNAL_NAME, journal_at, journal_in
+from viscontact.studies.journal import JOURNAL_NAME, Entry, journal_at, journal_in
 
 ARGUMENTS = {"case": "abc", "change": {"load.force": ("1 N", "2 N")}}
 
 
-def kept(place: Path, **runs: float) -> dict[str, object]:
+def kept(place: Path, **runs: float) -> dict[str, Entry]:
     """Journal in a directory after some runs."""
     with journal_in(place, "design", ARGUMENTS) as journal:
         assert journal is not None
         for key, value in runs.items():
-            journal.keep(key, {"value": value})
+            journal.keep(key, Entry({"value": value}))
         return dict(journal.recorded)
 
 
 def test_runs_are_found_again_by_their_values(tmp_path: Path) -> None:
     kept(tmp_path / "found", a=0.1, b=math.inf)
     assert kept(tmp_path / "found", c=1 / 3) == {
-        "a": {"value": 0.1},
-        "b": {"value": math.inf},
-        "c": {"value": 1 / 3},
+        "a": Entry({"value": 0.1}),
+        "b": Entry({"value": math.inf}),
+        "c": Entry({"value": 1 / 3}),
     }
-    assert kept(tmp_path / "found")["c"] == {"value": 1 / 3}
+    assert kept(tmp_path / "found")["c"] == Entry({"value": 1 / 3})
     assert len((tmp_path / "found" / JOURNAL_NAME).read_text().splitlines()) == 1 + 3
+
+
+@pytest.mark.parametrize(
+    ("line", "entry"),
+    [
+        ({"values": {"force": [1.0, 0.1]}, "warnings": ""}, Entry({"force": [1.0, 0.1]})),
+        (
+            {"value": 2.0, "error": 0.5, "warnings": "a\nb"},
+            Entry({"value": 2.0, "error": 0.5}, "", "a\nb"),
+        ),
+        ({"failure": "no contact"}, Entry(failure="no contact")),
+    ],
+)
+def test_entries_of_earlier_versions_are_read(
+    tmp_path: Path, line: dict[str, object], entry: Entry
+) -> None:
+    kept(tmp_path)
+    with (tmp_path / JOURNAL_NAME).open("a") as file:
+        file.write(json.dumps(["run", line]) + "\n")
+    assert kept(tmp_path) == {"run": entry}
 
 
 def test_a_line_that_a_killed_process_has_begun_is_removed(tmp_path: Path) -> None:
@@ -86,7 +107,7 @@ def test_two_journals_in_files_of_one_folder_are_independent(tmp_path: Path) -> 
     with journal_at(one, "fit", ARGUMENTS) as first, journal_at(other, "fit", ARGUMENTS) as second:
         assert first is not None
         assert second is not None
-        first.keep("a", {})
+        first.keep("a", Entry())
         with (
             pytest.raises(ValueError, match=r"one\.jsonl is in use by another run"),
             journal_at(one, "fit", ARGUMENTS),

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, Literal, Protocol
+from typing import Protocol
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.studies.executors.executor_choice import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
-from viscontact.studies.journal import Journal
+from viscontact.studies.journal import Entry, Journal
 
 #: Called with the numbers of runs, done and allowed, after each run.
 Progress = Callable[[int, int], None]
 
 
-#: Cells of a run: coarse ones of a search, or those of the case.
-Level = Literal["coarse", "case"]
-#: Entry of a run in a journal, as JSON has it.
-Entry = Mapping[str, Any]
+#: Name of the cells of a run, as "coarse" for those of a search and "case" for those of the case.
+Level = str
 
 
 class BudgetSpentError(Exception):
@@ -64,7 +63,7 @@ class Budget:
 
 @dataclass
 class Evaluation:
-    """Outcomes of runs by their keys; a failed run has the entry ``failure``, its reason."""
+    """Outcomes of runs by their keys."""
 
     budget: Budget
     workers: ChosenWorkers = IN_THIS_PROCESS
@@ -127,13 +126,25 @@ class Evaluation:
         return self.journal.recorded[key]
 
 
+@contextmanager
+def evaluating(
+    budget: Budget,
+    journal: AbstractContextManager[Journal | None],
+    workers: AbstractContextManager[ChosenWorkers],
+    progress: Progress | None,
+) -> Iterator[Evaluation]:
+    """Evaluation of a study, with its journal open and its workers started during a block."""
+    with journal as kept, workers as chosen:
+        yield Evaluation(budget, chosen, kept, progress)
+
+
 def _attempt(run: StudyRun) -> Entry:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # they are kept with the outcome
         try:
             return run()
         except (ValueError, ConvergenceError, DomainError) as error:
-            return {"failure": str(error).splitlines()[0]}
+            return Entry(failure=str(error).splitlines()[0])
 
 
 def _await_entry(future: Future[Entry]) -> Entry:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,27 @@ from viscontact.runs.directory.lock import DirectoryInUse, locked
 JOURNAL_NAME = "trials.jsonl"
 
 
+@dataclass(frozen=True)
+class Entry:
+    """Outcome of a run: its values as JSON has them, or the reason why there are none."""
+
+    values: Mapping[str, Any] = field(default_factory=dict)
+    failure: str = ""
+    warnings: str = ""  # a line each
+
+    @classmethod
+    def read(cls, found: Mapping[str, Any]) -> Entry:
+        """Entry of an object of JSON, in which earlier versions had values beside the texts."""
+        texts = {name: found[name] for name in ("failure", "warnings") if name in found}
+        own = {name: value for name, value in found.items() if name not in texts}
+        return cls(own.get("values", own), **texts)
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """The fields that are not empty."""
+        return {name: value for name, value in vars(self).items() if value}
+
+
 class Journal:
     """Outcomes of runs by their values, kept in a file; ValueError if it is of another study."""
 
@@ -25,18 +47,18 @@ class Journal:
         header = {"study": study, **json.loads(json.dumps(dict(arguments)))}
         if lines:
             _require_same(_read_line(path, 1, lines[0]), header, place)
-        self.recorded: dict[str, Mapping[str, Any]] = dict(
+        self.recorded: dict[str, Entry] = dict(
             _entry(path, n, line) for n, line in enumerate(lines[1:], 2)
         )
         # A line that a killed process has begun is removed.
         with replacing(path) as file:
             file.writelines(f"{line}\n".encode() for line in lines or [json.dumps(header)])
 
-    def keep(self, key: str, outcome: Mapping[str, Any]) -> None:
+    def keep(self, key: str, outcome: Entry) -> None:
         """Append the outcome of a run, as JSON."""
         with self._path.open("a", encoding="utf-8") as file:
             # JSON of Python has NaN and Infinity, which it also reads.
-            file.write(json.dumps([key, outcome]) + "\n")
+            file.write(json.dumps([key, outcome.as_json]) + "\n")
         self.recorded[key] = outcome
 
 
@@ -114,8 +136,8 @@ def _read_line(path: Path, number: int, line: str) -> Any:
         raise ValueError(f"{path}:{number}: is not a line of JSON; remove the file") from None
 
 
-def _entry(path: Path, number: int, line: str) -> tuple[str, Mapping[str, Any]]:
+def _entry(path: Path, number: int, line: str) -> tuple[str, Entry]:
     match _read_line(path, number, line):
         case [str(key), dict(outcome)]:
-            return key, outcome
+            return key, Entry.read(outcome)
     raise ValueError(f"{path}:{number}: is not a run of a study; remove the file")

@@ -14,8 +14,9 @@ from viscontact.studies.design.goals import Goal, constraints_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.trials import Trial, goal_name
-from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level
+from viscontact.studies.evaluation import Budget, Evaluation, Level
 from viscontact.studies.executors.executor_choice import ChosenWorkers
+from viscontact.studies.journal import Entry
 from viscontact.studies.scalars import Value
 
 #: Values of the parameters to the objective and, by name of the constraint, the other scalars.
@@ -34,11 +35,11 @@ class FunctionInPlaceOfARun:
     def __call__(self) -> Entry:
         """Evaluate the function."""
         if not self.settings:
-            return {"failure": "the case itself is not tried"}
+            return Entry(failure="the case itself is not tried")
         found = self.function({key: _number(text) for key, text in self.settings.items()})
         names = {goal.scalar: goal_name(goal) for goal in self.goals}
         values = {names.get(name, name): [v.value, v.error] for name, v in found.items()}
-        return {"values": values, "warnings": ""}
+        return Entry(values)
 
 
 class Rounds(Executor):

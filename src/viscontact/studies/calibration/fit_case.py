@@ -32,7 +32,7 @@ from viscontact.studies.case_values import (
     refuse_repeated,
     texts,
 )
-from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
+from viscontact.studies.evaluation import Budget, BudgetSpentError, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_at
 from viscontact.units.numbers import whole
@@ -191,11 +191,9 @@ def fit_case(  # noqa: PLR0913
         "cells": repr([(each.own_cells, each.coarse_cells) for each in experiments]),
     }
     at_a_time = len(experiments) * len(unknowns)
-    with (
-        journal_at(trials, "fit", arguments) as journal,
-        chosen_workers(workers, executor, client, at_a_time) as chosen,
-    ):
-        evaluation = Evaluation(Budget(most), chosen, journal, progress)
+    journal = journal_at(trials, "fit", arguments)
+    chosen = chosen_workers(workers, executor, client, at_a_time)
+    with evaluating(Budget(most), journal, chosen, progress) as evaluation:
         residuals = Residuals(experiments, unknowns, evaluation)
         found = _search(residuals, most)
         notes = tuple(notes_on(unknowns, found, confidence, most))

@@ -17,7 +17,8 @@ from viscontact.studies.calibration.unknowns import (
     is_of_machine,
     values_at,
 )
-from viscontact.studies.evaluation import Entry, Evaluation, Level
+from viscontact.studies.evaluation import Evaluation, Level
+from viscontact.studies.journal import Entry
 from viscontact.units.parsing import parse_any_quantity
 
 #: Part of the largest force below which the approach may be that of a body without contact.
@@ -94,9 +95,9 @@ class Residuals:
         self, run: RecordRun, outcome: Entry, values: Mapping[str, str]
     ) -> tuple[Floats, Bools]:
         """Fitted values of a record, and the mask of the rows that count."""
-        if "failure" in outcome:
-            raise NoResidualsError(outcome["failure"])
-        force, approach = (np.array(outcome[name]) for name in ("force", "approach"))
+        if outcome.failure:
+            raise NoResidualsError(outcome.failure)
+        force, approach = (np.array(outcome.values[name]) for name in ("force", "approach"))
         test = run.experiment
         jumps = np.append(np.diff(test.record.times) == 0, False)  # the row before each
         if test.compared == "force":

@@ -22,7 +22,8 @@ from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 from viscontact.studies.calibration.record import ContactRecord, Drive, compared_column
 from viscontact.studies.case_values import case_with
-from viscontact.studies.evaluation import Entry, Level
+from viscontact.studies.evaluation import Level
+from viscontact.studies.journal import Entry
 
 #: Cells of the search across the longer and the shorter edge of the grid, at least, if the case has
 #: more.
@@ -95,10 +96,8 @@ class RecordRun:
                 run = replace(run, problem=replace(run.problem, grid=case.automatic_grid))
             states = [state for state in March(run, warns=False) if state is not None]
         chosen = np.searchsorted([state.time for state in states], rows * (1 - 1e-12))
-        return {
-            name: [float(getattr(states[n], name)) for n in chosen]
-            for name in ("force", "approach")
-        }
+        names = ("force", "approach")
+        return Entry({name: [float(getattr(states[n], name)) for n in chosen] for name in names})
 
 
 def history_of(

@@ -33,7 +33,7 @@ from viscontact.studies.design.result_files import write_result
 from viscontact.studies.design.scenarios import Scenario, scenarios_of
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
-from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation, Level, Progress
+from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
 from viscontact.studies.scalars import require_instant
@@ -175,12 +175,10 @@ def design(  # noqa: PLR0913
         **{"constraints": repr(limits), "settings": fixed},
     }
     of_case = CaseTrials(path, fixed, scenarios, goals, limits, coarse_cells(own))
-    with (
-        journal_in(directory, "design", arguments) as journal,
-        chosen_workers(workers, executor, client) as chosen,
-    ):
-        evaluation = Evaluation(budget, chosen, journal, progress)
-        levels: tuple[Level, ...] = ("coarse", "case") if of_case.coarse else ("case",)
+    journal = journal_in(directory, "design", arguments)
+    chosen = chosen_workers(workers, executor, client)
+    with evaluating(budget, journal, chosen, progress) as evaluation:
+        levels = ("coarse", "case") if of_case.coarse else ("case",)
         trials = Trials(space, of_case, goals, limits, evaluation, levels, len(scenarios))
         found = _search(trials, of_case, values, _unused_tolerances(own, scatter))
         if directory is not None:

@@ -12,7 +12,8 @@ from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.penalised_cost import PenalisedCost
 from viscontact.studies.design.search import Foreseen, Point, Score, search
 from viscontact.studies.design.trials import ScenarioResult, Trial
-from viscontact.studies.evaluation import Budget, Entry, Evaluation, Level, StudyRun
+from viscontact.studies.evaluation import Budget, Evaluation, Level, StudyRun
+from viscontact.studies.journal import Entry
 from viscontact.studies.scalars import Value
 from viscontact.studies.space import Space
 
@@ -112,7 +113,5 @@ def searched(trials: Trials, objective: Objective, *, held: int = 0) -> Searched
 
 
 def _result(outcome: Entry) -> ScenarioResult:
-    if "failure" in outcome:
-        return ScenarioResult({}, outcome["failure"])
-    values = {name: Value(*each) for name, each in outcome["values"].items()}
-    return ScenarioResult(values, "", outcome["warnings"])
+    values = {name: Value(*each) for name, each in outcome.values.items()}
+    return ScenarioResult(values, outcome.failure, outcome.warnings)

@@ -12,7 +12,8 @@ from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.design.trials import REACH, goal_name
-from viscontact.studies.evaluation import Entry, Level
+from viscontact.studies.evaluation import Level
+from viscontact.studies.journal import Entry
 from viscontact.studies.scalars import magnitude
 
 #: Scalar without a limit at a sharp end, also where the cells do not resolve that.
@@ -70,4 +71,4 @@ class TrialRun:
             peaks = [goal_name(goal) for goal in self.goals if goal.scalar == PEAK]
             peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
             outcome |= {name: [outcome[name][0], math.inf] for name in peaks}
-        return {"values": outcome, "warnings": warned}
+        return Entry(outcome, warnings=warned)

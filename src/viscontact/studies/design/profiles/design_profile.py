@@ -29,7 +29,7 @@ from viscontact.studies.design.profiles.result import ProfileDesign
 from viscontact.studies.design.profiles.result_files import write_profile_design
 from viscontact.studies.design.profiles.tables import finite_table, tabulated
 from viscontact.studies.design.scenarios import scenarios_of
-from viscontact.studies.evaluation import Budget, Evaluation
+from viscontact.studies.evaluation import Budget, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
 from viscontact.studies.journal import journal_in
 from viscontact.studies.scalars import require_instant
@@ -149,11 +149,10 @@ def design_profile(  # noqa: PLR0913
         **{"profile": repr(curves), "at": str(at), "over": repr(scenarios)},
         **{"drop_tolerance": repr(tolerance), "settings": fixed, "runs": budget.most},
     }
-    with (
-        journal_in(directory, "design", arguments) as journal,
-        chosen_workers(workers, executor, client) as chosen,
-    ):
-        made = ProfileRuns(rollers, at, Evaluation(budget, chosen, journal, progress))
+    journal = journal_in(directory, "design", arguments)
+    chosen = chosen_workers(workers, executor, client)
+    with evaluating(budget, journal, chosen, progress) as evaluation:
+        made = ProfileRuns(rollers, at, evaluation)
         found = compared(made, _search(made, curves, tolerance), path, fixed)
         if directory is not None:
             write_profile_design(Path(directory), found)

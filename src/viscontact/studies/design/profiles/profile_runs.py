@@ -15,7 +15,8 @@ from viscontact.bodies.indenters.profile import Profile
 from viscontact.runs.single import simulate
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
-from viscontact.studies.evaluation import Entry, Evaluation
+from viscontact.studies.evaluation import Evaluation
+from viscontact.studies.journal import Entry
 from viscontact.studies.scalars import At, Value, magnitude
 
 #: Coarse cells from the middle of the roller to its end, and beyond it.
@@ -89,9 +90,10 @@ class ProfileRuns:
         ]
         found = self.evaluation.outcomes(runs, is_limited=False)
         for each in found:
-            if "failure" in each:
-                raise ValueError(each["failure"])
-        return min(each["least"] for each in found), max(each["largest"] for each in found)
+            if each.failure:
+                raise ValueError(each.failure)
+        least, largest = ([each.values[name] for each in found] for name in ("least", "largest"))
+        return min(least), max(largest)
 
     def certified(
         self, profiles: Sequence[Profile | None]
@@ -133,7 +135,8 @@ class RowPeaks:
         rows, gaps = found["pressure"].values.max(axis=2), found["gap"].values.min(axis=2)
         inside, at_end = x < margin, (x > margin) & (x < self.end)
         forbidden = (rows - rows.max() / self.amplitude * gaps)[:, at_end]
-        return {"rows": rows[:, inside].ravel().tolist(), "forbidden": forbidden.ravel().tolist()}
+        values = {"rows": rows[:, inside], "forbidden": forbidden}
+        return Entry({name: each.ravel().tolist() for name, each in values.items()})
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +151,7 @@ class Widths:
         found = simulate(**self.recipe)
         loaded = found["force"].values > 0.5 * found["force"].values.max()
         widths = found["contact_width"].values[loaded]
-        return {"least": float(widths.min()), "largest": float(widths.max())}
+        return Entry({"least": float(widths.min()), "largest": float(widths.max())})
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +169,7 @@ class CertifiedPeak:
         warned = str(found.attrs.get("warnings", ""))
         is_sharp = reaches_sharp_end(self.recipe["indenter"], warned)
         bar = np.inf if is_sharp else value.error
-        return {"value": value.value, "error": float(bar), "warnings": warned}
+        return Entry({"value": value.value, "error": float(bar)}, warnings=warned)
 
 
 def _profile_key(profile: Profile | None) -> str:
@@ -199,18 +202,19 @@ def fine_grid(grid: Grid) -> Grid:
     return Grid((CERTIFIED * along, CERTIFIED * across + 1), grid.size)
 
 
-def _values(found: Sequence[Mapping[str, Any]]) -> tuple[list[Value], tuple[str, ...]]:
-    values = [Value(each.get("value", np.nan), each.get("error", np.nan)) for each in found]
-    lines = [line for each in found for line in each.get("warnings", "").splitlines()]
-    failures = [each["failure"] for each in found if "failure" in each]
+def _values(found: Sequence[Entry]) -> tuple[list[Value], tuple[str, ...]]:
+    none = {"value": np.nan, "error": np.nan}
+    values = [Value(**(none | each.values)) for each in found]
+    lines = [line for each in found for line in each.warnings.splitlines()]
+    failures = [each.failure for each in found if each.failure]
     return values, tuple(dict.fromkeys([*failures, *lines]))
 
 
 def _join(outcomes: Sequence[Entry]) -> RowPressures | None:
-    if any("failure" in each for each in outcomes):
+    if any(each.failure for each in outcomes):
         return None
     rows, forbidden = (
-        np.concatenate([np.array(each[name]) for each in outcomes])
+        np.concatenate([np.array(each.values[name]) for each in outcomes])
         for name in ("rows", "forbidden")
     )
     return RowPressures(rows, forbidden)
