@@ -62,6 +62,12 @@ def test_a_design_is_continued_with_resume_only(capsys: pytest.CaptureFixture[st
     assert Path("found/trials.jsonl").read_text() == trials
     assert main([*COMMAND, "--change", "indenter.radius=4 mm,7 mm", "--resume"]) == 2
     assert "holds another design, with a different change" in capsys.readouterr().err
+    assert main([*COMMAND, *RADIUS, "--resume", "--overwrite"]) == 2
+    assert "give one of them" in capsys.readouterr().err
+    assert main([*COMMAND, "--change", "indenter.radius=4 mm", "--overwrite"]) == 2
+    assert Path("found/trials.jsonl").read_text() == trials  # refused before it is replaced
+    assert main([*COMMAND, "--change", "indenter.radius=4 mm,7 mm", "--overwrite", "-q"]) == 0
+    assert "7 mm" in Path("found/trials.jsonl").read_text()
 
 
 @pytest.mark.slow

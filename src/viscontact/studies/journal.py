@@ -64,7 +64,11 @@ class Journal:
 
 @contextmanager
 def journal_in(
-    directory: str | PathLike[str] | None, study: str, arguments: Mapping[str, Any]
+    directory: str | PathLike[str] | None,
+    study: str,
+    arguments: Mapping[str, Any],
+    *,
+    overwrite: bool = False,
 ) -> Iterator[Journal | None]:
     """Lock a study's directory and open its journal; None without, ValueError if in use."""
     if directory is None:
@@ -76,6 +80,8 @@ def journal_in(
     place.mkdir(parents=True, exist_ok=True)
     try:
         with locked(place):
+            if overwrite:
+                (place / JOURNAL_NAME).unlink(missing_ok=True)
             where = f"{place}: holds another {study}|choose another directory"
             yield Journal(place / JOURNAL_NAME, study, arguments, where)
     except DirectoryInUse as error:
@@ -84,7 +90,11 @@ def journal_in(
 
 @contextmanager
 def journal_at(
-    path: str | PathLike[str] | None, study: str, arguments: Mapping[str, Any]
+    path: str | PathLike[str] | None,
+    study: str,
+    arguments: Mapping[str, Any],
+    *,
+    overwrite: bool = False,
 ) -> Iterator[Journal | None]:
     """Lock a file and open the journal of a study in it; None without a file."""
     if path is None:
@@ -96,6 +106,8 @@ def journal_at(
     place.mkdir(parents=True, exist_ok=True)
     try:
         with locked(place):
+            if overwrite:
+                file.unlink(missing_ok=True)
             where = f"{file}: holds the runs of another {study}|choose another file"
             yield Journal(file, study, arguments, where)
     except DirectoryInUse:

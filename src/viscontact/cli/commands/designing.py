@@ -11,6 +11,7 @@ from viscontact.cli.commands.study_options import (
     CaseFile,
     Instant,
     Jobs,
+    Overwrite,
     Quiet,
     Resume,
     Scheduler,
@@ -105,9 +106,10 @@ def design(
     constraint: Constraints = None,
     settings: Settings = None,
     runs: Runs = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = None,
     scheduler: Scheduler = None,
     resume: Resume = False,
+    overwrite: Overwrite = False,
     quiet: Quiet = False,
 ) -> None:
     """Find the values of a case for which a scalar is least or largest.

@@ -189,9 +189,12 @@ Report = Annotated[
     ),
 ]
 Runs = Annotated[int | None, study_options.runs("Most runs.", _BY_RUNS)]
-Jobs = Annotated[int, study_options.jobs(_BY_RUNS)]
+Jobs = Annotated[int | None, study_options.jobs(_BY_RUNS)]
 Scheduler = Annotated[str | None, study_options.scheduler(_BY_RUNS)]
 Resume = Annotated[bool, study_options.resume("Continue an interrupted fit.", _BY_RUNS)]
+Overwrite = Annotated[
+    bool, study_options.overwrite("Replace the runs of an interrupted fit.", _BY_RUNS)
+]
 Quiet = Annotated[bool, study_options.quiet(panel=_BY_RUNS)]
 
 
@@ -222,9 +225,10 @@ def fit(
     rows: Rows = 60,
     runs: Runs = None,
     report: Report = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = None,
     scheduler: Scheduler = None,
     resume: Resume = False,
+    overwrite: Overwrite = False,
     quiet: Quiet = False,
 ) -> None:
     """Fit a law to measured creep, relaxation, oscillation or indentation.

@@ -134,7 +134,7 @@ def run(
     method: SamplingMethod = None,
     array: Array = None,
     task: TaskNumber = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = None,
     scheduler: Scheduler = None,
     threads: Threads = 1,
     quiet: QuietRun = False,

@@ -10,6 +10,7 @@ from viscontact.cli.commands.study_options import (
     CaseFile,
     Instant,
     Jobs,
+    Overwrite,
     Quiet,
     Resume,
     Scheduler,
@@ -65,9 +66,10 @@ def sensitivity(
     at: Instant = "worst",
     step: Step = 0.1,
     settings: Settings = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = None,
     scheduler: Scheduler = None,
     resume: Resume = False,
+    overwrite: Overwrite = False,
     quiet: Quiet = False,
 ) -> None:
     """Find how much scalars of the result depend on each number of a case.

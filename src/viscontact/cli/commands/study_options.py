@@ -28,7 +28,7 @@ Instant = Annotated[
 
 def jobs(panel: str | None = None) -> Any:
     """Option of the number of parallel runs, in a panel of the help."""
-    words = "Number of runs at the same time."
+    words = "Number of runs at the same time; by default that of the cores."
     return typer.Option("-j", "--jobs", min=1, metavar="N", help=words, rich_help_panel=panel)
 
 
@@ -52,14 +52,19 @@ def resume(words: str = "Continue what DIR holds.", panel: str | None = None) ->
     return typer.Option("--resume", help=words, rich_help_panel=panel)
 
 
+def overwrite(words: str, panel: str | None = None) -> Any:
+    """Option to begin again."""
+    return typer.Option("--overwrite", help=words, rich_help_panel=panel)
+
+
 def quiet(words: str = "Print the result only.", panel: str | None = None) -> Any:
     """Option without messages."""
     return typer.Option("--quiet", "-q", help=words, rich_help_panel=panel)
 
 
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")]
+Overwrite = Annotated[bool, overwrite("Replace the result that DIR holds.")]
 Scheduler = Annotated[str | None, scheduler()]
-Jobs = Annotated[int, jobs()]
+Jobs = Annotated[int | None, jobs()]
 Resume = Annotated[bool, resume()]
 Quiet = Annotated[bool, quiet()]
 QuietRun = Annotated[bool, quiet("Print errors only.")]

@@ -29,6 +29,7 @@ _OF_RUNS = (
     "runs",
     "report",
     "scheduler",
+    "overwrite",
 )
 
 
@@ -98,7 +99,7 @@ def _fit(typed: Mapping[str, Any], trials: Path) -> CaseFit:
                 trials.unlink(missing_ok=True)
             raise
 
-    remedy = "continue it with --resume, or remove the file"
+    remedy = "continue it with --resume, or replace it with --overwrite"
     refusal = f"holds the runs of an interrupted fit; {remedy}"
     records = Records(trials, trials, "the finished runs", refusal)
     found = performed(fit, records, typed)

@@ -37,9 +37,11 @@ def execute_design(typed: Mapping[str, Any]) -> None:
 
 def trials_in(directory: Path) -> Records:
     """Trials in the directory of a design."""
-    remedy = "continue it with --resume, or choose another directory with -o DIR"
-    place = directory / JOURNAL_NAME
-    return Records(directory, place, "the finished trials", f"holds a design already; {remedy}")
+    refusal = (
+        "holds a design already; continue it with --resume, replace it with --overwrite, or choose "
+        "another directory with -o DIR"
+    )
+    return Records(directory, directory / JOURNAL_NAME, "the finished trials", refusal)
 
 
 def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:

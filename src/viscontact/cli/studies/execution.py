@@ -44,15 +44,18 @@ class Records:
     content: str = "the runs"
     #: Reason and remedy where the records of an earlier command are there.
     refusal: str = (
-        "holds runs already; continue them with --resume, or choose another directory with -o DIR"
+        "holds runs already; continue them with --resume, replace them with --overwrite, or choose "
+        "another directory with -o DIR"
     )
 
-    def refuse_begun(self, *, resume: bool, quiet: bool) -> None:
-        """Refuse to begin a study that has begun, unless it is resumed."""
-        has_begun = self.file.exists()
-        if has_begun and not resume:
+    def refuse_begun(self, typed: Mapping[str, Any]) -> None:
+        """Refuse to begin a study that has begun, unless it is resumed or overwritten."""
+        has_begun, resume = self.file.exists(), typed["resume"]
+        if resume and typed["overwrite"]:
+            refuse("--resume continues runs and --overwrite starts them again: give one of them")
+        if has_begun and not resume and not typed["overwrite"]:
             refuse(f"{self.place}: {self.refusal}")
-        if resume and not has_begun and not quiet:
+        if resume and not has_begun and not typed["quiet"]:
             say(f"{self.place}: nothing is saved there yet; starting at the beginning")
 
 
@@ -61,10 +64,10 @@ def performed(
 ) -> T:
     """Result of a study with the typed options; its failures end the command."""
     quiet: bool = typed["quiet"]
-    records.refuse_begun(resume=typed["resume"], quiet=quiet)
+    records.refuse_begun(typed)
     try:
         with _workers(typed) as workers, counted("runs", quiet=quiet, line=line) as progress:
-            return study(progress=progress, **workers)
+            return study(progress=progress, overwrite=typed["overwrite"], **workers)
     except CaseError as error:
         refuse(*map(as_typed, error.problems))
     except (InfeasibleError, ConvergenceError, DomainError) as error:
@@ -90,8 +93,10 @@ def _workers(typed: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         yield {"workers": typed["jobs"]}
         return
     from viscontact.cli.sweep.cluster import connected
+    from viscontact.studies.executors.chosen import number_of_workers
 
-    with connected(typed["scheduler"], typed["jobs"], quiet=typed["quiet"]) as client:
+    count = number_of_workers(typed["jobs"])
+    with connected(typed["scheduler"], count, quiet=typed["quiet"]) as client:
         yield {"client": client}
 
 

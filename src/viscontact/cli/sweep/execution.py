@@ -16,6 +16,7 @@ from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, RunStage
+from viscontact.studies.executors.chosen import number_of_workers
 from viscontact.studies.executors.driver import Workers, drive
 from viscontact.studies.executors.local import LocalTasks, LocalWorkers
 from viscontact.studies.sweep.states import State, state_at_end
@@ -46,9 +47,11 @@ def _workers(
     request: ManyRequest, jobs: Sequence[Job], interruption: Interruption
 ) -> Iterator[Workers]:
     """Workers of this machine, or those of a scheduler."""
-    quiet, at_once = request.common.quiet, min(request.jobs, fitting(jobs), max(1, len(jobs)))
-    if not quiet and not request.is_elsewhere:
-        for line in resource_warnings(jobs, request.jobs, at_once, request.common.threads):
+    quiet, threads = request.common.quiet, request.common.threads
+    wanted = request.jobs or max(1, number_of_workers(None) // threads)
+    at_once = min(wanted, fitting(jobs), max(1, len(jobs)))
+    if request.jobs and not quiet and not request.is_elsewhere:
+        for line in resource_warnings(jobs, wanted, at_once, threads):
             say(line)
     if request.scheduler:
         place = request.common.output or request.cases[0].parent

@@ -52,7 +52,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
             seconds=_longest_duration([sweep.jobs[number] for number in left]),
             logs=script.parent.resolve() / f"{script.stem}-logs",
             threads=request.common.threads,
-            at_once=request.jobs if request.jobs > 1 else None,
+            at_once=request.jobs,
             program=_program(),
         )
         text = text_of(array)

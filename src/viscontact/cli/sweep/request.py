@@ -29,7 +29,7 @@ class ManyRequest:
     cases: tuple[Path, ...]
     common: RunRequest  # its case is ignored, its output holds the run directories
     options: PlanOptions = field(default_factory=PlanOptions)
-    jobs: int = 1
+    jobs: int | None = None  # as many as there are cores
     scheduler: str = ""  # of a cluster: address, file, or local
 
     @property
@@ -65,7 +65,7 @@ class ManyRequest:
         _, *options = replace(self.common, resume=False, overwrite=False).words()
         yield from options
         yield from self.options.words()
-        if self.jobs != 1:
+        if self.jobs is not None:
             yield from ("-j", str(self.jobs))
         if self.scheduler:
             yield from ("--scheduler", self.scheduler)

@@ -56,6 +56,7 @@ def fit_case(  # noqa: PLR0913
     executor: Executor | None = None,
     client: Any = None,
     trials: str | PathLike[str] | None = None,
+    overwrite: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> CaseFit:
     """Fit values of a case to measured records by runs of the case, with confidence intervals.
@@ -101,6 +102,8 @@ def fit_case(  # noqa: PLR0913
     trials : path-like, optional
         Keep each run in this file; the same call again goes on from there. One fit at a time writes
         to it.
+    overwrite : bool, optional
+        Begin again, in place of the runs that the file holds.
     progress : callable, optional
         Called after each run with the number of runs so far and the most allowed ones.
 
@@ -191,7 +194,7 @@ def fit_case(  # noqa: PLR0913
         "cells": repr([(each.own_cells, each.coarse_cells) for each in experiments]),
     }
     at_a_time = len(experiments) * len(unknowns)
-    journal = journal_at(trials, "fit", arguments)
+    journal = journal_at(trials, "fit", arguments, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client, at_a_time)
     with evaluating(Budget(most), journal, chosen, progress) as evaluation:
         residuals = Residuals(experiments, unknowns, evaluation)

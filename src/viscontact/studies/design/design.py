@@ -60,6 +60,7 @@ def design(  # noqa: PLR0913
     executor: Executor | None = None,
     client: Any = None,
     directory: str | PathLike[str] | None = None,
+    overwrite: bool = False,
     progress: Progress | None = None,
 ) -> DesignResult:
     """Find the values of some parameters of a case for which a scalar is least or largest.
@@ -109,6 +110,8 @@ def design(  # noqa: PLR0913
         Keep the trials there, in ``trials.jsonl``; the same call again goes on where the first one
         was interrupted. In the end it has the best case, ``best.yaml``, and the table,
         ``trials.nc``.
+    overwrite : bool, optional
+        Begin again, in place of the runs that the directory holds.
     progress : callable, optional
         Called after each run with the number of runs so far and the most allowed ones.
 
@@ -175,7 +178,7 @@ def design(  # noqa: PLR0913
         **{"constraints": repr(limits), "settings": fixed},
     }
     of_case = CaseTrials(path, fixed, scenarios, goals, limits, coarse_cells(own))
-    journal = journal_in(directory, "design", arguments)
+    journal = journal_in(directory, "design", arguments, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:
         levels = ("coarse", "case") if of_case.coarse else ("case",)

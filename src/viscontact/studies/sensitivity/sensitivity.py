@@ -23,7 +23,7 @@ from viscontact.studies.case_values import (
     texts,
 )
 from viscontact.studies.evaluation import Progress
-from viscontact.studies.executors.executor_choice import refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import refuse_import_by_a_worker, require_executor
 from viscontact.studies.scalars import At, require_instant
 from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
@@ -31,7 +31,9 @@ from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned
 from viscontact.studies.sensitivity.result import SensitivityResult
 from viscontact.studies.sensitivity.samples import samples_of
 from viscontact.studies.sensitivity.table import derivative_table, scatter_table
-from viscontact.studies.sweep.many import simulate_many
+from viscontact.studies.sweep.many import tasks_of
+from viscontact.studies.sweep.open_many import open_many
+from viscontact.studies.sweep.recorded_many import record_many
 from viscontact.studies.sweep.varied_runs import VariedRun
 from viscontact.units.numbers import positive
 
@@ -61,6 +63,7 @@ def sensitivity(  # noqa: PLR0913
     executor: Executor | None = None,
     client: Any = None,
     directory: str | PathLike[str] | None = None,
+    overwrite: bool = False,
     progress: Progress | None = None,
 ) -> SensitivityResult:
     """Return derivatives and elasticities of scalars of the result by the inputs of a case.
@@ -104,6 +107,8 @@ def sensitivity(  # noqa: PLR0913
     directory : path-like, optional
         Keep the runs there; the same call again computes only what is left, with other outputs
         nothing. By default a temporary directory.
+    overwrite : bool, optional
+        Begin again, in place of the runs that the directory holds.
     progress : callable, optional
         Called after each run with the number of runs so far and that of all.
 
@@ -151,6 +156,7 @@ def sensitivity(  # noqa: PLR0913
     0.67
     """
     refuse_import_by_a_worker()
+    require_executor(executor, client, workers)
     path, fixed = case_path(case), texts(settings)
     outputs, length = checked_outputs(of), positive("step", step)
     if length > MOST_STEP:
@@ -168,19 +174,19 @@ def sensitivity(  # noqa: PLR0913
     sampled, rounded = samples_of(wanted, samples, seed)
     scattered = [each.key for each in sampled.inputs] if sampled else []
     refuse_repeated(scatter=scattered, settings=list(fixed))
-    plan, notes = planned(path, fixed, inputs, length, place, sampled, chosen=change is not None)
+    begun = None if overwrite else place
+    plan, notes = planned(path, fixed, inputs, length, begun, sampled, chosen=change is not None)
     notes = [*(toleranced if sampled else ()), *rounded, *notes]
 
     def joint(runs: Sequence[VariedRun], folder: Path) -> xr.Dataset:
-        return simulate_many(
-            runs,
-            executor=executor,
-            client=client,
-            directory=folder,
-            workers=workers,
-            progress=lambda run, done, total: progress(done, total) if progress else None,
-            return_exceptions=True,
-        )
+        def ended(run: int, done: int, total: int) -> None:
+            if progress:
+                progress(done, total)
+
+        how = {"return_exceptions": True, "overwrite": overwrite}
+        with tasks_of(runs, folder, executor, client, workers) as tasks:
+            record_many(runs, folder, tasks, ended, **how)
+        return open_many(folder)
 
     return _compute(plan, outputs, at, notes, place, joint)
 

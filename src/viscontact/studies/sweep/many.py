@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -153,9 +153,7 @@ def simulate_many(
     require_executor(executor, client, workers)
     if directory is not None:
         place, shown = Path(directory), report or _no_progress
-        if place.exists() and not place.is_dir():
-            raise ValueError(f"directory: {place} is a file; name a directory for the runs")
-        with _tasks(recipes, place, executor, client, workers) as tasks:
+        with tasks_of(recipes, place, executor, client, workers) as tasks:
             record_many(recipes, place, tasks, shown, return_exceptions=return_exceptions)
         return open_many(place)
     if client is not None:
@@ -175,10 +173,12 @@ def simulate_many(
 
 
 @contextmanager
-def _tasks(
-    recipes: list[Recipe], directory: Path, executor: Executor | None, client: Any, workers: Any
+def tasks_of(
+    recipes: Sequence[Recipe], directory: Path, executor: Executor | None, client: Any, workers: Any
 ) -> Iterator[Workers]:
     """Workers of runs that are recorded."""
+    if directory.exists() and not directory.is_dir():
+        raise ValueError(f"directory: {directory} is a file; name a directory for the runs")
     if executor is not None or client is not None:
         chosen = dask_executor(client) if executor is None else lambda memory: executor
         with RemoteTasks(chosen, directory, _REMEDY) as remote:
@@ -193,7 +193,7 @@ def _no_progress(run: int, done: int, total: int) -> None:
     """Show nothing."""
 
 
-def _affordable(recipes: list[Recipe], wanted: int) -> int:
+def _affordable(recipes: Sequence[Recipe], wanted: int) -> int:
     """Number of parallel runs that fit into the free memory, as far as is known."""
     needs, available = sorted(map(known_memory, recipes))[-wanted:], available_memory()
     count = max(1, fitting(needs, available))

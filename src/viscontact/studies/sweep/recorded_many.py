@@ -39,14 +39,17 @@ def record_many(
     progress: Progress,
     *,
     return_exceptions: bool,
+    overwrite: bool = False,
 ) -> None:
-    """Compute runs in directories within one, or what remains of them.
+    """Compute runs in directories within one, or what remains of them unless they are overwritten.
 
     ValueError if a run cannot be recorded, or the directory holds other runs; RuntimeError after
     the end of all runs if any has failed, unless `return_exceptions`.
     """
-    runs = _write_runs(recipes, directory)
-    jobs = [_job(run, recipe, directory) for run, recipe in zip(runs, recipes, strict=True)]
+    runs = _write_runs(recipes, directory, [] if overwrite else recorded_runs(directory))
+    jobs = [
+        _job(run, recipe, directory, overwrite) for run, recipe in zip(runs, recipes, strict=True)
+    ]
     given = {job.directory: recipe for job, recipe in zip(jobs, recipes, strict=True)}
     digests = {job.directory: run.digests for job, run in zip(jobs, runs, strict=True)}
 
@@ -67,11 +70,12 @@ def record_many(
         raise RuntimeError("\n".join((f"{len(failed)} of {len(jobs)} runs failed", *lines)))
 
 
-def _write_runs(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
+def _write_runs(
+    recipes: Sequence[Recipe], directory: Path, earlier: Sequence[SweepRun]
+) -> list[SweepRun]:
     """Write the manifest of runs, and return its lines; ValueError if it is one of other runs."""
     if not recipes:
         raise ValueError("runs: there are none to record")
-    earlier = recorded_runs(directory)
     place = directory.resolve()
     cases = {each.case for each in recipes if isinstance(each, VariedRun)}
     names = {case: case_name(case, place) for case in cases}
@@ -135,10 +139,10 @@ def _refuse_changed_case(before: SweepRun, now: SweepRun, directory: Path) -> No
         )
 
 
-def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:
+def _job(run: SweepRun, recipe: Recipe, directory: Path, overwrite: bool) -> Job:
     place = directory / run.directory
     case = recipe.case if isinstance(recipe, VariedRun) else Path(run.directory)
-    request = RunRequest(case, place, resume=True, settings=run.assignments)
+    request = RunRequest(case, place, overwrite, not overwrite, settings=run.assignments)
     memory = known_memory(recipe)
     return Job(request, place, run.name, RunStage.STOPPED, None, 0.0, 1.0, memory)
 

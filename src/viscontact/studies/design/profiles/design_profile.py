@@ -55,6 +55,7 @@ def design_profile(  # noqa: PLR0913
     executor: Executor | None = None,
     client: Any = None,
     directory: str | PathLike[str] | None = None,
+    overwrite: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> ProfileDesign:
     """Find the drop curve of a roller for which the peak pressure is least.
@@ -90,6 +91,8 @@ def design_profile(  # noqa: PLR0913
         Keep the runs there, in ``trials.jsonl``; the same call again goes on where the first one
         was interrupted. In the end it has the best case, ``best.yaml``, the profile as
         ``profile.csv`` and ``profile.dxf``, and the table ``trials.nc``.
+    overwrite : bool, optional
+        Begin again, in place of the runs that the directory holds.
     progress : callable, optional
         Called after each run with the number of runs so far and the most allowed ones.
 
@@ -149,7 +152,7 @@ def design_profile(  # noqa: PLR0913
         **{"profile": repr(curves), "at": str(at), "over": repr(scenarios)},
         **{"drop_tolerance": repr(tolerance), "settings": fixed, "runs": budget.most},
     }
-    journal = journal_in(directory, "design", arguments)
+    journal = journal_in(directory, "design", arguments, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:
         made = ProfileRuns(rollers, at, evaluation)
