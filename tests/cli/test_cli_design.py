@@ -45,7 +45,7 @@ def test_a_design_writes_the_best_case_and_the_trials(capsys: pytest.CaptureFixt
 
 
 def test_the_worst_corner_of_a_scatter_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viscontact.cli.studies.design.write_report", lambda *_: None)
+    monkeypatch.setattr("viscontact.cli.studies.execution.write_report", lambda *_: None)
     assert main([*COMMAND, *RADIUS, "--scatter", "load.force=50mN:0.2N", "-q"]) == 0
     with xr.open_dataset("found/trials.nc") as table:
         names = ["as in the case", "with force 0.05 N", "with force 0.2 N"]

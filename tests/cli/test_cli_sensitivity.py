@@ -35,13 +35,12 @@ def test_a_sensitivity_writes_table_and_report_and_is_continued(
     assert page.count("data:image/svg+xml") == 1
     assert main([*COMMAND, "--of", "approach"]) == 2
     assert "found: holds runs already; continue them with --resume" in capsys.readouterr().err
-    assert main([*COMMAND, "--of", "approach", "--set", "load.force=2 N", "--overwrite", "-q"]) == 0
+    twice = ("--set", "load.force=2 N", "-q")
+    assert main([*COMMAND, "--of", "approach", *twice, "--overwrite"]) == 0
     assert capsys.readouterr().out.startswith("approach = 116.")  # Hertz: 2^(2/3) as large
     # Another output needs no other run.
     before = Path("found/load.force+1/result.nc").stat().st_mtime_ns
-    assert (
-        main([*COMMAND, "--of", "contact_area", "--set", "load.force=2 N", "--resume", "-q"]) == 0
-    )
+    assert main([*COMMAND, "--of", "contact_area", *twice, "--resume"]) == 0
     assert Path("found/load.force+1/result.nc").stat().st_mtime_ns == before
     with xr.open_dataset("found/sensitivity.nc") as table:
         assert table["output"].values.tolist() == ["contact_area"]

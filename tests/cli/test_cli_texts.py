@@ -40,8 +40,8 @@ def test_garbage_is_not_collected_during_imports() -> None:
 
 
 def test_message_about_an_argument_names_the_option() -> None:
-    assert as_typed("constraints: write SCALAR<=VALUE") == "--constraint: write SCALAR<=VALUE"
-    assert as_typed("runs must be above zero") == "--runs must be above zero"
+    assert as_typed("constraints: write SCALAR<=VALUE", {}) == "--constraint: write SCALAR<=VALUE"
+    assert as_typed("runs must be above zero", {"runs": 0}) == "--runs must be above zero"
 
 
 def test_several_names_have_a_plural_noun() -> None:

@@ -7,17 +7,7 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.commands import study_options
-from viscontact.cli.commands.study_options import (
-    CaseFile,
-    Instant,
-    Jobs,
-    Overwrite,
-    Quiet,
-    Resume,
-    Scheduler,
-    Settings,
-    StudyDirectory,
-)
+from viscontact.cli.commands.study_options import Instant
 
 Changes = Annotated[
     list[str] | None,
@@ -92,9 +82,8 @@ Runs = Annotated[
 ]
 
 
+@study_options.study("viscontact.cli.studies.design")
 def design(
-    case: CaseFile,
-    output: StudyDirectory,
     change: Changes = None,
     minimise: Minimised = None,
     maximise: Maximised = None,
@@ -104,13 +93,7 @@ def design(
     profile: Profile = None,
     drop_tolerance: DropTolerance = None,
     constraint: Constraints = None,
-    settings: Settings = None,
     runs: Runs = None,
-    jobs: Jobs = None,
-    scheduler: Scheduler = None,
-    resume: Resume = False,
-    overwrite: Overwrite = False,
-    quiet: Quiet = False,
 ) -> None:
     """Find the values of a case for which a scalar is least or largest.
 
@@ -118,9 +101,3 @@ def design(
     gets best.yaml, trials.nc and report.html. With --profile free, the drop curve of a roller is
     found.
     """
-    typed = dict(locals())
-    from viscontact.cli.studies.design import execute_design
-    from viscontact.cli.studies.profiles import execute_profile_design
-
-    is_profile = profile is not None or drop_tolerance is not None
-    (execute_profile_design if is_profile else execute_design)(typed)

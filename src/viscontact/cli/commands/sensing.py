@@ -6,17 +6,7 @@ from typing import Annotated
 
 import typer
 
-from viscontact.cli.commands.study_options import (
-    CaseFile,
-    Instant,
-    Jobs,
-    Overwrite,
-    Quiet,
-    Resume,
-    Scheduler,
-    Settings,
-    StudyDirectory,
-)
+from viscontact.cli.commands.study_options import Instant, study
 
 Outputs = Annotated[
     str,
@@ -55,29 +45,18 @@ Step = Annotated[
 ]
 
 
+@study("viscontact.cli.studies.sensitivity")
 def sensitivity(
-    case: CaseFile,
     of: Outputs,
-    output: StudyDirectory,
     change: Inputs = None,
     scatter: Scatter = None,
     samples: Samples = 64,
     seed: Seed = 0,
     at: Instant = "worst",
     step: Step = 0.1,
-    settings: Settings = None,
-    jobs: Jobs = None,
-    scheduler: Scheduler = None,
-    resume: Resume = False,
-    overwrite: Overwrite = False,
-    quiet: Quiet = False,
 ) -> None:
     """Find how much scalars of the result depend on each number of a case.
 
     The elasticity is the relative change of an output per relative change of an input; the error of
     each is stated. DIR gets the runs, sensitivity.nc and report.html.
     """
-    typed = dict(locals())
-    from viscontact.cli.studies.sensitivity import execute_sensitivity
-
-    execute_sensitivity(typed)

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable
+from functools import wraps
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -68,3 +72,38 @@ Jobs = Annotated[int | None, jobs()]
 Resume = Annotated[bool, resume()]
 Quiet = Annotated[bool, quiet()]
 QuietRun = Annotated[bool, quiet("Print errors only.")]
+
+
+def _of_all_studies(
+    case: CaseFile,
+    output: StudyDirectory,
+    *,
+    settings: Settings = None,
+    jobs: Jobs = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
+    overwrite: Overwrite = False,
+    quiet: Quiet = False,
+) -> None:
+    """Options of every command of a study, those without a name before its own ones."""
+
+
+def study(module: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Command of a study by its own options; the function `execute` of a module takes all."""
+
+    def command(own: Callable[..., None]) -> Callable[..., None]:
+        @wraps(own)
+        def typed(**options: Any) -> None:
+            import_module(module).execute(options)
+
+        shared, others = (
+            inspect.signature(each, eval_str=True).parameters.values()
+            for each in (_of_all_studies, own)
+        )
+        first = [each for each in shared if each.kind is not each.KEYWORD_ONLY]
+        last = [each for each in shared if each.kind is each.KEYWORD_ONLY]
+        options = [each.replace(kind=each.KEYWORD_ONLY) for each in (*first, *others, *last)]
+        typed.__signature__ = inspect.Signature(options)  # type: ignore[attr-defined]
+        return typed
+
+    return command

@@ -14,23 +14,25 @@ from viscontact.units.parsing import parse_quantity
 
 T = TypeVar("T")
 
-#: Options by the names of the arguments, which begin the messages of studies.
-OPTIONS = {
-    **{name: f"--{name}" for name in ("change", "over", "scatter", "minimise", "maximise", "at")},
-    **{name: f"--{name}" for name in ("of", "samples", "seed", "step", "drive", "rows", "runs")},
-    "constraints": "--constraint",
-    "contact_point": "--contact-point",
-    "drop_tolerance": "--drop-tolerance",
-    "machine_stiffness": "--machine-stiffness",
-    "directory": "-o",
-}
+#: Options whose names are not those of the arguments, which begin the messages of studies.
+_OPTIONS = {"constraints": "--constraint", "directory": "-o"}
+#: What was typed without an option, or begins messages about the case.
+_NO_OPTIONS = ("case", "files", "settings", "output")
 
 
-def as_typed(message: str) -> str:
+def as_typed(message: str, typed: Mapping[str, Any]) -> str:
     """Message about an argument of a study, with the option that was typed."""
-    name = re.match(r"\w+(?=: | must)", message)
-    option = OPTIONS.get(name.group() if name else "")
-    return message if name is None or option is None else option + message[name.end() :]
+    found = re.match(r"\w+(?=: | must)", message)
+    name = found.group() if found else ""
+    is_typed = name not in _NO_OPTIONS and typed.get(name) is not None
+    own = f"--{name.replace('_', '-')}" if is_typed else name
+    return _OPTIONS.get(name, own) + message[len(name) :]
+
+
+def shared_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of every study: case, values that are set, and directory."""
+    settings = settings_of(typed["settings"])
+    return {"case": case_of(typed), "settings": settings, "directory": typed["output"]}
 
 
 def by_key(

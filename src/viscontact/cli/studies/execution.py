@@ -14,6 +14,7 @@ from viscontact.cli.studies.arguments import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.studies.design.conclusions import InfeasibleError
+from viscontact.studies.journal import JOURNAL_NAME
 
 T = TypeVar("T")
 
@@ -69,11 +70,11 @@ def performed(
         with _workers(typed) as workers, counted("runs", quiet=quiet, line=line) as progress:
             return study(progress=progress, overwrite=typed["overwrite"], **workers)
     except CaseError as error:
-        refuse(*map(as_typed, error.problems))
+        refuse(*(as_typed(each, typed) for each in error.problems))
     except (InfeasibleError, ConvergenceError, DomainError) as error:
         stop(str(error))
     except ValueError as error:
-        refuse(*map(as_typed, str(error).splitlines()))
+        refuse(*(as_typed(each, typed) for each in str(error).splitlines()))
     except (RuntimeError, OSError) as error:
         stop(f"{records.place}: {error}")
     except KeyboardInterrupt:
@@ -84,6 +85,15 @@ def performed(
             "continue with the same command and --resume",
             code=INTERRUPTED,
         )
+
+
+def trials_in(directory: Path) -> Records:
+    """Journal in the directory of a study."""
+    refusal = (
+        "holds a design already; continue it with --resume, replace it with --overwrite, or choose "
+        "another directory with -o DIR"
+    )
+    return Records(directory, directory / JOURNAL_NAME, "the finished trials", refusal)
 
 
 @contextmanager
@@ -100,13 +110,18 @@ def _workers(typed: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         yield {"client": client}
 
 
-def show(found: StudyResult, lines: Iterable[str] = ()) -> None:
-    """Print a result, some lines about it, and its notes."""
+def conclude(
+    found: StudyResult, directory: Path, files: Iterable[str], lines: Iterable[str] = ()
+) -> None:
+    """Print a result, some lines about it, its notes, and the files in its directory."""
     print(found)
     for line in lines:
         print(line)
     for note in found.notes:
         say(f"note: {note}")
+    write_report(found, directory / REPORT_NAME)
+    for name in files:
+        print(directory / name)
 
 
 def write_report(found: StudyResult, page: Path) -> None:

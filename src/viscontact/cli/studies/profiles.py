@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.cli.studies.arguments import case_of, instant, quantity, scenarios_of, settings_of
-from viscontact.cli.studies.design import trials_in
-from viscontact.cli.studies.execution import REPORT_NAME, performed, show, write_report
+from viscontact.cli.studies.arguments import instant, quantity, scenarios_of, shared_arguments
+from viscontact.cli.studies.execution import conclude, performed, trials_in
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.studies.design.profiles.design_profile import design_profile
 from viscontact.studies.design.profiles.drawing import write_dxf
@@ -27,12 +26,8 @@ def execute_profile_design(typed: Mapping[str, Any]) -> None:
     """Search, write the result to its directory, and print it; `typed` are the options by name."""
     search, output = partial(design_profile, **_arguments(typed)), typed["output"]
     found = performed(search, trials_in(output), typed)
-    show(found, _peak_pressures(found))
-    write_report(found, output / REPORT_NAME)
-    print(output / CSV_NAME)
-    if _has_drawing(found, output / DXF_NAME):
-        print(output / DXF_NAME)
-    print(output / BEST_NAME)
+    drawing = [DXF_NAME] if _has_drawing(found, output / DXF_NAME) else []
+    conclude(found, output, [CSV_NAME, *drawing, BEST_NAME], _peak_pressures(found))
 
 
 def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
@@ -57,12 +52,10 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         "runs": typed["runs"],
     }
     return {
-        "case": case_of(typed),
+        **shared_arguments(typed),
         "symmetric": match["asymmetric"] is None,
         "at": instant(typed["at"]),
         "over": scenarios_of(typed["over"]),
-        "settings": settings_of(typed["settings"]),
-        "directory": typed["output"],
         **{name: value for name, value in optional.items() if value is not None},
     }
 

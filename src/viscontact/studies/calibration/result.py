@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -18,14 +18,14 @@ from viscontact.studies.calibration.response import Experiment
 from viscontact.studies.calibration.search import NoResidualsError, Optimum
 from viscontact.studies.calibration.unknowns import Unknown, case_settings
 from viscontact.studies.case_values import case_with
-from viscontact.units.display import write_study_report
+from viscontact.studies.study_result import StudyResult
 from viscontact.units.parsing import split_quantity
 
 _DIGITS = 6
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CaseFit:
+class CaseFit(StudyResult):
     """Values of a case for which its runs fit measured records.
 
     Made by `fit_case`.
@@ -113,28 +113,11 @@ class CaseFit:
         comments = "".join(f"# {line}\n" for line in self._lines)
         return comments + yaml_source.write({name: data[name] for name in names})
 
-    def report(self, path: str | PathLike[str]) -> None:
-        """Write a page of HTML: fitted values, records with their residuals, and the sections.
-
-        Parameters
-        ----------
-        path : path-like
-            The page, by custom ending in ``.html``.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            If the packages of figures are not installed.
-        OSError
-            If the file cannot be written.
-        """
+    def _page(self) -> tuple[Any, ...]:
         about = {"notes": "\n".join(self.notes), "confidence": self.confidence}
-        write_study_report(
-            *("fit", self.curves.assign_attrs(about), self._rows, self._correlated, path),
-            title=f"Fit of {self.case.stem}",
-            headline=self._headline,
-            section=self.section_text,
-        )
+        words = {"title": f"Fit of {self.case.stem}", "headline": self._headline}
+        words["section"] = self.section_text
+        return "fit", self.curves.assign_attrs(about), self._rows, self._correlated, words
 
     @property
     def _headline(self) -> str:

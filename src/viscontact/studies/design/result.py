@@ -5,8 +5,8 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -21,13 +21,13 @@ from viscontact.studies.design.trade_off import costs_of, not_dominated
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
 from viscontact.studies.scalars import Value, places_of
+from viscontact.studies.study_result import StudyResult
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
-from viscontact.units.display import write_study_report
 
 
 @dataclass(frozen=True)
-class DesignResult:
+class DesignResult(StudyResult):
     """Best values of the parameters of a case, and the trials that lead to them.
 
     Attributes
@@ -109,28 +109,11 @@ class DesignResult:
         """Best case as YAML."""
         return self.best_case.text
 
-    def report(self, path: str | PathLike[str]) -> None:
-        """Write a page of HTML: pressures before and after, gains, and all trials.
-
-        The case and the best one are computed once more, in the scenario that decides, and, if the
-        load is held and the bodies creep, up to a year.
-
-        Parameters
-        ----------
-        path : path-like
-            The page, by custom ending in ``.html``.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            If the packages of figures are not installed.
-        OSError
-            If the file cannot be written.
-        """
+    def _page(self) -> tuple[Any, ...]:
         title = f"Design of {self.case.stem}: {_list_texts(map(str, self.goals))}"
-        words = {"title": title, "headline": str(self)}
-        runs, years = self.before_and_after(), self.over_a_year()
-        write_study_report("design", self.table, runs, path, years=years, **words)
+        years = self.over_a_year()
+        words = {"title": title, "headline": str(self), "years": years}
+        return "design", self.table, self.before_and_after(), words
 
     def before_and_after(self) -> dict[str, xr.Dataset]:
         """Results of the case and of the best one, in the scenario that decides.

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from os import PathLike
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
-from viscontact.units.display import write_study_report
+from viscontact.studies.study_result import StudyResult
 from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
-class SensitivityResult:
+class SensitivityResult(StudyResult):
     """Derivatives and elasticities of scalars of the result by the inputs of a case.
 
     Attributes
@@ -69,23 +69,9 @@ class SensitivityResult:
         known = sizes[np.isfinite(sizes)]
         return [str(key) for key in known["input"].values[np.argsort(-known.values, kind="stable")]]
 
-    def report(self, path: str | PathLike[str]) -> None:
-        """Write a page of HTML: tornado figure, elasticities and derivatives.
-
-        Parameters
-        ----------
-        path : path-like
-            The page, by custom ending in ``.html``.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            If the packages of figures are not installed.
-        OSError
-            If the file cannot be written.
-        """
+    def _page(self) -> tuple[Any, ...]:
         title = self.table.attrs.get("title") or "Case"
-        write_study_report("sensitivity", self.table, path, title=f"{title}: sensitivity")
+        return "sensitivity", self.table, {"title": f"{title}: sensitivity"}
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

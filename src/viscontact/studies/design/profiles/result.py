@@ -5,8 +5,8 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -19,14 +19,14 @@ from viscontact.results.formatting import format_with_error
 from viscontact.runs.single import simulate
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller, case_with_table
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
-from viscontact.units.display import write_study_report
+from viscontact.studies.study_result import StudyResult
 
 #: Profiles of the table beside the named ones.
 CASE, FREE, ELASTIC = "case", "free", "free, without creep"
 
 
 @dataclass(frozen=True, eq=False)
-class ProfileDesign:
+class ProfileDesign(StudyResult):
     """Free profile of a roller, and named profiles under the same loads.
 
     Attributes
@@ -91,25 +91,11 @@ class ProfileDesign:
         end = self.scenarios[0].end
         return case_with_table(self.case, self.settings, end, str(table.resolve()))
 
-    def report(self, path: str | PathLike[str]) -> None:
-        """Write a page of HTML: the profiles, and their pressures in the scenario that decides.
-
-        Parameters
-        ----------
-        path : path-like
-            The page, by custom ending in ``.html``.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            If the packages of figures are not installed.
-        OSError
-            If the file cannot be written.
-        """
+    def _page(self) -> tuple[Any, ...]:
         title = f"Free profile of {self.case.stem}"
-        words = {"title": title, "headline": str(self)}
-        runs, years = self.before_and_after(), self.over_a_year()
-        write_study_report("profile", self.table, runs, path, years=years, **words)
+        years = self.over_a_year()
+        words = {"title": title, "headline": str(self), "years": years}
+        return "profile", self.table, self.before_and_after(), words
 
     def before_and_after(self) -> dict[str, xr.Dataset]:
         """Results of the best named profile and of the free one, in the scenario that decides.
