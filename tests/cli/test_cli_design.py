@@ -57,7 +57,7 @@ def test_a_design_is_continued_with_resume_only(capsys: pytest.CaptureFixture[st
     assert main([*COMMAND, *RADIUS, "-q"]) == 0
     trials = Path("found/trials.jsonl").read_text()
     assert main([*COMMAND, *RADIUS]) == 2
-    assert "found: holds a design already; continue it with --resume" in capsys.readouterr().err
+    assert "found: holds runs already; continue them with --resume" in capsys.readouterr().err
     assert main([*COMMAND, *RADIUS, "--resume"]) == 0
     assert Path("found/trials.jsonl").read_text() == trials
     assert main([*COMMAND, "--change", "indenter.radius=4 mm,7 mm", "--resume"]) == 2

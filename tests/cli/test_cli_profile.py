@@ -81,5 +81,5 @@ def test_the_profile_is_written_for_a_case_a_table_and_a_drawing(
     with xr.open_dataset("run/result.nc") as run:
         assert float(run.peak_pressure.max()) == pytest.approx(peak, rel=1e-5)
     assert main([*command, "0.2 um"]) == 2
-    assert "holds a design already; continue it with --resume" in capsys.readouterr().err
+    assert "holds runs already; continue them with --resume" in capsys.readouterr().err
     assert main([*command, "0.2 um", "--resume", "--quiet"]) == 0

@@ -1,12 +1,16 @@
-"""Cells of the runs of a study, as settings of its case."""
+"""Cells of the runs of a study: settings of coarser ones, and a grid for several runs."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
+
+import numpy as np
 
 from viscontact.bodies.grid import Grid
 from viscontact.case import Case
+from viscontact.simulation.meshing.refinement import good_shape
 
 #: Relative error of an automatic grid in a search, unless the case allows more.
 COARSE_TOLERANCE = 0.05
@@ -47,3 +51,23 @@ def grid_setting(grid: Grid) -> dict[str, str]:
         ", ".join(f"{each!r} m" for each in map(float, pair)) for pair in (grid.size, grid.centre)
     )
     return {"grid": f"{{shape: {shape}, size: [{lengths}], centre: [{centre}]}}"}
+
+
+#: Cells that may be longer than those that another run would choose by this factor.
+TOLERATED = 1.5
+
+
+def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
+    """Return a grid over the extents of all grids, whose cells lie on those of the nominal one."""
+    cell = np.array(nominal.cell_size)
+    finest = np.min([each.cell_size for each in (nominal, *others)], axis=0)
+    # Parts of whole cells still end where a straight part of the body ends.
+    cell = cell / np.maximum(1, np.ceil(cell / (TOLERATED * finest) - 1e-9))
+    centre = np.array(nominal.centre)
+    reach = [
+        np.abs(np.array(each.centre) - centre) + np.array(each.size) / 2
+        for each in (nominal, *others)
+    ]
+    counts = good_shape(2 * np.max(reach, axis=0) / cell - 1e-6, np.inf)
+    size = (float(counts[0] * cell[0]), float(counts[1] * cell[1]))
+    return Grid(counts, size, nominal.periodic, centre=nominal.centre)

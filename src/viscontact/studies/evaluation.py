@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Future
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Protocol
+from typing import Any, Protocol
+
+import xarray as xr
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.runs.single import simulate
 from viscontact.studies.executors.executor_choice import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
 from viscontact.studies.journal import Entry, Journal
 
@@ -36,6 +39,20 @@ class StudyRun(Protocol):
 
     def __call__(self) -> Entry:
         """Compute the outcome; ValueError, ConvergenceError or DomainError if the run fails."""
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedRun:
+    """Run of a study by arguments of `simulate`, and the numbers that are kept of its result."""
+
+    key: str
+    recipe: Mapping[str, Any]
+    numbers: Callable[[xr.Dataset], Mapping[str, Any]]  # as JSON has them
+
+    def __call__(self) -> Entry:
+        """Simulate the run."""
+        found = simulate(**self.recipe)
+        return Entry(self.numbers(found), warnings=str(found.attrs.get("warnings", "")))
 
 
 #: Groups of runs that are likely to follow, at most the given number.

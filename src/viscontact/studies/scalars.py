@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,7 +17,7 @@ from viscontact.case import Case
 from viscontact.results.run_axis import RUN_AXES, SPEED, TIME, RunAxis
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.sweep_axes import over_of
-from viscontact.results.variables import scalars_with_error
+from viscontact.results.variables import SCALARS, error_name, scalars_with_error
 
 #: Place of a scalar: that of its worst value, the last one, or a time [s] or a speed [m/s].
 At = Literal["worst", "end"] | float
@@ -82,6 +83,21 @@ def _rows_at(results: xr.Dataset, at: At, shape: tuple[int, ...]) -> Integers:
             f"at: {axis.quantity(wanted)} is no {axis.row} of the run; the nearest one is {near}"
         )
     return np.asarray(rows)
+
+
+def value_columns(
+    scalar: str, dims: str | tuple[str, ...], values: Sequence[object], suffix: str = ""
+) -> dict[str, xr.Variable]:
+    """Values of a scalar and their errors as variables of a table; nested values have more dims."""
+    both = np.vectorize(lambda each: (each.value, each.error), otypes=[float, float])(
+        np.array(values, dtype=object)
+    )
+    name, units = f"{scalar}{suffix}", SCALARS[scalar].units
+    about = SCALARS[scalar].long_name, f"estimated error of: {SCALARS[scalar].long_name}"
+    return {
+        each: xr.Variable(dims, column, {"units": units, "long_name": text})
+        for each, column, text in zip((name, error_name(name)), both, about, strict=True)
+    }
 
 
 def known_scalar(argument: str, name: str) -> str:

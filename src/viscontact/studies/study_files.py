@@ -9,6 +9,9 @@ import xarray as xr
 from viscontact.case import Case
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place, replacing
 
+#: The best case, and the table of a study as CF netCDF-4.
+BEST_NAME, TRIALS_NAME = "best.yaml", "trials.nc"
+
 
 def write_table(path: Path, table: xr.Dataset) -> None:
     """Write a table as netCDF-4, atomically."""

@@ -13,7 +13,7 @@ class StudyResult(ABC):
     """Result of a study, with a report."""
 
     def report(self, path: str | PathLike[str]) -> None:
-        """Write a page of HTML with figures, tables and notes, which needs nothing from outside.
+        """Write a page of HTML with figures, tables and notes; some of its runs are made for it.
 
         Parameters
         ----------
@@ -26,11 +26,6 @@ class StudyResult(ABC):
             If the packages of figures are not installed.
         OSError
             If the file cannot be written.
-
-        Notes
-        -----
-        A design computes the case and the best one once more, in the scenario that decides, and, if
-        the load is held and the bodies creep, up to a year.
         """
         kind, *arguments, options = self._page()
         write_study_report(kind, *arguments, path, **options)

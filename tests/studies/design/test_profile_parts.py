@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 import viscontact as vc
 from viscontact.studies.design.profiles.convex_curve import ConvexCurves
-from viscontact.studies.design.profiles.deviations import deviating
 from viscontact.studies.design.profiles.minimax import least_largest
 from viscontact.studies.design.profiles.named import amplitude_of
 from viscontact.studies.design.profiles.profile_runs import MARGIN, search_grids
 from viscontact.studies.design.profiles.result_files import profile_csv
+from viscontact.studies.design.profiles.tables import deviating
 from viscontact.studies.evaluation import BudgetSpentError
 from viscontact.tables import read_line
 

@@ -10,8 +10,7 @@ from tests.studies.sensitivity.cases import HERTZ, written
 
 from viscontact.bodies.grid import Grid
 from viscontact.case import read_case
-from viscontact.studies.cells import coarser, grid_setting
-from viscontact.studies.sensitivity.common_grid import covering
+from viscontact.studies.cells import coarser, covering, grid_setting
 from viscontact.studies.sensitivity.inputs import inputs_of
 from viscontact.studies.sensitivity.plan import planned
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -53,12 +54,12 @@ SOBOL_G = np.array([_PARTS, _PARTS * np.prod(1 + _PARTS) / (1 + _PARTS)]) / _ALL
 
 
 class FunctionInPlaceOfRuns:
-    """Stands for `simulate_many`: the result of each run is a function of its settings."""
+    """Stands for `record_many`: the result of each run is a function of its settings."""
 
     def __init__(self, function: Function, failing: Sequence[str] = ()) -> None:
         self._function, self._failing = function, failing
 
-    def __call__(self, runs: Sequence[VariedRun], directory: Path, **how: Any) -> xr.Dataset:
+    def __call__(self, runs: Sequence[VariedRun], directory: Path, *given: Any, **how: Any) -> None:
         parts = np.array([self._parts(run) for run in runs])
         names = [run.name for run in runs]
         done = np.array([name not in self._failing for name in names])
@@ -69,7 +70,7 @@ class FunctionInPlaceOfRuns:
         vc.save(nominal, directory / "nominal.nc")
         Path(directory, runs[0].directory).mkdir()
         Path(directory, "nominal.nc").rename(Path(directory, runs[0].directory, "result.nc"))
-        return xr.Dataset(
+        self.joint = xr.Dataset(
             {
                 "approach": (over, both),
                 "state": ("run", np.where(done, "done", "failed")),
@@ -89,7 +90,9 @@ def scattered(
     module = import_module(
         "viscontact.studies.sensitivity.sensitivity"
     )  # not the function of this name
-    monkeypatch.setattr(module, "simulate_many", function)
+    monkeypatch.setattr(module, "tasks_of", lambda *_: nullcontext())
+    monkeypatch.setattr(module, "record_many", function)
+    monkeypatch.setattr(module, "open_many", lambda _: function.joint)
     return vc.sensitivity(
         path, "approach", change=[], scatter=RANGES, samples=samples, at="end", seed=3
     )

@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 
 from viscontact.studies.space import Range, read_range
 from viscontact.studies.sweep.design_table import read_design
-from viscontact.studies.sweep.designs import Design, grid_design, paired_design
+from viscontact.studies.sweep.designs import Design, grid_design, paired_design, sample_design
 from viscontact.studies.sweep.extremes import extreme_rows
-from viscontact.studies.sweep.sampling import sample_design
 from viscontact.units.parsing import parse_quantity
 
 RANGES = (Range("load.force", 5.0, 20.0, "kN"), Range("time.end", 1.0, 1000.0, "s", True))

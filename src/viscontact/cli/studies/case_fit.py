@@ -99,9 +99,6 @@ def _fit(typed: Mapping[str, Any], trials: Path) -> CaseFit:
                 trials.unlink(missing_ok=True)
             raise
 
-    remedy = "continue it with --resume, or replace it with --overwrite"
-    refusal = f"holds the runs of an interrupted fit; {remedy}"
-    records = Records(trials, trials, "the finished runs", refusal)
-    found = performed(fit, records, typed)
+    found = performed(fit, Records(trials, trials), typed)
     trials.unlink(missing_ok=True)
     return found

@@ -13,12 +13,13 @@ from viscontact.cli.studies.arguments import (
     scenarios_of,
     shared_arguments,
 )
-from viscontact.cli.studies.execution import conclude, performed, trials_in
+from viscontact.cli.studies.execution import Records, conclude, performed
 from viscontact.cli.studies.profiles import execute_profile_design
 from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
 from viscontact.studies.design.design import design
-from viscontact.studies.design.result_files import BEST_NAME
+from viscontact.studies.journal import JOURNAL_NAME
+from viscontact.studies.study_files import BEST_NAME
 
 _CHANGE = "KEY=VALUE, with the unit, e.g. 'indenter.crown_radius=20 mm:2 m:log'"
 _SCATTER = "KEY=VALUE, with the unit, e.g. 'material.poisson_ratio=0.36:0.40'"
@@ -30,7 +31,7 @@ def execute(typed: Mapping[str, Any]) -> None:
         execute_profile_design(typed)
         return
     search, output = partial(design, **design_arguments(typed)), typed["output"]
-    found = performed(search, trials_in(output), typed)
+    found = performed(search, Records(output, output / JOURNAL_NAME), typed)
     about = f"{found.runs} runs; the best trial has its error on the cells of the case"
     conclude(found, output, [BEST_NAME], [about])
 

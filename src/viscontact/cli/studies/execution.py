@@ -14,7 +14,6 @@ from viscontact.cli.studies.arguments import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.studies.design.conclusions import InfeasibleError
-from viscontact.studies.journal import JOURNAL_NAME
 
 T = TypeVar("T")
 
@@ -42,12 +41,6 @@ class Records:
 
     place: Path  # directory or file that messages name
     file: Path  # is there once a run is finished
-    content: str = "the runs"
-    #: Reason and remedy where the records of an earlier command are there.
-    refusal: str = (
-        "holds runs already; continue them with --resume, replace them with --overwrite, or choose "
-        "another directory with -o DIR"
-    )
 
     def refuse_begun(self, typed: Mapping[str, Any]) -> None:
         """Refuse to begin a study that has begun, unless it is resumed or overwritten."""
@@ -55,7 +48,11 @@ class Records:
         if resume and typed["overwrite"]:
             refuse("--resume continues runs and --overwrite starts them again: give one of them")
         if has_begun and not resume and not typed["overwrite"]:
-            refuse(f"{self.place}: {self.refusal}")
+            other = "" if self.place == self.file else ", or choose another directory with -o DIR"
+            refuse(
+                f"{self.place}: holds runs already; continue them with --resume, replace them with "
+                f"--overwrite{other}"
+            )
         if resume and not has_begun and not typed["quiet"]:
             say(f"{self.place}: nothing is saved there yet; starting at the beginning")
 
@@ -81,19 +78,10 @@ def performed(
         if not records.file.exists():
             raise
         stop(
-            f"interrupted; {records.place} keeps {records.content}",
+            f"interrupted; {records.place} keeps the finished runs",
             "continue with the same command and --resume",
             code=INTERRUPTED,
         )
-
-
-def trials_in(directory: Path) -> Records:
-    """Journal in the directory of a study."""
-    refusal = (
-        "holds a design already; continue it with --resume, replace it with --overwrite, or choose "
-        "another directory with -o DIR"
-    )
-    return Records(directory, directory / JOURNAL_NAME, "the finished trials", refusal)
 
 
 @contextmanager

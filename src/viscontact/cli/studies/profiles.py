@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from viscontact.cli.studies.arguments import instant, quantity, scenarios_of, shared_arguments
-from viscontact.cli.studies.execution import conclude, performed, trials_in
+from viscontact.cli.studies.execution import Records, conclude, performed
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.studies.design.profiles.design_profile import design_profile
 from viscontact.studies.design.profiles.drawing import write_dxf
 from viscontact.studies.design.profiles.result import ProfileDesign
 from viscontact.studies.design.profiles.result_files import CSV_NAME, DXF_NAME
-from viscontact.studies.design.result_files import BEST_NAME
+from viscontact.studies.journal import JOURNAL_NAME
+from viscontact.studies.study_files import BEST_NAME
 
 _PROFILE = re.compile(r"free(?::(?P<knots>\d+))?(?P<asymmetric>:asymmetric)?")
 
@@ -25,7 +26,7 @@ _PROFILE = re.compile(r"free(?::(?P<knots>\d+))?(?P<asymmetric>:asymmetric)?")
 def execute_profile_design(typed: Mapping[str, Any]) -> None:
     """Search, write the result to its directory, and print it; `typed` are the options by name."""
     search, output = partial(design_profile, **_arguments(typed)), typed["output"]
-    found = performed(search, trials_in(output), typed)
+    found = performed(search, Records(output, output / JOURNAL_NAME), typed)
     drawing = [DXF_NAME] if _has_drawing(found, output / DXF_NAME) else []
     conclude(found, output, [CSV_NAME, *drawing, BEST_NAME], _peak_pressures(found))
 

@@ -19,10 +19,11 @@ from viscontact.studies.sweep.designs import (
     NOTHING_VARIED,
     Design,
     EqualValuesError,
+    Method,
     grid_design,
     paired_design,
+    sample_design,
 )
-from viscontact.studies.sweep.sampling import Method, sample_design
 
 _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 

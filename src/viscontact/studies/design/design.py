@@ -29,7 +29,6 @@ from viscontact.studies.design.goals import Goal, constraints_of, goals_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.result import DesignResult, table_of
-from viscontact.studies.design.result_files import write_result
 from viscontact.studies.design.scenarios import Scenario, scenarios_of
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
@@ -38,6 +37,7 @@ from viscontact.studies.executors.executor_choice import chosen_workers, refuse_
 from viscontact.studies.journal import journal_in
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
+from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
 from viscontact.units.numbers import whole
 
 #: Most runs of a search, where none are given.
@@ -185,7 +185,8 @@ def design(  # noqa: PLR0913
         trials = Trials(space, of_case, goals, limits, evaluation, levels, len(scenarios))
         found = _search(trials, of_case, values, _unused_tolerances(own, scatter))
         if directory is not None:
-            write_result(Path(directory), found)
+            write_case(Path(directory) / BEST_NAME, found.best_case)
+            write_table(Path(directory) / TRIALS_NAME, found.table)
         return found
 
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from viscontact.studies.design.goals import Constraint, Goal
-from viscontact.studies.design.objectives import Objective
-from viscontact.studies.design.penalised_cost import PenalisedCost
+from viscontact.studies.design.objectives import Objective, PenalisedCost
 from viscontact.studies.design.search import Foreseen, Point, Score, search
 from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level, StudyRun

@@ -20,7 +20,7 @@ from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.trade_off import costs_of, not_dominated
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
-from viscontact.studies.scalars import Value, places_of
+from viscontact.studies.scalars import Value, places_of, value_columns
 from viscontact.studies.study_result import StudyResult
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
@@ -197,9 +197,10 @@ def table_of(
     names = xr.Variable("scenario", np.array(scenarios, dtype=np.str_))
     data: dict[str, xr.Variable] = {}
     for each in constraints:
-        data |= _columns(each.scalar, [trial.extreme(each) for trial in trials])
+        values = [trial.extreme(each) for trial in trials]
+        data |= value_columns(each.scalar, "trial", values)
     for goal in goals:
-        data |= _columns(goal.scalar, [trial.worst(goal) for trial in trials])
+        data |= value_columns(goal.scalar, "trial", [trial.worst(goal) for trial in trials])
         data |= _of_scenarios(trials, goal)
     feasible = [trial.is_feasible(goals, constraints) for trial in trials]
     if len(goals) > 1:
@@ -210,24 +211,10 @@ def table_of(
     return xr.Dataset(data, {"trial": np.arange(len(trials)), "scenario": names, **coords})
 
 
-def _columns(name: str, values: Sequence[Value]) -> dict[str, xr.Variable]:
-    about = {"units": SCALARS[name].units, "long_name": SCALARS[name].long_name}
-    error = {"units": about["units"], "long_name": f"estimated error of: {about['long_name']}"}
-    return {
-        name: xr.Variable("trial", [each.value for each in values], about),
-        error_name(name): xr.Variable("trial", [each.error for each in values], error),
-    }
-
-
 def _of_scenarios(trials: Sequence[Trial], goal: Goal) -> dict[str, xr.Variable]:
     none = Value(np.nan, np.nan)
     found = [[r.values.get(goal_name(goal), none) for r in trial.results] for trial in trials]
-    about = {"units": SCALARS[goal.scalar].units}
-    dims, name = ("trial", "scenario"), f"{goal.scalar}_of_scenarios"
-    return {
-        name: xr.Variable(dims, [[v.value for v in row] for row in found], about),
-        error_name(name): xr.Variable(dims, [[v.error for v in row] for row in found], about),
-    }
+    return value_columns(goal.scalar, ("trial", "scenario"), found, "_of_scenarios")
 
 
 def _on_front(

@@ -35,9 +35,11 @@ def chosen_workers(
     executor: Executor | None = None,
     client: Any = None,
     most: int | None = None,
+    *,
+    in_processes: bool = False,
 ) -> Iterator[ChosenWorkers]:
     """Executor of a study: a given one, that of a Dask client, or up to `most` processes."""
-    # With one process, the runs are computed in this one.
+    # With one process, the runs are computed in this one, unless they are to be `in_processes`.
     require_executor(executor, client, workers)
     if client is not None:
         yield ChosenWorkers(
@@ -51,7 +53,7 @@ def chosen_workers(
     count = number_of_workers(workers)
     if most is not None:
         count = min(count, most)
-    if count == 1:
+    if count == 1 and not in_processes:
         yield IN_THIS_PROCESS
         return
     pool = LocalWorkers(count)

@@ -13,9 +13,8 @@ from viscontact.case import Case, CaseError
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.studies.case_values import case_with
-from viscontact.studies.cells import coarser, grid_setting, shape_setting
+from viscontact.studies.cells import coarser, covering, grid_setting, shape_setting
 from viscontact.studies.evaluation import Level
-from viscontact.studies.sensitivity.common_grid import covering
 from viscontact.studies.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
 from viscontact.studies.sensitivity.inputs import CaseNumber
 from viscontact.studies.sensitivity.samples import Samples

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from os import PathLike
@@ -24,7 +24,7 @@ from viscontact.studies.case_values import (
 )
 from viscontact.studies.evaluation import Progress
 from viscontact.studies.executors.executor_choice import refuse_import_by_a_worker, require_executor
-from viscontact.studies.scalars import At, require_instant
+from viscontact.studies.scalars import require_instant
 from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
 from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned
@@ -34,7 +34,6 @@ from viscontact.studies.sensitivity.table import derivative_table, scatter_table
 from viscontact.studies.sweep.many import tasks_of
 from viscontact.studies.sweep.open_many import open_many
 from viscontact.studies.sweep.recorded_many import record_many
-from viscontact.studies.sweep.varied_runs import VariedRun
 from viscontact.units.numbers import positive
 
 #: Step in the logarithm of an input. Errors of cells vary with the size of the contact within a
@@ -178,17 +177,13 @@ def sensitivity(  # noqa: PLR0913
     plan, notes = planned(path, fixed, inputs, length, begun, sampled, chosen=change is not None)
     notes = [*(toleranced if sampled else ()), *rounded, *notes]
 
-    def joint(runs: Sequence[VariedRun], folder: Path) -> xr.Dataset:
-        def ended(run: int, done: int, total: int) -> None:
-            if progress:
-                progress(done, total)
-
-        how = {"return_exceptions": True, "overwrite": overwrite}
+    runs = plan.runs()
+    with _directory(place) as folder:
         with tasks_of(runs, folder, executor, client, workers) as tasks:
-            record_many(runs, folder, tasks, ended, **how)
-        return open_many(folder)
-
-    return _compute(plan, outputs, at, notes, place, joint)
+            how = {"return_exceptions": True, "overwrite": overwrite}
+            record_many(runs, folder, tasks, lambda _, *n: progress and progress(*n), **how)
+        scalars = OutputScalars(open_many(folder), at)
+        return _evaluated(plan, scalars, outputs, notes, folder / runs[0].directory)
 
 
 def _inputs(case: Case, change: Sequence[str] | None) -> list[CaseNumber]:
@@ -220,31 +215,27 @@ def _with_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> tuple[Any
     return {**given, **found}, notes
 
 
-def _compute(
+def _evaluated(
     plan: Plan,
+    scalars: OutputScalars,
     outputs: Sequence[str],
-    at: At,
     notes: Sequence[str],
-    place: Path | None,
-    joint: Callable[[Sequence[VariedRun], Path], xr.Dataset],
+    nominal: Path,
 ) -> SensitivityResult:
-    """Compute what is left of the runs, whose joint result is given, and evaluate them."""
-    runs = plan.runs()
-    with _directory(place) as folder:
-        scalars = OutputScalars(joint(runs, folder), at)
-        if why := scalars.failures.get(NOMINAL):
-            raise RuntimeError(f"the run with the values of the case failed: {why}")
-        if missing := [name for name in outputs if name not in scalars.joint]:
-            raise ValueError(f"of: {missing[0]}: the results do not have it")
-        with open_results(folder / runs[0].directory) as ds:
-            about = {"title": str(ds.attrs.get("title", "")), "at": str(at)}
-            warned = str(ds.attrs.get("warnings", "")).splitlines()
-    table = derivative_table(plan, scalars, outputs)
+    """Result of computed runs, of which that of the case is in the directory `nominal`."""
+    if why := scalars.failures.get(NOMINAL):
+        raise RuntimeError(f"the run with the values of the case failed: {why}")
+    if missing := [name for name in outputs if name not in scalars.joint]:
+        raise ValueError(f"of: {missing[0]}: the results do not have it")
+    with open_results(nominal) as ds:
+        about = {"title": str(ds.attrs.get("title", "")), "at": str(scalars.at)}
+        warned = str(ds.attrs.get("warnings", "")).splitlines()
+    table, count = derivative_table(plan, scalars, outputs), scalars.joint.sizes["run"]
     if plan.samples is not None:
         table = table.merge(scatter_table(plan.samples, scalars, outputs))
-    said = (*notes, *_failures(scalars, len(runs)), *_unknown_errors(table), *warned)
+    said = (*notes, *_failures(scalars, count), *_unknown_errors(table), *warned)
     about["notes"] = "\n".join(said)
-    return SensitivityResult(table.assign_attrs(about), said, len(runs))
+    return SensitivityResult(table.assign_attrs(about), said, count)
 
 
 @contextmanager

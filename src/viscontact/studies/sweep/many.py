@@ -20,6 +20,7 @@ from viscontact.studies.executors.dask import dask_executor
 from viscontact.studies.executors.driver import Workers
 from viscontact.studies.executors.executor_choice import (
     BEHIND_MAIN,
+    chosen_workers,
     number_of_workers,
     refuse_import_by_a_worker,
     require_executor,
@@ -156,20 +157,12 @@ def simulate_many(
         with tasks_of(recipes, place, executor, client, workers) as tasks:
             record_many(recipes, place, tasks, shown, return_exceptions=return_exceptions)
         return open_many(place)
-    if client is not None:
-        executor = client.get_executor(pure=False)
-    if executor is not None:
-        return _results(recipes, executor, report, return_exceptions)
-    count = _affordable(recipes, min(number_of_workers(workers), max(1, len(recipes))))
-    pool = LocalWorkers(count)
-    try:
-        found = _results(recipes, pool, report, return_exceptions)
-    except BaseException:
-        pool.kill()
-        raise
-    finally:
-        pool.shutdown()
-    return found
+    count = None
+    if executor is None and client is None:
+        count = _affordable(recipes, min(number_of_workers(workers), max(1, len(recipes))))
+    with chosen_workers(count, executor, client, in_processes=True) as chosen:
+        assert chosen.executor is not None
+        return _results(recipes, chosen.executor, report, return_exceptions)
 
 
 @contextmanager

@@ -27,15 +27,18 @@ from viscontact.studies.sweep.common_cells import (
     recorded_cells,
 )
 from viscontact.studies.sweep.design_table import read_design
-from viscontact.studies.sweep.designs import Design, EqualValuesError, grid_design, paired_design
-from viscontact.studies.sweep.extremes import extreme_rows
-from viscontact.studies.sweep.manifest import SweepRun
-from viscontact.studies.sweep.sampling import (
+from viscontact.studies.sweep.designs import (
     METHODS,
     MOST_RUNS,
+    Design,
+    EqualValuesError,
     Method,
+    grid_design,
+    paired_design,
     sample_design,
 )
+from viscontact.studies.sweep.extremes import extreme_rows
+from viscontact.studies.sweep.manifest import SweepRun
 from viscontact.units.numbers import whole
 
 #: Values of the varied keys, or the path of a table of runs.

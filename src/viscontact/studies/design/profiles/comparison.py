@@ -12,12 +12,11 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.results.formatting import format_with_error
-from viscontact.studies.design.profiles.deviations import deviating
 from viscontact.studies.design.profiles.named import NamedProfile
 from viscontact.studies.design.profiles.profile_runs import MARGIN, ProfileRuns
 from viscontact.studies.design.profiles.result import CASE, ELASTIC, FREE, ProfileDesign
-from viscontact.studies.design.profiles.tables import tabulated
-from viscontact.studies.scalars import Value
+from viscontact.studies.design.profiles.tables import deviating, tabulated
+from viscontact.studies.scalars import Value, value_columns
 from viscontact.units.formatting import format_quantity
 
 _PEAK, _ERROR = "peak_pressure", "peak_pressure_error"
@@ -77,8 +76,8 @@ def _table(
             ("profile", "x"), drops, {"units": "m", "long_name": "drop of the generating line"}
         ),
         "parameter": ("profile", np.array([parameters.get(name, "") for name in profiles])),
-        **_peaks("profile", [_worst(each) for each in values]),
-        **_peaks(("profile", "scenario"), values, "_of_scenarios"),
+        **value_columns(_PEAK, "profile", [_worst(each) for each in values]),
+        **value_columns(_PEAK, ("profile", "scenario"), values, "_of_scenarios"),
     }
     x = xr.Variable("x", found.x, {"units": "m", "long_name": "position from the middle"})
     return xr.Dataset(data, {"profile": list(profiles), "x": x, "scenario": names})
@@ -92,24 +91,10 @@ def _deviations(
     drops = deviating(found.free, u, found.tolerance)
     others = [tabulated(found.x, drop) for name, drop in drops.items() if name != "none"]
     values = [as_drawn, *(each for each, _ in search.certified(others))]
-    peaks = _peaks("deviation", [_worst(each) for each in values], "_of_deviations")
+    worst = [_worst(each) for each in values]
+    peaks = value_columns(_PEAK, "deviation", worst, "_of_deviations")
     names = xr.Variable("deviation", list(drops))
     return {name: xr.DataArray(each, {"deviation": names}) for name, each in peaks.items()}
-
-
-def _peaks(
-    dims: str | tuple[str, ...], values: Sequence[object], suffix: str = ""
-) -> dict[str, xr.Variable]:
-    """Peak pressures and their errors as variables."""
-    both = np.vectorize(lambda each: (each.value, each.error), otypes=[float, float])(
-        np.array(values, dtype=object)
-    )
-    about = {"units": "Pa", "long_name": "peak pressure"}
-    error = {"units": "Pa", "long_name": "estimated error of: peak pressure"}
-    return {
-        f"{_PEAK}{suffix}": xr.Variable(dims, both[0], about),
-        f"{_PEAK}{suffix}_error": xr.Variable(dims, both[1], error),
-    }
 
 
 def _worst(values: Sequence[Value]) -> Value:

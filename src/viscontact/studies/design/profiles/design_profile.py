@@ -20,14 +20,13 @@ from viscontact.studies.case_values import (
 )
 from viscontact.studies.design.profiles.comparison import FoundProfiles, compared
 from viscontact.studies.design.profiles.convex_curve import ConvexCurves
-from viscontact.studies.design.profiles.deviations import deviating
 from viscontact.studies.design.profiles.loaded_roller import loaded_rollers, without_creep
 from viscontact.studies.design.profiles.minimax import Minimum, cost, least_largest
 from viscontact.studies.design.profiles.named import NamedProfile, amplitude_of, best_named
 from viscontact.studies.design.profiles.profile_runs import ProfileRuns, RowPressures, search_grids
 from viscontact.studies.design.profiles.result import ProfileDesign
 from viscontact.studies.design.profiles.result_files import write_profile_design
-from viscontact.studies.design.profiles.tables import finite_table, tabulated
+from viscontact.studies.design.profiles.tables import deviating, finite_table, tabulated
 from viscontact.studies.design.scenarios import scenarios_of
 from viscontact.studies.evaluation import Budget, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker

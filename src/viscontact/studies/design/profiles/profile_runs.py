@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
+from functools import partial
 from hashlib import sha256
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.profile import Profile
-from viscontact.runs.single import simulate
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
-from viscontact.studies.evaluation import Evaluation
+from viscontact.studies.evaluation import Evaluation, SimulatedRun
 from viscontact.studies.journal import Entry
 from viscontact.studies.scalars import At, Value, magnitude
 
@@ -64,15 +66,14 @@ class ProfileRuns:
             for group in profiles
         ]
 
-    def _search_run(self, profile: Profile) -> list[RowPeaks]:
+    def _search_run(self, profile: Profile) -> list[SimulatedRun]:
         common = {"grid": self.grid, "tolerance": TOLERANCE, "errors": False, **self.materials}
         cells = f"{self.grid!r} {'elastic' if self.materials else ''}"
         return [
-            RowPeaks(
+            SimulatedRun(
                 f"rows {number} {_profile_key(profile)} {cells}",
                 {**each.arguments(profile), **common, "fields": self._instants(each)},
-                self.scenarios[0].end,
-                self.amplitude,
+                partial(row_peaks, self.scenarios[0].end, self.amplitude),
             )
             for number, each in enumerate(self.scenarios)
         ]
@@ -82,9 +83,10 @@ class ProfileRuns:
         cells = {} if self.grid is None else {"grid": self.grid}
         common = {**cells, "fields": "none", "errors": False}
         runs = [
-            Widths(
+            SimulatedRun(
                 f"widths {number} {_profile_key(profile)} {self.grid!r}",
                 {**each.arguments(profile), **common},
+                least_and_largest_width,
             )
             for number, each in enumerate(self.scenarios)
         ]
@@ -101,15 +103,13 @@ class ProfileRuns:
         """Peak pressures with errors in all scenarios, on fine cells, and warnings."""
         assert self.grid is not None
         cells = fine_grid(self.grid)
-        runs = [
-            CertifiedPeak(
-                f"peak {number} {_profile_key(profile)} {cells!r}",
-                each.certifying(profile, cells) | {"fields": "none"},
-                self.at,
-            )
-            for profile in profiles
-            for number, each in enumerate(self.scenarios)
-        ]
+        runs = []
+        for profile in profiles:
+            for number, each in enumerate(self.scenarios):
+                recipe = each.certifying(profile, cells) | {"fields": "none"}
+                key = f"peak {number} {_profile_key(profile)} {cells!r}"
+                numbers = partial(certified_peak, recipe["indenter"], self.at)
+                runs.append(SimulatedRun(key, recipe, numbers))
         found = iter(self.evaluation.outcomes(runs, is_limited=False))
         return [_values([next(found) for _ in self.scenarios]) for _ in profiles]
 
@@ -119,57 +119,28 @@ class ProfileRuns:
         return [float(scenario.case.instants[-1] if self.at == "end" else self.at)]
 
 
-@dataclass(frozen=True, eq=False)
-class RowPeaks:
-    """Run of the search: largest pressures on rows inside, and at the ends less open gaps [Pa]."""
-
-    key: str
-    recipe: Mapping[str, Any]  # arguments of `simulate`
-    end: float  # half of the length of the roller [m]
-    amplitude: float
-
-    def __call__(self) -> Entry:
-        """Simulate the run."""
-        found, x = simulate(**self.recipe), np.abs(self.recipe["grid"].x)
-        margin = (1 - MARGIN) * self.end
-        rows, gaps = found["pressure"].values.max(axis=2), found["gap"].values.min(axis=2)
-        inside, at_end = x < margin, (x > margin) & (x < self.end)
-        forbidden = (rows - rows.max() / self.amplitude * gaps)[:, at_end]
-        values = {"rows": rows[:, inside], "forbidden": forbidden}
-        return Entry({name: each.ravel().tolist() for name, each in values.items()})
+def row_peaks(end: float, amplitude: float, found: xr.Dataset) -> dict[str, Any]:
+    """Largest pressures on rows inside, and at the ends less open gaps [Pa], of a roller."""
+    x, margin = np.abs(found["x"].values), (1 - MARGIN) * end
+    rows, gaps = found["pressure"].values.max(axis=2), found["gap"].values.min(axis=2)
+    inside, at_end = x < margin, (x > margin) & (x < end)
+    forbidden = (rows - rows.max() / amplitude * gaps)[:, at_end]
+    values = {"rows": rows[:, inside], "forbidden": forbidden}
+    return {name: each.ravel().tolist() for name, each in values.items()}
 
 
-@dataclass(frozen=True, eq=False)
-class Widths:
-    """Run for the least and the largest width of the loaded contact [m]."""
-
-    key: str
-    recipe: Mapping[str, Any]
-
-    def __call__(self) -> Entry:
-        """Simulate the run."""
-        found = simulate(**self.recipe)
-        loaded = found["force"].values > 0.5 * found["force"].values.max()
-        widths = found["contact_width"].values[loaded]
-        return Entry({"least": float(widths.min()), "largest": float(widths.max())})
+def least_and_largest_width(found: xr.Dataset) -> dict[str, Any]:
+    """Least and largest width of the loaded contact [m]."""
+    loaded = found["force"].values > 0.5 * found["force"].values.max()
+    widths = found["contact_width"].values[loaded]
+    return {"least": float(widths.min()), "largest": float(widths.max())}
 
 
-@dataclass(frozen=True, eq=False)
-class CertifiedPeak:
-    """Run for the peak pressure, its error, and the warnings."""
-
-    key: str
-    recipe: Mapping[str, Any]
-    at: At
-
-    def __call__(self) -> Entry:
-        """Simulate the run."""
-        found = simulate(**self.recipe)
-        value = magnitude(found, "peak_pressure", self.at)
-        warned = str(found.attrs.get("warnings", ""))
-        is_sharp = reaches_sharp_end(self.recipe["indenter"], warned)
-        bar = np.inf if is_sharp else value.error
-        return Entry({"value": value.value, "error": float(bar)}, warnings=warned)
+def certified_peak(indenter: Indenter, at: At, found: xr.Dataset) -> dict[str, Any]:
+    """Peak pressure and its error [Pa]."""
+    value = magnitude(found, "peak_pressure", at)
+    is_sharp = reaches_sharp_end(indenter, str(found.attrs.get("warnings", "")))
+    return {"value": value.value, "error": float(np.inf if is_sharp else value.error)}
 
 
 def _profile_key(profile: Profile | None) -> str:

@@ -10,8 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.studies.design.profiles.result import ProfileDesign
 from viscontact.studies.design.profiles.tables import RESOLUTION
-from viscontact.studies.design.result_files import BEST_NAME, TRIALS_NAME
-from viscontact.studies.study_files import write_case, write_table
+from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
 
 #: The profile as a table, which a case takes as well, and as a drawing.
 CSV_NAME, DXF_NAME = "profile.csv", "profile.dxf"
