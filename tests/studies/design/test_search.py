@@ -51,11 +51,11 @@ def test_the_search_needs_only_a_function_of_points() -> None:
         error = 0.05 if level == "rough" else 0.0
         return [_score(each, level, 1 + (each[0] - 0.37) ** 2 + error) for each in points]
 
-    found = search(scores, space_of({"load.x": ("0", "1")}), budget, ("rough", "fine"))
-    assert found.best is not None
-    assert found.best.level == "fine"
-    assert found.best.point[0] == pytest.approx(0.37, abs=0.03)
-    assert not found.is_cut_short
+    best, is_cut_short = search(scores, space_of({"load.x": ("0", "1")}), budget, ("rough", "fine"))
+    assert best is not None
+    assert best.level == "fine"
+    assert best.point[0] == pytest.approx(0.37, abs=0.03)
+    assert not is_cut_short
 
 
 def test_points_within_their_errors_of_the_best_are_computed_on_the_finest_cells() -> None:

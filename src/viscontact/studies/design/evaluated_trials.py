@@ -101,14 +101,14 @@ def searched(trials: Trials, objective: Objective, *, held: int = 0) -> Searched
     def score(trial: Trial) -> Score:
         return cost.score(trial, trials.points[trial.key])
 
-    found = search(
+    found, is_cut_short = search(
         *(evaluate, trials.space, trials.budget, trials.levels),
         size=trials.size,
         held=held,
         known=list(map(score, trials.tried())),
     )
-    best = None if found.best is None else trials.made[found.best.key]
-    return Searched(trials, objective, best, found.is_cut_short)
+    best = None if found is None else trials.made[found.key]
+    return Searched(trials, objective, best, is_cut_short)
 
 
 def _result(outcome: Entry) -> ScenarioResult:

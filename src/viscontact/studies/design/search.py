@@ -26,10 +26,9 @@ NOTHING_FEASIBLE, UNFEASIBLE_PART = 3, 2
 PATIENCE, LOCAL_PATIENCE = 6, 3
 #: Least gain that counts, relative to the objective, where the error is not known or smaller.
 LEAST_GAIN = 1e-3
-#: Most trials that are certified on the cells of the case, before the local search.
-CANDIDATES = 3
-#: Part of all runs that is kept for them at most, as its inverse.
-RESERVED = 3
+#: Most points that are certified on the cells of the case, before the local search, and the part of
+#: all runs that is kept for them at most, as its inverse.
+CANDIDATES, RESERVED = 3, 3
 #: Edge of the first simplex of the local search, in parts of the ranges: around the best trial, and
 #: around the one that is closest to a feasible one.
 SIMPLEX, WIDE_SIMPLEX = 0.04, 0.1
@@ -53,14 +52,6 @@ class Score:
     has_failed: bool
 
 
-@dataclass(frozen=True)
-class Found:
-    """End of a search."""
-
-    best: Score | None  # of the feasible points on the finest cells
-    is_cut_short: bool  # the runs were used up before the gain was within the error
-
-
 #: Points that are likely to follow, a given number of them.
 Foreseen = Callable[[int], Sequence[Point]]
 #: Scores of some points; workers that are free compute those that are likely to follow.
@@ -79,11 +70,11 @@ def search(
     size: int = 1,
     held: int = 0,
     known: Iterable[Score] = (),
-) -> Found:
-    """Search a space for the least objective, on cells of some levels, the cheapest first.
+) -> tuple[Score | None, bool]:
+    """Best feasible point of a space on the last of some levels of cells, the cheapest first.
 
     A point takes `size` runs; `held` runs of the budget are left to later searches, `known` points
-    are those of earlier ones.
+    are those of earlier ones. True if the runs were used up before the gain was within the error.
     """
     made = _Search(evaluate, space, budget, levels, size)
     made.tried.update({each.key: each for each in known})
@@ -98,15 +89,11 @@ def search(
     budget.reserved = held
     made.within_budget(made.certify)
     made.within_budget(made.refine)
-    return Found(made.best(levels[-1]), made.is_cut_short)
+    return made.best(levels[-1]), made.is_cut_short
 
 
-class _NothingGainedError(Exception):
-    """The last trials of a search have gained less than the error."""
-
-
-class _ForeseenError(Exception):
-    """Enough of the next points of a search are known."""
+class _EnoughError(Exception):
+    """The last trials of a search have gained less than the error, or enough points are known."""
 
 
 @dataclass
@@ -149,7 +136,9 @@ class _Search:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
         choices = [each for each in self.space.parameters if isinstance(each, Choice)]
         if len(choices) == len(self.space.parameters):
-            self._try_all(list(product(*(_middles(len(each.values)) for each in choices))), level)
+            counts = [len(each.values) for each in choices]
+            middles = ([(n + 0.5) / count for n in range(count)] for count in counts)
+            self._try_all(list(product(*middles)), level)
             return
         bounds = [(0.0, 1.0)] * len(self.space.parameters)
         most = 100 * self.budget.most
@@ -177,12 +166,8 @@ class _Search:
         if best is None:
             return
         point = list(best.point)
-        ends = [round(point[n]) for n in self.space.ranges]
-        near = [
-            (n, end)
-            for n, end in zip(self.space.ranges, ends, strict=True)
-            if abs(point[n] - end) < near_end
-        ]
+        ends = {n: round(point[n]) for n in self.space.ranges}
+        near = [(n, end) for n, end in ends.items() if abs(point[n] - end) < near_end]
         tried = [(*point[:n], float(end), *point[n + 1 :]) for n, end in near]
         if len(near) > 1:
             for n, end in near:
@@ -266,7 +251,7 @@ class _Watched:
 
     def run(self) -> None:
         """Search until nothing is gained."""
-        with contextlib.suppress(_NothingGainedError):
+        with contextlib.suppress(_EnoughError):
             self._minimise(self)
 
     def __call__(self, given: Any) -> float:
@@ -288,12 +273,12 @@ class _Watched:
             if point in self._known:
                 return self._known[point]
             if len(found) > count:
-                raise _ForeseenError
+                raise _EnoughError
             found[point] = None
             distances = [math.dist(point, each) for each in points]
             return costs[int(np.argmin(distances))] if costs else 0.0
 
-        with contextlib.suppress(_ForeseenError):
+        with contextlib.suppress(_EnoughError):
             self._minimise(repeated)
         return list(found)
 
@@ -304,16 +289,11 @@ class _Watched:
         patience = self._patience
         if self._search.best(self._level) is None:
             if self._tried >= self._most_unfeasible and self._search.closest(self._level):
-                raise _NothingGainedError
+                raise _EnoughError
             patience *= NOTHING_FEASIBLE
         if self._tried - self._last >= patience:
-            raise _NothingGainedError
+            raise _EnoughError
 
 
 def _first_of(points: Sequence[Point]) -> Foreseen:
     return lambda count: points[:count]
-
-
-def _middles(count: int) -> list[float]:
-    """Coordinates in the middle of the parts of some choices."""
-    return [(number + 0.5) / count for number in range(count)]
