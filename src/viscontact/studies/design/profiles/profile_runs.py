@@ -174,8 +174,8 @@ def fine_grid(grid: Grid) -> Grid:
 
 
 def _values(found: Sequence[Entry]) -> tuple[list[Value], tuple[str, ...]]:
-    none = {"value": np.nan, "error": np.nan}
-    values = [Value(**(none | each.values)) for each in found]
+    none: dict[str, Any] = {"value": np.nan, "error": np.nan}
+    values = [Value(**{**none, **each.values}) for each in found]
     lines = [line for each in found for line in each.warnings.splitlines()]
     failures = [each.failure for each in found if each.failure]
     return values, tuple(dict.fromkeys([*failures, *lines]))
