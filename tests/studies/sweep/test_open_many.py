@@ -88,13 +88,13 @@ def test_fields_are_read_for_the_selected_runs_only(
     read: list[str] = []
     from viscontact.studies.sweep import lazy_fields
 
-    opened = lazy_fields.opened
+    opened = lazy_fields.open_file
 
-    def reading(path: Path, mode: str) -> object:
+    def reading(path: Path) -> object:
         read.append(path.parent.name)
-        return opened(path, "r")
+        return opened(path)
 
-    monkeypatch.setattr(lazy_fields, "opened", reading)
+    monkeypatch.setattr(lazy_fields, "open_file", reading)
     ds = vc.open_many(grid)
     read.clear()
     lazy = ds.pressure.isel({"indenter.radius": [2, 0], "load.force": 0, "field_time": -1})
