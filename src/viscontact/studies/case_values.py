@@ -31,6 +31,11 @@ def result_of(case: Case) -> xr.Dataset:
     return solve(analysis_of(carried_out(case), errors=case.errors))
 
 
+def result_with(path: Path, settings: Mapping[str, str]) -> xr.Dataset:
+    """Result of a case with settings."""
+    return result_of(case_with(path, settings))
+
+
 def texts(settings: Mapping[str, Any] | None) -> dict[str, str]:
     """Values by key as text, as ``--set`` takes them."""
     return {key: str(value) for key, value in (settings or {}).items()}

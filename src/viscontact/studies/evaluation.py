@@ -14,7 +14,6 @@ from typing import Any, Protocol
 import xarray as xr
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.runs.single import simulate
 from viscontact.studies.executors.executor_choice import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
 from viscontact.studies.journal import Entry, Journal
 
@@ -43,15 +42,15 @@ class StudyRun(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class SimulatedRun:
-    """Run of a study by arguments of `simulate`, and the numbers that are kept of its result."""
+    """Run of a study: the call that gives its result, and the numbers that are kept of that."""
 
     key: str
-    recipe: Mapping[str, Any]
+    result: Callable[[], xr.Dataset]
     numbers: Callable[[xr.Dataset], Mapping[str, Any]]  # as JSON has them
 
     def __call__(self) -> Entry:
         """Simulate the run."""
-        found = simulate(**self.recipe)
+        found = self.result()
         return Entry(self.numbers(found), warnings=str(found.attrs.get("warnings", "")))
 
 

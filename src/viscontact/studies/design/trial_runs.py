@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import Any
 
-from viscontact.studies.case_values import case_with, result_of
+import xarray as xr
+
+from viscontact.studies.case_values import case_with, result_with
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.design.trials import REACH, goal_name
-from viscontact.studies.evaluation import Level
-from viscontact.studies.journal import Entry
+from viscontact.studies.evaluation import Level, SimulatedRun
 from viscontact.studies.scalars import magnitude
 
 #: Scalar without a limit at a sharp end, also where the cells do not resolve that.
@@ -31,44 +34,28 @@ class CaseTrials:
     constraints: tuple[Constraint, ...]
     coarse: Mapping[str, str]  # settings of the coarse cells
 
-    def __call__(self, settings: Mapping[str, str], level: Level) -> list[TrialRun]:
+    def __call__(self, settings: Mapping[str, str], level: Level) -> list[SimulatedRun]:
         """Runs of a trial with some values, in the order of the scenarios."""
         cells = self.coarse if level == "coarse" else {}
         fixed = {**self.settings, **cells, "output.fields": "none"}
         values = ", ".join(f"{key}={value}" for key, value in sorted(settings.items()))
-        return [
-            TrialRun(
-                f"{level} {number} {values}",
-                self.case,
-                {**fixed, **each.settings(settings)},
-                self.goals,
-                self.constraints,
-            )
-            for number, each in enumerate(self.scenarios)
-        ]
+        runs = []
+        for number, each in enumerate(self.scenarios):
+            whole = {**fixed, **each.settings(settings)}
+            result = partial(result_with, self.case, whole)
+            key = f"{level} {number} {values}"
+            runs.append(SimulatedRun(key, result, partial(self.numbers, whole)))
+        return runs
 
-
-@dataclass(frozen=True)
-class TrialRun:
-    """Run of a trial in a scenario: the goals, the constraints, and the reach of the contact."""
-
-    key: str
-    case: Path
-    settings: Mapping[str, str]
-    goals: tuple[Goal, ...]
-    constraints: tuple[Constraint, ...]
-
-    def __call__(self) -> Entry:
-        """Simulate the run; values with their errors, by name."""
-        case = case_with(self.case, self.settings)
-        found = result_of(case)
+    def numbers(self, settings: Mapping[str, str], found: xr.Dataset) -> dict[str, Any]:
+        """Goals, constraints and reach of the contact in a run, with their errors, by name."""
         values = {goal_name(goal): goal.value(found) for goal in self.goals}
         values |= {str(each): each.value(found) for each in self.constraints}
         values[REACH] = magnitude(found, REACH, "worst")
-        warned = str(found.attrs.get("warnings", ""))
         outcome = {name: [each.value, each.error] for name, each in values.items()}
-        if reaches_sharp_end(case.indenter, warned):
+        warned = bool(found.attrs.get("warnings"))
+        if warned and reaches_sharp_end(case_with(self.case, settings).indenter, found):
             peaks = [goal_name(goal) for goal in self.goals if goal.scalar == PEAK]
             peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
             outcome |= {name: [outcome[name][0], math.inf] for name in peaks}
-        return Entry(outcome, warnings=warned)
+        return outcome

@@ -15,6 +15,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.profile import Profile
+from viscontact.runs.single import simulate
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.evaluation import Evaluation, SimulatedRun
@@ -72,7 +73,10 @@ class ProfileRuns:
         return [
             SimulatedRun(
                 f"rows {number} {_profile_key(profile)} {cells}",
-                {**each.arguments(profile), **common, "fields": self._instants(each)},
+                partial(
+                    simulate,
+                    **{**each.arguments(profile), **common, "fields": self._instants(each)},
+                ),
                 partial(row_peaks, self.scenarios[0].end, self.amplitude),
             )
             for number, each in enumerate(self.scenarios)
@@ -85,7 +89,7 @@ class ProfileRuns:
         runs = [
             SimulatedRun(
                 f"widths {number} {_profile_key(profile)} {self.grid!r}",
-                {**each.arguments(profile), **common},
+                partial(simulate, **{**each.arguments(profile), **common}),
                 least_and_largest_width,
             )
             for number, each in enumerate(self.scenarios)
@@ -109,7 +113,7 @@ class ProfileRuns:
                 recipe = each.certifying(profile, cells) | {"fields": "none"}
                 key = f"peak {number} {_profile_key(profile)} {cells!r}"
                 numbers = partial(certified_peak, recipe["indenter"], self.at)
-                runs.append(SimulatedRun(key, recipe, numbers))
+                runs.append(SimulatedRun(key, partial(simulate, **recipe), numbers))
         found = iter(self.evaluation.outcomes(runs, is_limited=False))
         return [_values([next(found) for _ in self.scenarios]) for _ in profiles]
 
@@ -139,7 +143,7 @@ def least_and_largest_width(found: xr.Dataset) -> dict[str, Any]:
 def certified_peak(indenter: Indenter, at: At, found: xr.Dataset) -> dict[str, Any]:
     """Peak pressure and its error [Pa]."""
     value = magnitude(found, "peak_pressure", at)
-    is_sharp = reaches_sharp_end(indenter, str(found.attrs.get("warnings", "")))
+    is_sharp = reaches_sharp_end(indenter, found)
     return {"value": value.value, "error": float(np.inf if is_sharp else value.error)}
 
 
