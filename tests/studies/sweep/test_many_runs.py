@@ -24,8 +24,9 @@ import xarray as xr
 import viscontact as vc
 from interrupted_runs import BODIES
 from viscontact.cli import main
-from viscontact.cli.sweep import jobs
+from viscontact.cli.sweep import execution, jobs
 from viscontact.cli.sweep.plan_options import PlanOptions
+from viscontact.cli.sweep.request import ManyRequest
 from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
 from viscontact.runs.directory.lock import DirectoryInUse, locked
@@ -189,6 +190,26 @@ def test_runs_that_do_not_fit_into_memory_wait_for_one_another(
     assert jobs.fitting(found[:1] + found[2:]) == 2
     (crowded,) = jobs.resource_warnings(found[:1] + found[2:], wanted=2, at_once=2, threads=2)
     assert "2 runs of 2 threads each at once share 2 cores" in crowded
+
+
+@pytest.mark.parametrize(("typed", "at_once"), [(None, 4), (1, 1), (6, 5)])
+def test_as_many_runs_as_there_are_cores_for_their_threads_are_computed_by_default(
+    typed: int | None, at_once: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+
+    def pool(count: int) -> None:
+        asked.append(count)
+        raise InterruptedError
+
+    monkeypatch.setattr(execution, "LocalWorkers", pool)
+    monkeypatch.setattr(execution, "number_of_workers", lambda workers: 8)
+    common = RunRequest(Path("a.yaml"), threads=2, quiet=True)
+    request = ManyRequest((Path("a.yaml"),), common, jobs=typed)
+    found = [job(f"{n}", 1e6) for n in range(5)]
+    with pytest.raises(InterruptedError), execution._workers(request, found, None):  # type: ignore[arg-type]
+        pass
+    assert asked == [at_once]
 
 
 def job(name: str, memory: float) -> Job:
