@@ -32,7 +32,7 @@ from viscontact.results.stated_errors import largest_error
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
-from viscontact.studies.executors import chosen
+from viscontact.studies.executors import executor_choice
 from viscontact.studies.sweep import many
 
 PAGE = (Path(__file__).parents[3] / "docs" / "many-runs.md").read_text(encoding="utf-8")
@@ -334,7 +334,7 @@ def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
     # of an elastic body: 0.15 GB, 20 numbers of 8 bytes a cell, and 0.13 GB on 2000 x 2000 cells
     given = {"indenter": vc.Sphere(0.01), "material": RUBBER, "load": vc.step(0.1)}
     sizes = {n: {**given, "grid": vc.Grid((n, n), (1.0, 1.0))} for n in (100, 2000)}
-    monkeypatch.setattr(chosen, "LocalWorkers", pool)
+    monkeypatch.setattr(executor_choice, "LocalWorkers", pool)
     monkeypatch.setattr(many, "available_memory", lambda: free)
     with warnings.catch_warnings(record=True) as warned, pytest.raises(InterruptedError):
         vc.simulate_many([sizes[n] for n in (100, 2000, 100, 2000)], workers=4)

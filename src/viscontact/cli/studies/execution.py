@@ -91,7 +91,7 @@ def _workers(typed: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         yield {"workers": typed["jobs"]}
         return
     from viscontact.cli.sweep.cluster import connected
-    from viscontact.studies.executors.chosen import number_of_workers
+    from viscontact.studies.executors.executor_choice import number_of_workers
 
     count = number_of_workers(typed["jobs"])
     with connected(typed["scheduler"], count, quiet=typed["quiet"]) as client:

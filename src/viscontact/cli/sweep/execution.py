@@ -16,8 +16,8 @@ from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, RunStage
-from viscontact.studies.executors.chosen import number_of_workers
 from viscontact.studies.executors.driver import Workers, drive
+from viscontact.studies.executors.executor_choice import number_of_workers
 from viscontact.studies.executors.local import LocalTasks, LocalWorkers
 from viscontact.studies.sweep.states import State, state_at_end
 
