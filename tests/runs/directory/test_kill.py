@@ -22,6 +22,7 @@ if os.name == "nt":
 
 import xarray as xr
 
+from forked_run import ForkedRun
 from killed_run import complete, differing, lines_of, resumed_after
 
 HERE = Path(__file__).parents[2]
@@ -68,22 +69,15 @@ class RandomKills:
         (folder / "case.yaml").write_text(RUBBER + CASES[kind], encoding="utf-8")
         self.faults: list[str] = []
         self.killed = self.lost = 0
-        code, said = self.ended(self.started("whole"))
+        code, said = self.ended("whole")
         assert (code, resumed_after(said)) == (0, 0)
         with xr.open_dataset(folder / "whole" / "result.nc") as ds:
             self.whole = ds.load()
         self.lines = lines_of(folder / "whole")
         self.size = sum(len(line) + 1 for line in self.lines)
 
-    def started(self, name: str) -> subprocess.Popen[str]:
-        command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "-o", name, "--resume"]
-        return subprocess.Popen(
-            command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-        )
-
-    def ended(self, run: subprocess.Popen[str]) -> tuple[int, str]:
-        _, said = run.communicate(timeout=300)
-        return run.returncode, said
+    def ended(self, name: str) -> tuple[int, str]:
+        return ForkedRun(self.folder, name).ended()
 
     def kill(self, name: str, part: float) -> bool:
         """Begin or resume a run, kill it within a part of what is left; say whether it was over."""
@@ -93,12 +87,12 @@ class RandomKills:
         length = progress.stat().st_size if before else 0
         # By what it has done, not by time: that depends on what else the machine does.
         wanted = length + self.chance.random() * part * (self.size - length)
-        run = self.started(name)
-        while run.poll() is None and not (progress.exists() and progress.stat().st_size > wanted):
+        run = ForkedRun(self.folder, name)
+        while not run.is_over() and not (progress.exists() and progress.stat().st_size > wanted):
             clock.sleep(0.001)
         clock.sleep(self.chance.random() * 0.03)
         run.kill()
-        code, said = self.ended(run)
+        code, said = run.ended()
         after = resumed_after(said)
         if after is not None and after < before:
             self.lost = max(self.lost, before - after)
@@ -122,7 +116,7 @@ class RandomKills:
             self.faults.append(f"{name}: there is no result")
 
     def finish(self, name: str) -> None:
-        code, said = self.ended(self.started(name))
+        code, said = self.ended(name)
         if code:
             self.faults.append(f"{name}: cannot be finished: {said}")
         else:
@@ -188,7 +182,7 @@ def test_disk_that_is_really_full_stops_a_run_which_continues_with_more_space(
     try:
         for size in (64, 128, 256, 384, 512, 768, 20_000):
             subprocess.run(["mount", "-o", f"remount,size={size}k", str(disk)], check=True)
-            code, said = kills.ended(kills.started("disk/run"))
+            code, said = kills.ended("disk/run")
             if code == 0:
                 break
             stops += 1
