@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -19,6 +20,7 @@ class Problem:
     times: np.ndarray
 
 
+@cache  # half of the time of a problem is that of its grid
 def random_problem(seed):
     """A problem with a solution on a grid that holds it; the seed says which."""
     rng = np.random.default_rng(seed)
