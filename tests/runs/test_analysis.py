@@ -106,6 +106,8 @@ def test_a_curve_that_ends_early_has_the_grid_of_its_first_speeds() -> None:
 
 def test_body_without_a_motion_has_none_of_its_scalars() -> None:
     assert "position_x" not in solve(standing())
+    assert "motion" not in standing().case  # as runs from before are described, which are resumed
+    assert "motion" in travelling().case
     assert {"position_x", "friction_coefficient", "heat"} <= set(solve(travelling()))
 
 
