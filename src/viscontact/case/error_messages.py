@@ -229,15 +229,15 @@ def _example(model: type[BaseModel], key: str) -> str:
     return f"; {described}" if described else ""
 
 
-def _with_own_example(said: str, model: type[BaseModel], key: str) -> str:
+def _with_own_example(message: str, model: type[BaseModel], key: str) -> str:
     """Message with the size that is usual for the key, in place of any of its dimension."""
     field = next(
         (each for name, each in model.model_fields.items() if key in (name, each.alias)), None
     )
     [example, *_] = (field.examples if field else None) or [None]
     if not isinstance(example, str):
-        return said
-    return re.sub(r"(?<=write e\.g\. )'[^']*'", repr(example), said)
+        return message
+    return re.sub(r"(?<=write e\.g\. )'[^']*'", repr(example), message)
 
 
 def _in_place(model: type[BaseModel], key: str) -> str:

@@ -161,5 +161,5 @@ def _part(title: str, given: Sequence[InputRow]) -> Element:
 
 
 def _account(lines: Iterable[tuple[str, str]]) -> Element:
-    said = [part for name, text in lines for part in (element("dt", name), element("dd", text))]
-    return element("dl", *said, class_="account")
+    entries = [part for name, text in lines for part in (element("dt", name), element("dd", text))]
+    return element("dl", *entries, class_="account")

@@ -18,26 +18,26 @@ from viscontact.units.formatting import format_number, format_quantity
 
 def notices(ds: xr.Dataset) -> list[str]:
     """Notices for the head of the page: an early end, failed instants."""
-    said = []
+    sentences = []
     axis = run_axis(ds)
     times, reached = case_of(ds).get("times") or [], float(ds[axis.name][-1])
     speeds = (case_of(ds).get("motion") or {}).get("speed") or []
     if not axis.is_history and ds.sizes["speed"] < len(speeds):
-        said.append(
+        sentences.append(
             f"The run ended after {ds.sizes['speed']} of {len(speeds)} speeds: this page shows "
             "what it had completed."
         )
     if times and reached < float(times[-1]):
-        said.append(
+        sentences.append(
             f"The run ended at t = {format_quantity(reached, 's')}, before its last instant, t = "
             f"{format_quantity(float(times[-1]), 's')}: this page shows what it had completed."
         )
     failed = int((ds["outcome"].values == Outcome.NOT_CONVERGED).sum())
     if failed:
-        said.append(
+        sentences.append(
             f"The solver did not converge at {failed} of {ds.sizes[axis.name]} {axis.row}s."
         )
-    return said
+    return sentences
 
 
 def warnings_of(ds: xr.Dataset) -> list[str]:

@@ -168,10 +168,10 @@ def _cycle(ds: xr.Dataset) -> str:
     begin, end = (format_quantity(time, "s") for time in (cycle.begin, cycle.end))
     names = ["force", "peak_pressure", *(() if lacks_datum(ds) else ("approach",))]
     ranges = [f"the {name.replace('_', ' ')} {cycle.range_of(ds, name)}" for name in names]
-    said = f"In the last cycle, t = {begin} to {end}: {', '.join(ranges)}"
+    text = f"In the last cycle, t = {begin} to {end}: {', '.join(ranges)}"
     if "loss_per_cycle" in ds and np.isfinite(ds["loss_per_cycle"].values[cycle.last]):
-        said += f"; the loss per cycle is {format_scalar(ds, 'loss_per_cycle', cycle.last)}"
-    return f"{said}. "
+        text += f"; the loss per cycle is {format_scalar(ds, 'loss_per_cycle', cycle.last)}"
+    return f"{text}. "
 
 
 def _contact(ds: xr.Dataset, index: int) -> str:
@@ -179,7 +179,7 @@ def _contact(ds: xr.Dataset, index: int) -> str:
         format_scalar(ds, name, index)
         for name in ("force", "contact_area", "approach", "peak_pressure")
     )
-    said = f"the contact covers {area} under {force}; "
+    text = f"the contact covers {area} under {force}; "
     if lacks_datum(ds):
-        return said + f"the peak pressure is {peak}"
-    return said + f"the approach is {approach} and the peak pressure {peak}"
+        return text + f"the peak pressure is {peak}"
+    return text + f"the approach is {approach} and the peak pressure {peak}"

@@ -82,8 +82,8 @@ class Scatter:
 
     def __str__(self) -> str:
         low, high = self.bounds.value(0.0), self.bounds.value(1.0)
-        said = {"uniform": "", "log": ", uniform logarithm", "normal": ", normal (95 %)"}
-        return f"{low} to {high}{said[self.shape]}"
+        suffix = {"uniform": "", "log": ", uniform logarithm", "normal": ", normal (95 %)"}
+        return f"{low} to {high}{suffix[self.shape]}"
 
 
 @dataclass(frozen=True)

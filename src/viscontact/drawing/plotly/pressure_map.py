@@ -96,19 +96,19 @@ def outlines(maps: Maps, look: Look = LIGHT) -> go.Figure:
 def map_remarks(maps: Maps) -> str:
     """Remarks on the map: scale, averaged cells, instants left out."""
     line = "" if maps.many_spots else "The line is the outline of the contact; "
-    said = [f"{line}{'w' if line else 'W'}ithout colour: no contact."]
+    notes = [f"{line}{'w' if line else 'W'}ithout colour: no contact."]
     if maps.moves:
-        said.append("The cross is the body's axis, the arrow the direction of its motion.")
+        notes.append("The cross is the body's axis, the arrow the direction of its motion.")
     along_x, along_y = maps.strides(MOST_CELLS)
     if max(along_x, along_y) > 1:
-        said.append(
+        notes.append(
             f"To keep the page small the map shows means over {along_x} × {along_y} cells (at most "
             f"{MOST_CELLS} a side); sections are at full resolution."
         )
     if len(maps.maps) < maps.stored:
         rows = maps.snapshots[0].axis.row
-        said.append(f"{len(maps.maps)} of {maps.stored} stored {rows}s are shown.")
-    return " ".join(said)
+        notes.append(f"{len(maps.maps)} of {maps.stored} stored {rows}s are shown.")
+    return " ".join(notes)
 
 
 def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[Part], Part]]:

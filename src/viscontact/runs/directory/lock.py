@@ -135,8 +135,8 @@ def _owner(path: Path) -> str:
     """Return the process that holds the lock, in brackets; empty if it is not known."""
     try:
         with path.open(encoding="utf-8") as file:
-            said = file.readline(200).strip()
+            line = file.readline(200).strip()
     except (OSError, ValueError):  # Windows refuses to read a locked file
         return ""
-    number, _, host = said.partition(" on ")
+    number, _, host = line.partition(" on ")
     return f" (process {number} on {host})" if number.isdecimal() and host.isprintable() else ""

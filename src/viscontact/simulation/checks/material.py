@@ -77,8 +77,8 @@ def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
 
 def origin_warnings(bodies: Sequence[Material]) -> dict[str, str]:
     """Warn of laws that come with a warning, such as a fit that misses its data."""
-    said = dict.fromkeys(body.warning for body in bodies if body.warning)
-    return {"origin": "; ".join(said)} if said else {}
+    texts = dict.fromkeys(body.warning for body in bodies if body.warning)
+    return {"origin": "; ".join(texts)} if texts else {}
 
 
 def splitting_warnings(error: float) -> dict[str, str]:

@@ -151,8 +151,8 @@ class _MeshChoice:
         if PEAK in left_out:
             warnings = warnings | {"peak": PEAK_WARNING + self.remedy}
         for name in sorted(left_out - {PEAK}):
-            said = EXTENT_WARNING.format(extent=name.replace("_", " "))
-            warnings = warnings | {name: said + self.remedy}
+            text = EXTENT_WARNING.format(extent=name.replace("_", " "))
+            warnings = warnings | {name: text + self.remedy}
         return replace(
             self, cells=cells, quantities=found.quantities, errors=errors, warnings=warnings
         )

@@ -31,8 +31,8 @@ class ProgressBar:
         filled = round(_WIDTH * done / total) if total else _WIDTH
         left = f"about {_duration_text(spent / done * (total - done))} left"
         ending = f", then {self._then}" if self._then else ""
-        said = left if done < total else f"{_duration_text(spent)}{ending}"
-        line = f"{self._unit} {done}/{total} [{'#' * filled:<{_WIDTH}}], {said}"
+        rest = left if done < total else f"{_duration_text(spent)}{ending}"
+        line = f"{self._unit} {done}/{total} [{'#' * filled:<{_WIDTH}}], {rest}"
         # Spaces over what the line before had more.
         text = f"\r{line:<{self._length}}" + ("" if done < total else "\n")
         self._length = len(line)

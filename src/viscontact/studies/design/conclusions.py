@@ -25,22 +25,22 @@ def why_infeasible(trials: Trials) -> str:
     """Reason why no trial is feasible, with the closest one."""
     names = " or the ".join(goal.scalar for goal in trials.goals)
     limits, tried = trials.constraints, trials.tried()
-    said = f"no feasible design in {trials.budget.runs} runs"
+    begin = f"no feasible design in {trials.budget.runs} runs"
     done = [trial for trial in tried if not trial.failure]
     if not done:
         reason = tried[0].failure if tried else "runs: are too few"
-        return f"{said}: every trial failed, the first one with: {reason}"
+        return f"{begin}: every trial failed, the first one with: {reason}"
     closest = min(done, key=lambda trial: trial.violation(limits))
     where = ", ".join((f"{key}={value}" for key, value in closest.settings.items()))
     if closest.violation(limits) == 0.0:
         return (
-            f"{said}: the {names} has no limit, as at a sharp end, or the trials on coarse "
+            f"{begin}: the {names} has no limit, as at a sharp end, or the trials on coarse "
             f"cells were not confirmed on those of the case (closest: {where}); constrain the "
             "contact, choose another scalar, or allow more runs"
         )
     broken = max(limits, key=lambda each: each.violation(closest.extreme(each).value))
     value = format_quantity(closest.extreme(broken).value, broken.units)
-    return f"{said}: {broken} is not kept; the closest is {value} at {where}"
+    return f"{begin}: {broken} is not kept; the closest is {value} at {where}"
 
 
 def notes_on(best: Trial, before: Trial, search: Searched) -> Iterator[str]:

@@ -73,11 +73,11 @@ class RemoteTasks:
 
     def failure(self, error: BaseException) -> tuple[str, str]:
         """One word and the reason for a task that has ended without an outcome."""
-        said = next(iter(str(error).splitlines()), "") or type(error).__name__
+        first = next(iter(str(error).splitlines()), "") or type(error).__name__
         is_killed = isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker"
         if is_killed:
-            return "killed", f"the worker of the run was killed: {said}; {self._remedy}"
-        return "stopped", f"the run could not be computed: {type(error).__name__}: {said}"
+            return "killed", f"the worker of the run was killed: {first}; {self._remedy}"
+        return "stopped", f"the run could not be computed: {type(error).__name__}: {first}"
 
 
 def perform_elsewhere(task: RecordedTask, submitter: int) -> TaskEnd:

@@ -128,5 +128,5 @@ _INDICES = {
 
 
 def _attributes(name: str, end: str) -> dict[str, str]:
-    said = {"": "", "_low": ", lower end (95 %)", "_high": ", upper end (95 %)"}[end]
-    return {"units": "1", "long_name": f"{_INDICES[name]}{said}"}
+    suffix = {"": "", "_low": ", lower end (95 %)", "_high": ", upper end (95 %)"}[end]
+    return {"units": "1", "long_name": f"{_INDICES[name]}{suffix}"}

@@ -89,15 +89,15 @@ def _suits_map(swept: SweptKeys) -> bool:
 def _heading(ds: xr.Dataset, scalars: list[str], *, has_bars: bool) -> str:
     """Description of the values, and the number of runs without one."""
     errors = [largest_values(ds, name)[1].values for name in scalars]
-    said = f"Largest values over {over_of(ds)}"
+    note = f"Largest values over {over_of(ds)}"
     if has_bars and any((np.isfinite(each) & (each > 0)).any() for each in errors):
-        said += ", with error bars"
+        note += ", with error bars"
     if has_bars and any(np.isposinf(each).any() for each in errors):
-        said += "; hollow: depends on the mesh"
+        note += "; hollow: depends on the mesh"
     if missing := int((ds["state"] != "done").sum()):
         runs = "1 run" if missing == 1 else f"{missing} runs"
-        said += f"; ×: no result ({runs} of {ds['state'].size})"
-    return said
+        note += f"; ×: no result ({runs} of {ds['state'].size})"
+    return note
 
 
 def _panels(swept: SweptKeys, across: float, *, is_map: bool) -> Figure:
