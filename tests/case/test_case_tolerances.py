@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from viscontact.case import CaseError, read_case
-from viscontact.runs.execution.case_attributes import filed_case
+from viscontact.runs.execution.checked_run import filed_case
 
 BALL = """
 title: 12 mm ± 0.02 mm

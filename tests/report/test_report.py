@@ -30,9 +30,9 @@ from viscontact.drawing.plotly.pressure_map import MOST_CELLS, pressure_map
 from viscontact.drawing.svg.html import as_script
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
+from viscontact.report.drawings import recorded_surface
 from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
-from viscontact.report.recorded_surface import recorded_surface
 from viscontact.report.run_data import run_data
 from viscontact.report.section_csv import lines_csv
 from viscontact.results.snapshots import take_snapshots

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import base64
+import json
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Any
 from xml.etree.ElementTree import Element
 
+import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.indenters import HeightMap, Indenter
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.layers import creeping_laws
 from viscontact.drawing.content.law_curves import curve_times
@@ -20,7 +23,6 @@ from viscontact.drawing.svg.curves import law_drawings
 from viscontact.drawing.svg.html import element
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
-from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times
 from viscontact.results.stored_contact import cells_in_contact
@@ -143,3 +145,31 @@ def drawn(draw: Callable[[], Figure], about: str) -> Element:
     source = f"data:image/svg+xml;base64,{base64.b64encode(as_svg(figure)).decode('ascii')}"
     image = element("img", src=source, alt=about, width=width, height=height)
     return element("div", image, class_="scroll")
+
+
+def is_left_out(described: Any) -> bool:
+    """Test for a described object of which a result keeps a fingerprint only: a large map."""
+    return '"sha256"' in json.dumps(described)
+
+
+def recorded_surface(ds: xr.Dataset) -> HeightMap:
+    """Return the indenter on the grid of a run, from the fields that are stored."""
+    missing = {"gap", "displacement"} - set(ds.variables)
+    if missing or not ds["gap"].size:
+        raise ValueError(
+            "the surface is measured, results do not store it, and there are no fields to "
+            "compute it from; store some (output.fields)"
+        )
+    # From gap = initial gap + displacement - approach - tilt_x x - tilt_y y (eq. 1), at the last
+    # stored instant: the grid is the whole one by then. The level of a map does not matter, so that
+    # a line contact, whose approach has no datum, counts from 0.
+    over = str(ds["gap"].dims[0])
+    last = ds[["gap", "displacement"]].isel({over: -1}).transpose("x", "y")
+    motion = ds[["approach", "tilt_x", "tilt_y"]].sel(time=float(ds[over][-1]), method="nearest")
+    x, y = ds["x"].values, ds["y"].values
+    rigid = np.nan_to_num(motion["approach"].item()) + motion["tilt_x"].item() * x[:, None]
+    gap = last["gap"].values - last["displacement"].values + rigid + motion["tilt_y"].item() * y
+    known = np.where(np.isfinite(gap), gap, np.nan)
+    if not np.isfinite(known).any():
+        raise ValueError("the surface is a measured one, and no gap of it is stored")
+    return HeightMap(x, y, -known, holes=True)
