@@ -99,14 +99,14 @@ def slow(*case):
 @pytest.mark.parametrize(
     ("name", "history"),
     [
-        ("zener", "step"),
-        ("zener", "ramp"),
+        slow("zener", "step"),
+        slow("zener", "ramp"),
         ("zener", "jumps"),
         slow("zener", "triangle"),
         slow("zener", "stage in"),
         slow("zener", "stage in and out"),
         slow("zener", "harmonic"),
-        ("maxwell", "step"),
+        slow("maxwell", "step"),
         slow("maxwell", "stage in and out"),
         slow("burgers", "triangle"),
         slow("creep_series", "ramp"),
@@ -133,7 +133,7 @@ def test_adaptive_steps_reach_the_tolerance_and_know_their_error(name, history):
     ("name", "history"),
     [
         ("zener", "ramp"),
-        ("burgers", "step"),
+        slow("burgers", "step"),
         slow("creep_series", "step"),
         slow("zener", "triangle"),
         slow("fractional_zener", "step"),
@@ -153,7 +153,7 @@ def test_adaptive_steps_need_at_most_half_of_the_uniform_ones(name, history):
 @pytest.mark.parametrize(
     ("name", "history"),
     [
-        ("zener", "step"),
+        slow("zener", "step"),
         ("zener", "triangle"),
         *(slow("zener", history) for history in ("stage in and out", "jumps")),
         *(slow("burgers", history) for history in ("step", "triangle", "jumps")),
