@@ -24,7 +24,7 @@ AT_MOST = "{done} runs of at most {total}, at most {left:.0f} s left"
 OF_ALL = "{done} of {total} runs, about {left:.0f} s left"
 
 
-class StudyResult(Protocol):
+class PrintedResult(Protocol):
     """Result of a study, which prints itself."""
 
     @property
@@ -99,7 +99,7 @@ def _workers(typed: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def conclude(
-    found: StudyResult, directory: Path, files: Iterable[str], lines: Iterable[str] = ()
+    found: PrintedResult, directory: Path, files: Iterable[str], lines: Iterable[str] = ()
 ) -> None:
     """Print a result, some lines about it, its notes, and the files in its directory."""
     print(found)
@@ -112,7 +112,7 @@ def conclude(
         print(directory / name)
 
 
-def write_report(found: StudyResult, page: Path) -> None:
+def write_report(found: PrintedResult, page: Path) -> None:
     """Write the report where the packages of figures are installed, and print its name."""
     try:
         found.report(page)

@@ -203,7 +203,7 @@ def result_of(
     return CaseFit(
         parameters={u.name: u.si(part) for u, part, _, _ in parts},
         units={u.name: u.unit for u in unknowns},
-        intervals={u.name: (_far(u, part - r), _far(u, part + r)) for u, part, r, _ in parts},
+        intervals={u.name: (_limit(u, part - r), _limit(u, part + r)) for u, part, r, _ in parts},
         discretisation_errors={u.name: abs(u.si(p) - u.si(p - s)) for u, p, _, s in parts},
         confidence=confidence,
         correlation=found.correlation,
@@ -220,7 +220,7 @@ def result_of(
     )
 
 
-def _far(unknown: Unknown, part: float) -> float:
+def _limit(unknown: Unknown, part: float) -> float:
     """Bound of an interval in SI units; infinite far outside the range."""
     if not abs(part) < 100:
         return 0.0 if part < 0 and unknown.bounds.logarithmic else math.copysign(math.inf, part)
