@@ -57,7 +57,7 @@ class ResponseSurface:
             logarithm = logarithm + _powers(point, _RATIO_DEGREE) @ self._ratio
         approach = np.zeros(self._force.size)  # rows without force do not count
         approach[self._force > 0] = np.exp(logarithm[0])
-        return {"force": self._force.tolist(), "approach": approach.tolist()}
+        return Entry({"force": self._force.tolist(), "approach": approach.tolist()})
 
     def _run(self, point: Array, level: Level) -> Array:
         """Approach of the simulator at the rows that have a force [m]."""
@@ -67,7 +67,7 @@ class ResponseSurface:
             for (key, (middle, unit)), factor in zip(self._middle.items(), factors, strict=True)
         }
         found = RecordRun(self._test, values, Mounting(), level)()
-        return np.array(found["approach"])[self._force > 0]
+        return np.array(found.values["approach"])[self._force > 0]
 
 
 def _fitted(points: Array, values: Array, degree: int) -> Array:
