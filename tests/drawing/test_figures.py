@@ -12,7 +12,7 @@ from synthetic_results import maxwell_sphere
 from viscontact import plot
 from viscontact.drawing.choice import FigureChoice
 from viscontact.drawing.content.map import maps_over
-from viscontact.drawing.figures import TABLE, FigureEntry
+from viscontact.drawing.figures import TABLE, FigureEntry, Reported
 from viscontact.drawing.plotly.run_figures import INTERACTIVE, run_figures
 from viscontact.report.result_chapters import loop_part
 from viscontact.report.still_figures import still_figures
@@ -32,11 +32,11 @@ def test_each_figure_takes_what_the_table_says(entry: FigureEntry) -> None:
 
 
 def test_interactive_figures_are_those_of_the_table() -> None:
-    named = [each.interactive for each in TABLE if each.interactive]
+    reported = [each.reported for each in TABLE if each.reported]
+    named = [each.interactive for each in reported if each.interactive]
     assert sorted(named) == sorted(INTERACTIVE)
-    for entry in TABLE:
-        assert bool(entry.chapter) == bool(entry.heading)
-        assert entry.chapter not in (None, "spots", "stress") or not entry.interactive
+    assert all(each.heading for each in reported)
+    assert not any(each.interactive for each in reported if each.chapter in ("spots", "stress"))
     run = maxwell_sphere([0.0, 1.0], cells=8)
     drawn = run_figures(run, maps_over(run))
     names = [each.layout.meta["name"] for each in drawn["pressure"]]
@@ -49,9 +49,7 @@ def test_reports_draw_a_new_row_of_the_table(
     interactive: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = maxwell_sphere([0.0, 1.0], cells=8, fields=False)
-    row = FigureEntry(
-        *("further", "creep"), chapter="loops", heading="Further", interactive=interactive
-    )
+    row = FigureEntry("further", "creep", reported=Reported("loops", "Further", interactive))
     for module in ("report.still_figures", "drawing.plotly.run_figures"):
         monkeypatch.setattr(f"viscontact.{module}.TABLE", (*TABLE, row))
     printed, shown = (

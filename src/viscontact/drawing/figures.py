@@ -8,11 +8,23 @@ page read it. It imports no plotting library, so that the command line can print
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from functools import partial
+from typing import Literal
 
 #: Chapters of the report of a run, and of the calculator page, which has interactive figures only;
 #: those of "spots" and "stress" follow a sentence of the report, and are still.
 Chapter = Literal["pressure", "friction", "histories", "loops", "spots", "stress"]
+
+
+@dataclass(frozen=True)
+class Reported:
+    """Place of a figure in reports and on the calculator page."""
+
+    chapter: Chapter
+    heading: str
+    #: Function among those of `drawing/plotly/run_figures.py`. Reports in HTML and the page show
+    #: its figures; without it, reports in HTML have the still figure, as those in PDF do.
+    interactive: str = ""
 
 
 @dataclass(frozen=True)
@@ -29,11 +41,7 @@ class FigureEntry:
     at_instants: bool = False  # fields of the stored instants or speeds next to the given ones
     any_time: bool = False  # its times may lie outside the run
     is_animation: bool = False
-    chapter: Chapter | None = None  # None: neither in reports nor on the page
-    heading: str = ""  # in reports and on the page
-    #: Function among those of `drawing/plotly/run_figures.py`. Reports in HTML and the page show
-    #: its figures; without it, reports in HTML have the still figure, as those in PDF do.
-    interactive: str = ""
+    reported: Reported | None = None  # None: neither in reports nor on the page
 
     @property
     def method(self) -> str:
@@ -45,80 +53,81 @@ class FigureEntry:
         """Name of the function of `viscontact.plot`."""
         return self.function or self.method
 
+    @property
+    def heading(self) -> str:
+        """Heading in reports and on the page; empty where it is in neither."""
+        return self.reported.heading if self.reported else ""
 
-def _fields(
-    name: str, function: str = "", compare: str = "", *options: str, **shown: Any
-) -> FigureEntry:
-    """Entry of a figure of fields at single instants or speeds."""
-    takes = ("times", *options)
-    return FigureEntry(name, function, compare, "both", takes, at_instants=True, **shown)
 
+#: Entry of a figure of fields at single instants or speeds.
+_fields = partial(FigureEntry, of="both", at_instants=True)
 
 TABLE = (
     _fields(
-        *("pressure-map", "", "compare_pressure_maps", "style"),
-        **{"chapter": "pressure", "heading": "Pressure", "interactive": "pressure_map"},
+        "pressure-map",
+        compare="compare_pressure_maps",
+        takes=("times", "style"),
+        reported=Reported("pressure", "Pressure", "pressure_map"),
     ),
     _fields(
-        *("pressure-profile", "", "compare_pressure_profiles", "along", "at"),
-        chapter="pressure",
-        heading="Section through the pressure",
-        interactive="sections",
+        "pressure-profile",
+        compare="compare_pressure_profiles",
+        takes=("times", "along", "at"),
+        reported=Reported("pressure", "Section through the pressure", "sections"),
     ),
     _fields("pressure-radial"),
     _fields(
-        *("line-load", "", "compare_line_loads"),
-        chapter="pressure",
-        heading="Line load along x: the pressure integrated over y",
-        interactive="line_loads",
+        "line-load",
+        compare="compare_line_loads",
+        reported=Reported(
+            "pressure", "Line load along x: the pressure integrated over y", "line_loads"
+        ),
     ),
-    _fields("pressure-3d", "pressure_surface", "compare_pressure_surfaces"),
-    _fields("surface-3d", "deformed_surface"),
+    _fields("pressure-3d", function="pressure_surface", compare="compare_pressure_surfaces"),
+    _fields("surface-3d", function="deformed_surface"),
     _fields(
-        *("contact-outline", "", "compare_contact_outlines"),
-        chapter="pressure",
-        heading="Outline of the contact",
-        interactive="outlines",
+        "contact-outline",
+        compare="compare_contact_outlines",
+        reported=Reported("pressure", "Outline of the contact", "outlines"),
     ),
     FigureEntry("contact-area"),
-    _fields("contact-spots", chapter="spots", heading="Contact spots"),
+    _fields("contact-spots", reported=Reported("spots", "Contact spots")),
     FigureEntry(
         "history",
         compare="compare_histories",
-        chapter="histories",
-        heading="History",
-        interactive="histories",
+        reported=Reported("histories", "History", "histories"),
     ),
     FigureEntry(
         "hysteresis",
         compare="compare_hysteresis",
-        chapter="loops",
-        heading="Force over approach",
-        interactive="loops",
+        reported=Reported("loops", "Force over approach", "loops"),
     ),
     FigureEntry("creep", compare="compare_creep", of="both", any_time=True),
     FigureEntry("exact"),
-    _fields("stress-section", "", "", "progress", chapter="stress", heading="Von Mises stress"),
-    FigureEntry(
-        *("von-mises", "von_mises_history", "compare_von_mises", "time", ("times", "progress")),
-        at_instants=True,
+    _fields(
+        "stress-section",
+        takes=("times", "progress"),
+        reported=Reported("stress", "Von Mises stress"),
+    ),
+    _fields(
+        "von-mises",
+        function="von_mises_history",
+        compare="compare_von_mises",
+        of="time",
+        takes=("times", "progress"),
     ),
     _fields("indenter"),
     FigureEntry(
         "friction",
         of="speed",
         takes=(),
-        chapter="friction",
-        heading="Friction coefficient over speed",
-        interactive="friction",
+        reported=Reported("friction", "Friction coefficient over speed", "friction"),
     ),
-    FigureEntry(
+    _fields(
         "motion-profile",
         of="speed",
         takes=("speeds", "at"),
-        at_instants=True,
-        chapter="histories",
-        heading="Pressure along the motion",
+        reported=Reported("histories", "Pressure along the motion"),
     ),
     FigureEntry("animation", takes=("times", "seconds", "fps"), is_animation=True),
     FigureEntry("response", of="sweep", takes=()),

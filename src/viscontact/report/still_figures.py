@@ -38,9 +38,10 @@ def still_figures(
     entries = [
         each
         for each in TABLE
-        if each.chapter == chapter
+        if each.reported is not None
+        and each.reported.chapter == chapter
         and each.of in ("both", run_axis(ds).name)
-        and not (beside_interactive and each.interactive)
+        and not (beside_interactive and each.reported.interactive)
         and _OF_USE.get(each.name, bool)(ds)
     ]
     for number, entry in enumerate(entries):

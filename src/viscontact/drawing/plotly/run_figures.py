@@ -31,12 +31,12 @@ def run_figures(
     """Figures of a result in order and of its maps, if any, from top to bottom in each chapter."""
     found: dict[Chapter, list[go.Figure]] = {chapter: [] for chapter in get_args(Chapter)}
     for entry in TABLE:
-        if entry.chapter is None or not entry.interactive:
+        if entry.reported is None or not entry.reported.interactive:
             continue
-        draw = INTERACTIVE[entry.interactive]
+        into, draw = found[entry.reported.chapter], INTERACTIVE[entry.reported.interactive]
         if not entry.at_instants:
-            found[entry.chapter] += draw(ds, look, reference)
+            into += draw(ds, look, reference)
         elif maps is not None:
             drawn = draw(maps, look)
-            found[entry.chapter] += [drawn] if isinstance(drawn, go.Figure) else drawn
+            into += [drawn] if isinstance(drawn, go.Figure) else drawn
     return found
