@@ -48,11 +48,11 @@ def random_ellipse(seed):
 @pytest.mark.parametrize(
     ("tolerance", "seeds"),
     [
-        (0.01, range(6)),
-        (0.003, range(300, 304)),  # no first mesh is fine enough for these
+        (0.01, range(3)),
+        (0.003, range(300, 302)),  # no first mesh is fine enough for these
         pytest.param(0.03, range(100, 120), marks=pytest.mark.slow),
-        pytest.param(0.01, range(200, 260), marks=pytest.mark.slow),
-        pytest.param(0.003, range(304, 315), marks=pytest.mark.slow),
+        pytest.param(0.01, range(200, 263), marks=pytest.mark.slow),
+        pytest.param(0.003, range(302, 315), marks=pytest.mark.slow),
         pytest.param(0.001, range(400, 405), marks=pytest.mark.slow),
     ],
 )
@@ -76,7 +76,7 @@ def test_elliptical_contacts_are_hertzs_within_what_is_asked_and_what_is_expecte
     assert np.mean(cells) <= 3000 + 0.1 / tolerance**2
 
 
-@pytest.mark.parametrize("seeds", [range(2), pytest.param(range(100, 112), marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [range(1), pytest.param(range(100, 113), marks=pytest.mark.slow)])
 def test_requested_extents_and_loads_of_ellipses_are_hertzs_within_the_tolerance(seeds):
     names = ("mean_pressure", "contact_length", "contact_width", "peak_line_load")
     for seed in seeds:
@@ -247,7 +247,7 @@ CONTACTS = {
     "approach": (vc.Sphere(0.01), vc.step(approach=1e-5), 3),
     "load and unload": (vc.Sphere(0.01), vc.triangle(10.0, 3.0, 3.0), 3),
 }
-BY_DEFAULT = ("eccentric crowned roller", "tilted crowned roller", "wavy sphere", "load and unload")
+BY_DEFAULT = ("eccentric crowned roller", "wavy sphere", "load and unload")
 
 
 @pytest.mark.parametrize(
@@ -276,7 +276,7 @@ SHARP = {
 }
 
 
-@pytest.mark.parametrize("name", SHARP)
+@pytest.mark.parametrize("name", ["punch", pytest.param("roller", marks=pytest.mark.slow), "cone"])
 def test_a_singular_pressure_is_left_out_and_reported(name):
     indenter, load = SHARP[name]
     run = prepare_run(Problem(indenter, STIFF, load, None, [0.0]))

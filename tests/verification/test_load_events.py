@@ -45,7 +45,7 @@ def run(law, cells, steps, program=PROGRAM, end=0.5):
     return vc.simulate(BALL, material, program, grid, times, errors=False, fields="none")
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", ["zener", pytest.param("maxwell", marks=pytest.mark.slow)])
 def test_events_are_where_lee_radok_and_ting_have_them(name):
     ds = run(LAWS[name], 129, 80)
     events = ds.attrs["event_times"]
@@ -66,7 +66,7 @@ def test_a_condition_that_would_be_met_later_in_the_step_changes_nothing():
     assert both.force.values == pytest.approx(alone.force.values, rel=1e-9)
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+@pytest.mark.parametrize("tolerance", [1e-2, pytest.param(1e-3, marks=pytest.mark.slow)])
 def test_events_among_adaptive_steps_are_within_their_tolerance(tolerance):
     material, grid = vc.Material(LAWS["zener"], 0.5), vc.Grid((65, 65), (1.8e-3, 1.8e-3))
     times = vc.adaptive_times(0.5, tolerance)
@@ -119,8 +119,8 @@ def test_error_bars_compare_at_equal_times_after_the_events():
 
 
 def test_bars_where_contact_is_lost_hold_and_are_not_wide():
-    material, grid = vc.Material(LAWS["zener"], 0.5), vc.Grid((45, 45), (1.8e-3, 1.8e-3))
-    ds = vc.simulate(BALL, material, PROGRAM, grid, vc.uniform_times(0.5, 60), fields="none")
+    material, grid = vc.Material(LAWS["zener"], 0.5), vc.Grid((39, 39), (1.8e-3, 1.8e-3))
+    ds = vc.simulate(BALL, material, PROGRAM, grid, vc.uniform_times(0.5, 48), fields="none")
     reached, lost = exact_events(LAWS["zener"])
     # The approach rises at the rate, and falls twice as fast.
     exact, deepest = RATE * (reached - 2 * (lost - reached)), RATE * reached
@@ -128,7 +128,7 @@ def test_bars_where_contact_is_lost_hold_and_are_not_wide():
     assert abs(float(ds.approach[-1]) - exact) <= bar < 5e-3 * deepest
     # Work is that of Lee and Radok's force while the body comes, and of Ting's while it goes; a run
     # on four times as many cells has it to a tenth of a per cent.
-    fine = run(LAWS["zener"], 91, 240)
+    fine = run(LAWS["zener"], 79, 192)
     assert abs(float(ds.work[-1] - fine.work[-1])) <= float(ds.work_error[-1])
     assert float(ds.work_error[-1]) < 0.02 * float(fine.work.max())
 
@@ -168,7 +168,7 @@ def test_eccentric_force_ends_on_a_condition():
 def test_events_are_of_second_order_in_the_steps():
     # The cells' error is the same; that of the steps falls to a quarter each time.
     coarse, middle, fine = (
-        np.array(run(LAWS["zener"], 33, n).attrs["event_times"]) for n in (40, 80, 160)
+        np.array(run(LAWS["zener"], 33, n).attrs["event_times"]) for n in (20, 40, 80)
     )
     orders = np.log2((coarse - middle) / (middle - fine))
     assert (orders > 1.6).all()
@@ -234,7 +234,7 @@ def test_an_eccentric_force_is_unloaded_at_its_rate_until_contact_is_lost():
         tilt_x=None,
     )
     body, material = vc.Paraboloid(75e-3, 5e-3), vc.Material(vc.Zener(1e8, 1e8, 1e8), 0.4)
-    grid, times = vc.AutomaticGrid(0.05), vc.uniform_times(5.0, 200)
+    grid, times = vc.AutomaticGrid(0.05), vc.uniform_times(5.0, 50)
     ds = vc.simulate(body, material, program, grid, times, errors=False, fields="none")
     reached, lost = ds.attrs["event_times"]
     event = ds.sel(time=reached)

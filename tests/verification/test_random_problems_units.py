@@ -46,8 +46,16 @@ def seeds(exact, count):
     return list(islice(fitting, count))
 
 
+def slow_but(kept, arguments):
+    """Of as many arguments all but the first few are slow."""
+    return [
+        pytest.param(*each, marks=[pytest.mark.slow] if number >= kept else [])
+        for number, each in enumerate(arguments)
+    ]
+
+
 @pytest.mark.parametrize("units", BINARY)
-@pytest.mark.parametrize("seed", seeds(True, 8))
+@pytest.mark.parametrize("seed", slow_but(3, [(seed,) for seed in seeds(True, 8)]))
 def test_units_of_powers_of_two_change_no_bit(seed, units):
     problem = hard_problem(seed)
     given, other = states(problem), states(rescaled_problem(problem, units))
@@ -59,7 +67,8 @@ def test_units_of_powers_of_two_change_no_bit(seed, units):
 
 
 @pytest.mark.parametrize(
-    ("seed", "units"), list(zip([*seeds(True, 3), *seeds(False, 6)], 3 * DECIMAL, strict=True))
+    ("seed", "units"),
+    slow_but(4, zip([*seeds(False, 6), *seeds(True, 3)], 3 * DECIMAL, strict=True)),
 )
 def test_any_units_change_a_displacement_within_the_tolerance_only(seed, units):
     problem = hard_problem(seed)
@@ -76,7 +85,7 @@ def test_any_units_change_a_displacement_within_the_tolerance_only(seed, units):
 
 @pytest.mark.parametrize("decade", [-120, -29, -9, 9, 29, 120])
 @pytest.mark.parametrize("which", ["length", "modulus", "time"])
-@pytest.mark.parametrize("seed", [2003, 2014, 2023])
+@pytest.mark.parametrize("seed", slow_but(1, [(2003,), (2014,), (2023,)]))
 def test_magnitudes_near_the_end_of_numbers_are_right_or_refused(seed, which, decade):
     # The grid's width, the modulus or the run's end is about ten to the decade.
     problem = hard_problem(seed)

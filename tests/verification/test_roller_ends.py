@@ -43,6 +43,7 @@ LOADS = {
     "eccentric": {"eccentricity_x": 0.1 * HALF_LENGTH},
     "tilted": {"tilt_x": AMPLITUDE / HALF_LENGTH},
 }
+SLOW_LOADS = [pytest.param(load, marks=pytest.mark.slow) for load in ("central", "tilted")]
 ENDS = "end of the indenter's profile"
 
 
@@ -103,7 +104,7 @@ def test_change_of_the_pressure_at_smooth_ends_falls_with_the_square_of_the_cell
     assert order([4, 2, 1], changes) == pytest.approx(2.0, abs=0.3)
 
 
-@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("load", ["eccentric", *SLOW_LOADS])
 def test_pressure_at_a_steep_logarithmic_end_converges(load):
     """Lundberg's line falls without bound within the last hundredth: cells of 20, 10, 5 µm.
 
@@ -119,7 +120,7 @@ def test_pressure_at_a_steep_logarithmic_end_converges(load):
 # Sharp ends.
 
 
-@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("load", ["eccentric", *SLOW_LOADS])
 def test_pressure_at_a_sharp_end_grows_as_at_the_edge_of_a_punch(load):
     """p grows as 1/sqrt(distance), and so the largest cell's with 1/sqrt(h): exponent 1/2.
 
@@ -133,7 +134,7 @@ def test_pressure_at_a_sharp_end_grows_as_at_the_edge_of_a_punch(load):
     assert all(ENDS in said for _, _, said in runs)
 
 
-@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("load", ["eccentric", *SLOW_LOADS])
 def test_resultants_of_a_sharp_ended_roller_converge(load):
     """Force and moment are those that act; approach, tilt and area change less and less.
 
@@ -157,7 +158,7 @@ def test_resultants_of_a_sharp_ended_roller_converge(load):
     assert areas == pytest.approx([areas[-1]] * 3, rel=5e-3)
 
 
-@pytest.mark.parametrize("load", ["eccentric", "tilted"])
+@pytest.mark.parametrize("load", [pytest.param("eccentric", marks=pytest.mark.slow), "tilted"])
 def test_profile_that_a_tilt_brings_to_its_end_is_sharp_there(load):
     """Johns and Gohar's line ends at a finite drop: pressed beyond it, an edge bears.
 
@@ -207,7 +208,7 @@ def limit(roller, load):
 @pytest.mark.parametrize(
     ("roller", "load"),
     [
-        pytest.param(*end, id=name, marks=[] if name in NAMES[2:] else pytest.mark.slow)
+        pytest.param(*end, id=name, marks=[] if name == NAMES[3] else pytest.mark.slow)
         for end, name in zip(FINITE, NAMES, strict=True)
     ],
 )
@@ -242,7 +243,13 @@ def test_automatic_grid_resolves_lundbergs_ends_beside_the_design_load(part, tol
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
-@pytest.mark.parametrize(("roller", "load"), FINITE, ids=NAMES)
+@pytest.mark.parametrize(
+    ("roller", "load"),
+    [
+        pytest.param(*end, id=name, marks=[] if name == NAMES[2] else pytest.mark.slow)
+        for end, name in zip(FINITE, NAMES, strict=True)
+    ],
+)
 def test_bar_of_a_logarithmic_end_is_finite_and_holds_on_a_given_grid(roller, load):
     """Cells that end with the body, and others: 200 on the half length, and parts of one."""
     exact = limit(roller, load)
@@ -255,11 +262,20 @@ def test_bar_of_a_logarithmic_end_is_finite_and_holds_on_a_given_grid(roller, lo
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
-@pytest.mark.parametrize("load", [*LOADS, "off-centre"])
 @pytest.mark.parametrize(
-    ("roller", "key"),
-    [(CYLINDER, "'crown_radius' under indenter"), (JOHNS_GOHAR, "a larger 'end_drop'")],
-    ids=["cylinder", "Johns and Gohar"],
+    ("roller", "key", "load"),
+    [
+        pytest.param(
+            *(roller, key, load),
+            id=f"{name}-{load}",
+            marks=[] if load in by_default else pytest.mark.slow,
+        )
+        for name, roller, key, by_default in (
+            ("cylinder", CYLINDER, "'crown_radius' under indenter", ["central"]),
+            ("Johns and Gohar", JOHNS_GOHAR, "a larger 'end_drop'", ["central", "off-centre"]),
+        )
+        for load in (*LOADS, "off-centre")
+    ],
 )
 def test_sharp_end_on_an_automatic_grid_has_no_limit_and_a_remedy(roller, key, load):
     """Johns and Gohar's line ends sharply where the load brings it to its end.
