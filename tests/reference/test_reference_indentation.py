@@ -80,7 +80,9 @@ def test_work_of_a_jump_is_the_elastic_energy():
 # Growing contacts: Lee and Radok.
 
 
-@pytest.mark.parametrize("law", [maxwell(1.0), series(1 / 2e9, [1e-9], [1.5])])
+@pytest.mark.parametrize(
+    "law", [maxwell(1.0), pytest.param(series(1 / 2e9, [1e-9], [1.5]), marks=pytest.mark.slow)]
+)
 def test_step_load_follows_lee_and_radok(law):
     t = reference.clustered_times([0.0, 6.0], 80)
     exact = reference.lee_radok_step(10.0, 0.01, *law)
@@ -94,7 +96,9 @@ def test_step_load_follows_lee_and_radok(law):
     assert worst(contact.pressure(r, 3.0), exact.pressure(r, 3.0)) < 1e-3
 
 
-@pytest.mark.parametrize(("exponent", "order"), [(0.2, 1.8), (0.5, 1.5)])
+@pytest.mark.parametrize(
+    ("exponent", "order"), [pytest.param(0.2, 1.8, marks=pytest.mark.slow), (0.5, 1.5)]
+)
 def test_power_law_rise_follows_lee_and_radok_with_order_2_less_n(exponent, order):
     """A body without instant compliance: J(0) = 0."""
     exact = reference.lee_radok_ramp(10.0, 1.0, 0.01, *power_law(exponent))
@@ -112,11 +116,17 @@ def test_power_law_rise_follows_lee_and_radok_with_order_2_less_n(exponent, orde
 # One rise and fall: Ting.
 
 
-@pytest.mark.parametrize("profile", [SPHERE, CONE], ids=["sphere", "cone"])
+TO_MAXWELL, TO_ZENER = (MAXWELL, (0.0, [2e9], [1.0])), (ZENER, (2e9 / 3, [4e9 / 3], [0.5]))
+
+
 @pytest.mark.parametrize(
-    ("creep", "modulus"),
-    [(MAXWELL, (0.0, [2e9], [1.0])), (ZENER, (2e9 / 3, [4e9 / 3], [0.5]))],
-    ids=["maxwell", "zener"],
+    ("creep", "modulus", "profile"),
+    [
+        pytest.param(*TO_MAXWELL, CONE, id="maxwell-cone"),
+        pytest.param(*TO_ZENER, SPHERE, id="zener-sphere"),
+        pytest.param(*TO_MAXWELL, SPHERE, id="maxwell-sphere", marks=pytest.mark.slow),
+        pytest.param(*TO_ZENER, CONE, id="zener-cone", marks=pytest.mark.slow),
+    ],
 )
 def test_triangle_of_approach_follows_ting_with_second_order(profile, creep, modulus):
     exact = reference.ting_triangle(profile, 1e-5, 1.0, *modulus)
@@ -135,7 +145,13 @@ def test_triangle_of_approach_follows_ting_with_second_order(profile, creep, mod
     assert worst(contact.contact_radius, exact.contact_radius(t)) < 1e-4
 
 
-@pytest.mark.parametrize("law", [(BROAD, BROAD_MODULUS), maxwell(1.0)], ids=["broad", "maxwell"])
+@pytest.mark.parametrize(
+    "law",
+    [
+        pytest.param((BROAD, BROAD_MODULUS), id="broad", marks=pytest.mark.slow),
+        pytest.param(maxwell(1.0), id="maxwell"),
+    ],
+)
 def test_haversine_of_approach_follows_ting_with_second_order(law):
     def haversine(t):
         return 1e-5 * np.sin(math.pi * t / 2) ** 2
@@ -155,7 +171,7 @@ def test_haversine_of_approach_follows_ting_with_second_order(law):
     assert instants[-1] < 3e-5
 
 
-@pytest.mark.parametrize("rise", [1.0, 3.0])
+@pytest.mark.parametrize("rise", [pytest.param(1.0, marks=pytest.mark.slow), 3.0])
 def test_triangle_of_force_follows_ting_with_second_order(rise):
     """With the slow one the contact still grows while the force falls."""
     exact = reference.ting_force_triangle(10.0, rise, 0.01, 2e9, 1.0)
@@ -172,7 +188,10 @@ def test_triangle_of_force_follows_ting_with_second_order(rise):
     assert contact.lost.tolist() == [2 * rise]
 
 
-@pytest.mark.parametrize("profile", [SPHERE, CONE], ids=["sphere", "cone"])
+@pytest.mark.parametrize(
+    "profile",
+    [pytest.param(SPHERE, id="sphere"), pytest.param(CONE, id="cone", marks=pytest.mark.slow)],
+)
 def test_cycles_on_a_maxwell_body_follow_the_closed_form(profile):
     """Contact is lost three times, and made again on the residual indentation."""
     exact = reference.ting_cycles(profile, 1e-5, 1.0, 2e9, 1.0)

@@ -35,7 +35,7 @@ def worst(ours, exact):
 histories = st.lists(st.floats(-0.5, 1.0), min_size=2, max_size=6)
 
 
-@settings(max_examples=10)
+@settings(max_examples=6)
 @given(levels=histories, profile=st.sampled_from([SPHERE, CONE]))
 def test_no_history_pulls_or_penetrates(levels, profile):
     """With p >= 0 and no penetration the rods are the contact problem, not only its shadow."""
@@ -54,7 +54,7 @@ def test_no_history_pulls_or_penetrates(levels, profile):
         assert np.all(opening >= -2e-3 * 1e-5)
 
 
-@settings(max_examples=5)
+@settings(max_examples=3)
 @given(
     load=st.floats(1e-2, 1e2), stiffness=st.floats(1e-2, 1e2), slowness=st.floats(1e-2, 1e2),
     shift=st.floats(0, 1e3),
@@ -156,12 +156,12 @@ def test_steps_too_long_for_the_law_are_refused_where_the_contact_falls_apart():
     creep = series(1 / 2e9, [6e-9], [0.2])[0]
     corners, levels = [0.0, 1.4, 2.1, 2.4, 6.9], [0.0, 8.6e-6, 1e-6, 7.3e-6, 8.4e-6]
     t = np.concatenate(
-        [[0.0], *(np.linspace(a, b, 25)[1:] for a, b in itertools.pairwise(corners))]
+        [[0.0], *(np.linspace(a, b, 13)[1:] for a, b in itertools.pairwise(corners))]
     )
     load = {"approach": np.interp(t, corners, levels), "creep_compliance": creep}
     with pytest.raises(ValueError, match=r"times: .* a ring, .*substeps="):
         reference.press_axisymmetric(SPHERE, t, elements=60, **load)
-    finer = reference.press_axisymmetric(SPHERE, t, elements=60, substeps=8, **load)
+    finer = reference.press_axisymmetric(SPHERE, t, elements=30, substeps=8, **load)
     assert reference.resolution_error(finer).force < 1e-2
 
 

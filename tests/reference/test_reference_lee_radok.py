@@ -58,8 +58,8 @@ def test_pressure_under_a_step_balances_the_force(law, times):
 
 
 LAWS = {"maxwell": maxwell(3.0), "zener": ZENER, "stiff": STIFF, "power-law": power_law(0.5)}
-#: Each law and each instant once.
-BY_DEFAULT = {("maxwell", 2.0), ("zener", 2.0001), ("stiff", 4.5), ("power-law", 2e4)}
+#: Most laws and instants once; the stiff law is above, under a step.
+BY_DEFAULT = {("maxwell", 2.0), ("zener", 2.0001), ("power-law", 2e4)}
 
 
 @pytest.mark.parametrize(
@@ -221,7 +221,7 @@ def test_maxwell_pressure_leaves_the_axis_before_twice_its_relaxation_time():
     assert r[np.argmax(contact.pressure(r, 2.0))] > contact.contact_radius(0.0)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(softer=st.floats(1e-3, 1e3), slower=st.floats(1e-6, 1e6), t=st.floats(1e-6, 100.0))
 def test_softer_and_slower_laws_scale(softer, slower, t):
     """J(t) -> c J(t/d) with F -> F/c: same contact at time d t, pressure divided by c."""

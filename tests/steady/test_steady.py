@@ -109,7 +109,7 @@ def loss_under_hertz(length):
     """
     a = (0.75 * FORCE * RADIUS / 2000) ** (1 / 3)
     # Pressure is even over s = sqrt(1 - r²/a²): dA = 2 π a² s ds, p = 3 F s/(2 π a²).
-    node, weight = np.polynomial.legendre.leggauss(60)
+    node, weight = np.polynomial.legendre.leggauss(40)
     s, angle = (1 + node) / 2, np.pi * (1 + node) / 2
     along = a * np.sqrt(1 - s**2)[:, None] * np.cos(angle)
     across = a * np.sqrt(1 - s**2)[:, None] * np.sin(angle)

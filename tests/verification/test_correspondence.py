@@ -25,7 +25,10 @@ as_printed = (vc.Roller(5e-3, 9.565e-3, 7.5), vc.Grid((64, 64), (150e-3, 1.5e-3)
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
 
-@pytest.mark.parametrize("eccentricity", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize(
+    "eccentricity",
+    [pytest.param(0.0, marks=pytest.mark.slow), 0.5, pytest.param(1.0, marks=pytest.mark.slow)],
+)
 @pytest.mark.parametrize("case", [dogbone, as_printed], ids=["dogbone", "as printed"])
 def test_stepping_agrees_with_one_elastic_contact_at_each_compliance(case, eccentricity):
     roller, grid = case

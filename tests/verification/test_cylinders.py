@@ -28,7 +28,13 @@ def strip(cells, shape=(1, 0), centre=0.0):
     return vc.Grid((shape[0], across), size, periodic=(True, False), centre=(0.0, centre))
 
 
-@pytest.mark.parametrize(("case", "orders"), list(zip(CASES, (2.0, 2.0, 1.0), strict=True)))
+@pytest.mark.parametrize(
+    ("case", "orders"),
+    [
+        pytest.param(case, order, marks=[] if number else pytest.mark.slow)
+        for number, (case, order) in enumerate(zip(CASES, (2.0, 2.0, 1.0), strict=True))
+    ],
+)
 def test_orders_of_the_verification_cases(case, orders):
     """Second order in half width and pressure; a strip's edges are singular."""
     levels = [case.compare(level) for level in case.levels[-3:]]
@@ -37,6 +43,7 @@ def test_orders_of_the_verification_cases(case, orders):
         assert order == pytest.approx(orders, abs=0.35)
 
 
+@pytest.mark.slow
 def test_full_verification():
     assert all(result.passed for case in CASES for result in run_case(case, fast=False))
 

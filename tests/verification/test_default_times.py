@@ -32,7 +32,10 @@ def march(load, radius, cells):
     return grid, over_time(states, "time"), states
 
 
-@pytest.mark.parametrize("duration", [0.05 * TAU, TAU, 10 * TAU])
+@pytest.mark.parametrize(
+    "duration",
+    [0.05 * TAU, *(pytest.param(each * TAU, marks=pytest.mark.slow) for each in (1, 10))],
+)
 def test_ramp_of_force_on_a_relaxing_body(duration):
     """Lee & Radok. Measured: 0.2 to 0.3 %; in 60 even steps and the kink 1.3, 21 and 0.6 %."""
     radius = math.cbrt(0.75 * RADIUS * FORCE / SOFT)
@@ -45,7 +48,9 @@ def test_ramp_of_force_on_a_relaxing_body(duration):
     assert deviation.max() < 5e-3 * truth.max()
 
 
-@pytest.mark.parametrize("rise", [0.1 * TAU, TAU, 10 * TAU])
+@pytest.mark.parametrize(
+    "rise", [*(pytest.param(each * TAU, marks=pytest.mark.slow) for each in (0.1, 10)), TAU]
+)
 def test_stage_in_and_out_of_a_relaxing_body(rise):
     """Ting. Measured: 3e-4 to 5e-4 of the force; at the last rise in 60 even steps 3e-3."""
     load = vc.triangle(approach=PEAK, rise=rise)

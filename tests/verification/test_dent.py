@@ -48,7 +48,7 @@ def surface_errors(grid, states, exact):
 
 
 @pytest.mark.parametrize(
-    "name", ["maxwell", "zener", pytest.param("burgers", marks=pytest.mark.slow)]
+    "name", ["zener", *(pytest.param(n, marks=pytest.mark.slow) for n in ("maxwell", "burgers"))]
 )
 def test_surface_is_where_it_should_be_before_and_after_contact_is_lost(name):
     """A Maxwell body keeps 36 % of the depth as a dent, a Zener body 6 % when it is met again.
@@ -81,7 +81,7 @@ def test_error_of_the_surface_falls_with_the_cell_size():
 def test_contact_is_lost_and_made_again_on_time(name):
     """On steps of 1/2000 of the way in: exact to these."""
     body = BODIES[name]
-    fine = np.linspace(0, 6 * RISE, 1441)
+    fine = np.linspace(0, 6 * RISE, 721)
     level = STAGE.level_at(fine)
     exact = reference.press_axisymmetric(
         SPHERE, fine, approach=level, creep_compliance=body.creep, elements=100
@@ -107,9 +107,9 @@ def test_ball_without_force_rests_in_the_indentation():
         np.concatenate([vc.uniform_times(190.0, 95), 160 + 30 * vc.log_times(1e-3, 1, 12)])
     )
     exact = reference.press_axisymmetric(
-        SPHERE, times, force=load.level_at(times), creep_compliance=body.creep, substeps=4
+        SPHERE, times, force=load.level_at(times), creep_compliance=body.creep, substeps=2
     )
-    run = pressed(body.material, load, times, exact.contact_radius.max(), cells=24.3)
+    run = pressed(body.material, load, times, exact.contact_radius.max(), cells=16.3)
     assert deviation(run.approach, exact.approach) < 5e-4
     apart = (times >= 60) & (times <= 160)
     assert not run.touching[apart].any()

@@ -8,6 +8,7 @@ memories, chosen steps, stages, two bodies, a rough surface, halves mirrored and
 import os
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -34,16 +35,20 @@ def threads_of_linear_algebra():
         yield
 
 
-@pytest.fixture(scope="module")
-def first():
-    """The results of first runs in this process."""
-    return {name: arrays(name) for name in CASES}
+@cache
+def first(name, threads=1):
+    """The result of a first run in this process."""
+    return arrays(name, threads)
 
 
-@pytest.fixture(scope="module")
-def on_two_threads():
-    """The results of first runs on two threads."""
-    return {name: arrays(name, 2) for name in CASES}
+SHORT = ("roller, load aside", "table, summed over the past", "stage")
+some_and_all = pytest.mark.parametrize(
+    "names",
+    [
+        pytest.param(SHORT, id="short ones"),
+        pytest.param(tuple(CASES), id="all", marks=pytest.mark.slow),
+    ],
+)
 
 
 def differing(one, other):
@@ -52,34 +57,36 @@ def differing(one, other):
     return [name for name, array in one.items() if array.tobytes() != other[name].tobytes()]
 
 
-def test_runs_made_again_after_other_work_give_the_same_bits(first):
+@some_and_all
+def test_runs_made_again_after_other_work_give_the_same_bits(names):
     # Each after another one than before, with memory in other places and of other content.
-    rubbish = []
-    for name in reversed(CASES):
+    rubbish, before = [], {name: first(name) for name in names}
+    for name in reversed(names):
         rubbish += [np.full(size, np.nan)[1:] for size in (3, 1001, 65537, 300001)]
-        assert differing(first[name], arrays(name)) == []
+        assert differing(before[name], arrays(name)) == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("surroundings", SURROUNDINGS)
-def test_a_process_of_its_own_gives_the_same_bits(surroundings, first, tmp_path):
+def test_a_process_of_its_own_gives_the_same_bits(surroundings, tmp_path):
     command = [sys.executable, "-m", "verification.repeated_runs", str(tmp_path)]
     environment = {**os.environ, **SURROUNDINGS[surroundings]}
     subprocess.run(command, check=True, cwd=TESTS, env=environment, timeout=120)
     for number, name in enumerate(CASES):
         with np.load(tmp_path / f"{number}.npz") as stored:
-            assert (name, differing(first[name], dict(stored))) == (name, [])
+            assert (name, differing(first(name), dict(stored))) == (name, [])
 
 
 #: Of an eccentricity [m] or a tilt [rad] that is zero by symmetry; measured: 2e-21.
 ROUNDING = 1e-18
 
 
+@some_and_all
 @pytest.mark.parametrize("threads", [2, pytest.param(4, marks=pytest.mark.slow)])
-def test_more_threads_change_no_field_by_more_than_1e_10(threads, first, on_two_threads):
-    for name in CASES:
-        several = on_two_threads[name] if threads == 2 else arrays(name, threads)
-        for variable, array in first[name].items():
+def test_more_threads_change_no_field_by_more_than_1e_10(threads, names):
+    for name in names:
+        several = first(name, threads)
+        for variable, array in first(name).items():
             values = array.astype(float)
             allowed = 1e-10 * np.abs(values[np.isfinite(values)]).max(initial=0.0)
             allowed = max(allowed, ROUNDING)  # what symmetry makes zero differs by rounding
@@ -88,6 +95,6 @@ def test_more_threads_change_no_field_by_more_than_1e_10(threads, first, on_two_
             )
 
 
-def test_runs_on_two_threads_give_the_same_bits_again(on_two_threads):
+def test_runs_on_two_threads_give_the_same_bits_again():
     for name in ("roller, load aside", "table, summed over the past"):
-        assert differing(on_two_threads[name], arrays(name, 2)) == []
+        assert differing(first(name, 2), arrays(name, 2)) == []

@@ -33,7 +33,9 @@ def bars_over_errors(radius_ratio: float) -> np.ndarray:
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # few cells, on purpose
-@pytest.mark.parametrize("radius_ratio", [10.0, 100.0, 1e3])
+@pytest.mark.parametrize(
+    "radius_ratio", [*(pytest.param(each, marks=pytest.mark.slow) for each in (10.0, 100.0)), 1e3]
+)
 def test_bars_of_the_length_hold(radius_ratio: float) -> None:
     """Hertz's ellipses (1882) of 4.5, 18 and 68 to 1 on cells as slender as they are.
 
@@ -63,7 +65,7 @@ def test_bars_of_the_area_hold_where_a_contact_begins_to_shrink(name: str) -> No
         force=force,
         creep_compliance=BODIES[name].creep,
         elements=200,
-        substeps=4,
+        substeps=2,
     )
     cell = exact.contact_radius.max() / half_width
     aside = np.random.default_rng(1).uniform(-0.5, 0.5, 2) * cell

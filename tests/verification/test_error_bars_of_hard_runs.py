@@ -38,7 +38,10 @@ def test_bars_of_a_load_table_as_dense_as_the_steps_hold_the_time_error() -> Non
     assert (found.force_error.values[1:9] < 1.5).all()
 
 
-@pytest.mark.parametrize("cells", [47, 64, 90])
+@pytest.mark.parametrize(
+    "cells",
+    [47, pytest.param(64, marks=pytest.mark.slow), pytest.param(90, marks=pytest.mark.slow)],
+)
 def test_bars_of_a_punchs_dent_keep_the_error_of_its_edge(cells: int) -> None:
     """Boltzmann: the dent of a round flat punch is F * J / (2a), also after the force is gone."""
     radius, size = 1e-3, 2.4e-3
@@ -74,7 +77,7 @@ def test_bars_of_a_sharp_ended_roller_are_not_far_above_its_error() -> None:
         assert abs(value - float(fine[name][0])) < bar < limit * value
 
 
-@pytest.mark.parametrize("along", [28.3, 33.1])
+@pytest.mark.parametrize("along", [28.3, pytest.param(33.1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("index", [10, 4, 6, 21], ids=lambda each: roller_problem(each).name)
 def test_bars_hold_the_outline_of_contacts_near_the_ends_of_a_roller(
     index: int, along: float

@@ -73,7 +73,7 @@ def close(found, exact, bound=BOUND):
     assert np.abs(found - exact).max() <= bound * scale
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(material=materials(0.02), one=levels(), other=levels(), share=st.floats(0.1, 0.9))
 def test_forces_on_a_fixed_contact_are_superposed(material, one, other, share):
     """Boltzmann: approach and pressure of F1 + F2 are the sums of those of F1 and of F2.
@@ -99,7 +99,7 @@ def test_forces_on_a_fixed_contact_are_superposed(material, one, other, share):
         close(apart + more, joint, REPLAYED)
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(material=materials(), level=levels(0.5), late=st.floats(0.5, 50.0), staged=st.booleans())
 def test_a_later_start_shifts_the_clock(material, level, late, staged):
     times, values = level
@@ -120,7 +120,7 @@ def test_a_later_start_shifts_the_clock(material, level, late, staged):
         )
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(material=materials(), level=levels(0.5), factor=st.floats(1e-3, 1e3), staged=st.booleans())
 def test_a_slower_law_under_a_slower_history_does_the_same_later(material, level, factor, staged):
     """Time has no unit but the law's: `slowed` multiplies it."""
@@ -140,7 +140,7 @@ def test_a_slower_law_under_a_slower_history_does_the_same_later(material, level
         close([getattr(state, name) for state in slow], [getattr(state, name) for state in fast])
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(
     material=materials(),
     level=levels(0.5),
@@ -176,7 +176,7 @@ def test_size_and_modulus_scale_out(material, level, size, hardness):
         close([getattr(s, name) / unit for s in theirs], [getattr(s, name) for s in ours], REPLAYED)
 
 
-@settings(max_examples=4)
+@settings(max_examples=3)
 @given(material=materials(), level=levels(0.6), tilt=st.floats(-0.004, 0.004))
 def test_a_stage_tilted_the_other_way_presses_the_mirror_image(material, level, tilt):
     times, values = level

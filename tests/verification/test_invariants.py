@@ -116,7 +116,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
+@pytest.mark.parametrize("tolerance", [pytest.param(1e-6, marks=pytest.mark.slow), 1e-9])
 def test_every_instant_is_in_equilibrium(name, tolerance):
     indenter, load, grid = CASES[name]
     assert audit(indenter, rubber, load, grid, EARLY_AND_LATE, tolerance).worst <= (

@@ -59,14 +59,14 @@ def test_at_the_rows_of_a_creep_table_the_series_answers(indenter):
 def test_between_the_rows_the_answer_is_as_good_as_the_interpolation():
     """Approach goes with J^(2/3); pressure with the error of J, twice at most.
 
-    Measured at 4, 8, 16 rows a decade: J within 7e-3, 1.1e-3, 2e-4.
+    Measured at 4, 8 rows a decade: J within 7e-3, 1.1e-3.
     """
     body, errors = creep_series(), []
-    times = np.append(0.0, np.geomspace(0.03, 3e3, 48))
+    times = np.append(0.0, np.geomspace(0.03, 3e3, 24))
     radius = largest(body, times[-1])
     series = marched(body.material, vc.step(FORCE), radius, times)
     between = np.geomspace(0.01, 3e3, 1000)
-    densities = np.array([4, 8, 16])
+    densities = np.array([4, 8])
     for density in densities:
         material = table_of(body, rows(density))
         curve = material.contact_compliance()
@@ -107,7 +107,7 @@ def test_relaxation_table_answers_for_a_stage_that_is_held():
 
 def test_measured_relaxation_is_what_a_sphere_relaxes_by():
     """At the table's own instants and in fine steps: only mesh and steps are left. Order 2."""
-    body, errors, steps = relaxation_series(), [], np.array([20, 40, 80])
+    body, errors, steps = relaxation_series(), [], np.array([20, 30, 40])
     end, depth = 300.0, 1e-5
     for n in steps:
         times = end * np.linspace(0, 1, n + 1) ** 2
@@ -133,5 +133,5 @@ def test_ting_on_a_table():
     )
     times = vc.uniform_times(2 * rise, 120)
     load = vc.triangle(approach=peak, rise=rise)
-    states = marched(table_of(body, rows(12)), load, np.sqrt(RADIUS * peak), times, cells=24.3)
+    states = marched(table_of(body, rows(12)), load, np.sqrt(RADIUS * peak), times, cells=14.3)
     assert deviation(over_time(states, "force"), exact.force(times)) < 1e-3

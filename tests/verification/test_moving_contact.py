@@ -252,7 +252,7 @@ def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
 )
 def test_area_of_a_moving_strip_is_about_as_certain_as_its_width(body: Any, along: str) -> None:
     """Both are off by the two straight rims, so that their relative errors are equal."""
-    way, speed = 0.96, 0.2
+    way, speed = 0.48, 0.2
 
     def strip(cell: float, *, errors: bool) -> xr.Dataset:
         count = round((way + 2.4) / cell)

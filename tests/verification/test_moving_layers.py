@@ -30,7 +30,13 @@ def travelled(material, mate=None):
     )
 
 
-@pytest.mark.parametrize("body", [ON_RIGID, ON_CORE], ids=["one term", "several terms"])
+@pytest.mark.parametrize(
+    "body",
+    [
+        pytest.param(ON_RIGID, id="one term", marks=pytest.mark.slow),
+        pytest.param(ON_CORE, id="several terms"),
+    ],
+)
 def test_work_of_a_cycle_that_ends_unloaded_is_heat(body):
     load = vc.ForceHistory([0, 1, 16, 17, 400], [0, 10, 10, 0, 0], tilt_x=0.0, tilt_y=0.0)
     rises, cycle = np.linspace(0, 1, 6), np.linspace(1, 16, 41)
@@ -56,7 +62,13 @@ def test_a_term_in_two_equal_parts_loses_the_same_heat():
     assert float(one.heat[-1]) > 0
 
 
-@pytest.mark.parametrize("layered", [ON_RIGID, ON_CORE], ids=["one term", "several terms"])
+@pytest.mark.parametrize(
+    "layered",
+    [
+        pytest.param(ON_RIGID, id="one term", marks=pytest.mark.slow),
+        pytest.param(ON_CORE, id="several terms"),
+    ],
+)
 def test_a_covered_ball_rolls_on_a_plate_as_a_plain_one_does_on_the_covered_plate(layered):
     there, here = travelled(PLATE, layered), travelled(layered, PLATE)
     for name in ("friction_coefficient", "heat", "approach", "peak_pressure"):

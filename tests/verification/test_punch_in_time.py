@@ -164,6 +164,8 @@ def test_swing_from_rest_with_its_transient(softness):
     assert order(1 / steps, errors) == pytest.approx(2.0, abs=0.15)
 
 
+#: A series, a power of time and a table.
+BY_DEFAULT = {"burgers", "power_law", "tabulated_creep"}
 STAIRS = np.array([0.0, 7.0, 20.0, 31.0, 80.0])  # s
 LEVELS = np.array([10.0, 25.0, 4.0, 12.0, 1.0])  # N
 
@@ -173,7 +175,14 @@ def staircase(**aside):
     return vc.ForceHistory(times, np.repeat(LEVELS, 2)[:-1], **aside)
 
 
-@pytest.mark.parametrize("name", [name for name in BODIES if name != "solid_ball_on_a_fluid"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name in BY_DEFAULT else pytest.param(name, marks=pytest.mark.slow)
+        for name in BODIES
+        if name != "solid_ball_on_a_fluid"
+    ],
+)
 @pytest.mark.parametrize(
     "instants",
     [

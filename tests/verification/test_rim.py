@@ -69,7 +69,8 @@ def test_traced_area_is_far_better_than_counted_cells():
     ("cells", "bias", "scatter", "worst"),
     [
         (15, 2e-4, 1.5e-4, 5e-4),  # measured over 40 places: 8.2e-5, 9.3e-5, 2.5e-4
-        (28, 5e-5, 5e-5, 1.5e-4),  # 1.4e-5, 3.3e-5, 9.2e-5
+        # Measured: 1.4e-5, 3.3e-5, 9.2e-5.
+        pytest.param(28, 5e-5, 5e-5, 1.5e-4, marks=pytest.mark.slow),
     ],
 )
 def test_area_of_an_elastic_contact(cells, bias, scatter, worst):
@@ -79,11 +80,11 @@ def test_area_of_an_elastic_contact(cells, bias, scatter, worst):
     assert abs(errors).max() < worst
 
 
-@pytest.mark.parametrize("ratio", [10, 100])
+@pytest.mark.parametrize("ratio", [pytest.param(10, marks=pytest.mark.slow), 100])
 @pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
 def test_area_of_a_held_soft_solid(ratio):
     """M(0)/M(inf) = 10 and 100, held until all creep is over: as accurate as an elastic contact."""
-    errors = area_errors(soft_solid(ratio), held(ratio, 40), 15, offsets=4).traced
+    errors = area_errors(soft_solid(ratio), held(ratio, 40), 15, offsets=2).traced
     assert abs(errors).max() < 5e-4
 
 
@@ -94,7 +95,7 @@ def test_area_of_a_held_soft_solid_is_of_second_order(ratio):
     """Mean errors measured, for both ratios: 4.7e-4, 1.3e-4, 9.3e-6."""
     cells = np.array([8, 14, 24])
     errors = [
-        abs(area_errors(soft_solid(ratio), held(ratio, 40), n, offsets=4).traced).mean()
+        abs(area_errors(soft_solid(ratio), held(ratio, 40), n, offsets=2).traced).mean()
         for n in cells
     ]
     assert order(1 / cells, errors) > 1.8
@@ -109,7 +110,7 @@ def test_area_of_a_soft_solid_held_for_100_relaxation_times(ratio):
     surface enters at the instantaneous stiffness. Measured: 1.8e-4 at most for both.
     """
     times = vc.uniform_times(100 * RELAXATION_TIME, 200)
-    errors = area_errors(soft_solid(ratio), times, 15, offsets=2).traced
+    errors = area_errors(soft_solid(ratio), times, 15, offsets=1).traced
     assert abs(errors).max() < 5e-4
 
 

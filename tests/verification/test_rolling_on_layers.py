@@ -84,6 +84,10 @@ STRIPS = {
 }
 
 
+#: Each body and each speed once.
+BY_DEFAULT = {(1.0, "rigid base"), (0.1, "elastic core"), (0.01, "elastic volume")}
+
+
 def test_the_strip_without_layers_is_that_of_hunter():
     exact = vc.reference.moving_cylinder(RADIUS, FORCE, 1 / 2000, 9 / 2000, TIME, 0.1)
     found = rolling_strip(
@@ -94,8 +98,14 @@ def test_the_strip_without_layers_is_that_of_hunter():
     assert found.friction_coefficient == pytest.approx(exact.friction_coefficient, rel=1e-5)
 
 
-@pytest.mark.parametrize("name", STRIPS)
-@pytest.mark.parametrize(("speed", "half_width"), [(0.01, 0.44), (0.1, 0.25), (1.0, 0.21)])
+@pytest.mark.parametrize(
+    ("speed", "half_width", "name"),
+    [
+        pytest.param(*way, name, marks=[] if (way[0], name) in BY_DEFAULT else pytest.mark.slow)
+        for way in ((0.01, 0.44), (0.1, 0.25), (1.0, 0.21))
+        for name in STRIPS
+    ],
+)
 def test_a_cylinder_rolls_on_a_layer_as_without_a_grid(name, speed, half_width):
     body, compliance, instant, splitting = STRIPS[name]
     instant = instant or instant_of_elastic_volume()
@@ -176,7 +186,7 @@ def winkler_cylinder(half, speed):
     return force, float(strength @ x) / (RADIUS * force), half - high, half**2 / (2 * RADIUS)
 
 
-@pytest.mark.parametrize("speed", [0.1, 1.0])
+@pytest.mark.parametrize("speed", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
 def test_a_thin_compressible_layer_becomes_a_winkler_foundation(speed):
     """Per thickness the ratio to the foundation tends to one as the layer becomes thin."""
     off = []
@@ -195,7 +205,8 @@ def test_a_thin_compressible_layer_becomes_a_winkler_foundation(speed):
 
 def test_slow_and_fast_balls_press_an_elastic_layer():
     """Relaxed and instant, with the friction of any body of this curvature in slow motion."""
-    ds = vc.steady(BALL, covered("rigid"), LEVEL, [1e-4, 1e4], along="x", fields="none")
+    grid, speeds = vc.Grid((80, 80), (1.45, 1.45)), [1e-4, 1e4]
+    ds = vc.steady(BALL, covered("rigid"), LEVEL, speeds, along="x", grid=grid, fields="none")
     for index, phi in enumerate((PHI0 + PHI1, PHI0)):
 
         def pressed(radius, shear=1 / (2 * phi)):
@@ -211,8 +222,9 @@ def test_slow_and_fast_balls_press_an_elastic_layer():
 
 def test_a_thick_layer_is_a_half_space():
     thick = covered("rigid", thickness=1e3)
+    grid = vc.Grid((58, 58), (1.6, 1.6))
     here, there = (
-        vc.steady(BALL, body, LEVEL, [0.1], along="x", errors=False).isel(speed=0)
+        vc.steady(BALL, body, LEVEL, [0.1], along="x", grid=grid, errors=False).isel(speed=0)
         for body in (thick, RUBBER)
     )
     for name in ("friction_coefficient", "peak_pressure", "contact_area"):
@@ -221,7 +233,13 @@ def test_a_thick_layer_is_a_half_space():
     assert float(here.approach) == pytest.approx(float(there.approach), rel=1e-3)
 
 
-@pytest.mark.parametrize("base", ["rigid", CORE], ids=["one term", "several terms"])
+@pytest.mark.parametrize(
+    "base",
+    [
+        pytest.param("rigid", id="one term", marks=pytest.mark.slow),
+        pytest.param(CORE, id="several terms"),
+    ],
+)
 def test_a_covered_cylinder_rolls_as_a_plain_one_on_the_covered_body(base):
     """Up to the turns before, which hardly matter at this speed."""
     plate = vc.Material(vc.Elastic(3e3), poisson_ratio=0.4)

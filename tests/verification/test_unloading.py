@@ -139,7 +139,13 @@ def test_slow_contact_is_largest_after_the_peak_of_the_force():
     np.testing.assert_allclose(np.sqrt(area[grown] / math.pi), radius[grown], rtol=4e-3)
 
 
-@pytest.mark.parametrize("left", [0.4, 0.1], ids=["within what crept", "within the first contact"])
+@pytest.mark.parametrize(
+    "left",
+    [
+        pytest.param(0.4, id="within what crept", marks=pytest.mark.slow),
+        pytest.param(0.1, id="within the first contact"),
+    ],
+)
 def test_sudden_unloading_of_a_crept_contact(left):
     """Ting (1966) across a jump, at once: a step F, held for 1.5 tau, drops to a part of it.
 

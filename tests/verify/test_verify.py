@@ -17,10 +17,13 @@ from viscontact.verify.case import observed_order, run_case
 from viscontact.verify.creeping import G, all_bodies, zener
 from viscontact.verify.growing import _step
 
-#: Those that take more than a second in their fast form.
+#: Those that take long in their fast form, or whose law or load a shorter case has as well.
 LONG = (
     *("approach triangle", "approach haversine", "force haversines", "contact lost"),
-    *("flat punch, harmonic", "TabulatedRelaxation"),
+    *("flat punch, harmonic", "TabulatedRelaxation", "TabulatedCreep", "FractionalZener"),
+    *("cylinder from rest", "reciprocating wave", "ramp, Zener", "force, Burgers"),
+    *("force, CreepSeries", "force, RelaxationSeries", "force, Maxwell", "slow steady"),
+    *("fast steady motion, V", "moving wave in full contact"),
 )
 
 BALL = CASES[0]

@@ -70,10 +70,13 @@ def test_body_without_such_keys_has_a_remedy_in_words():
 @pytest.mark.parametrize(
     ("sharp", "rounded"),
     [
-        (vc.Roller(L, 4e-3), vc.Roller(L, 4e-3, crown_radius=0.05)),
-        (
+        pytest.param(
+            vc.Roller(L, 4e-3), vc.Roller(L, 4e-3, crown_radius=0.05), marks=pytest.mark.slow
+        ),
+        pytest.param(
             roller("chamfer", angle=0.02, length=1e-3),
             roller("chamfer", angle=0.02, length=1e-3, corner_radius=0.05),
+            marks=pytest.mark.slow,
         ),
         (vc.Cone(math.radians(88)), vc.Revolved([0, 1e-3, 4e-3], [0, 2e-5, 1.4e-4])),
     ],

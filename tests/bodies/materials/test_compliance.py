@@ -44,7 +44,11 @@ def test_mean_is_the_integral_over_the_interval(start, end):
 
 
 @pytest.mark.parametrize(
-    ("law", "bulk"), [(TABLE, 5e8), (MODULI, 5e9)], ids=["creep table", "modulus table"]
+    ("law", "bulk"),
+    [
+        pytest.param(TABLE, 5e8, id="creep table"),
+        pytest.param(MODULI, 5e9, id="modulus table", marks=pytest.mark.slow),
+    ],
 )
 def test_elastic_bulk_with_a_table_is_that_of_the_series_it_was_sampled_from(law, bulk):
     exact = Material(ZENER, bulk_modulus=bulk).contact_compliance()

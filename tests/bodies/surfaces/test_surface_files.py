@@ -342,7 +342,7 @@ def test_check_reports_levelling_and_warnings(
     assert "note: map.npz is hollow: it would touch along its border first" in said
 
 
-@pytest.mark.parametrize("missing", ["smooth", "hole"])
+@pytest.mark.parametrize("missing", [pytest.param("smooth", marks=pytest.mark.slow), "hole"])
 def test_map_runs_with_its_file_and_is_taken_up_from_there(
     case: Path, missing: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -390,7 +390,7 @@ def test_random_surface_touches_in_proportion_to_load_over_slope() -> None:
     # A = kappa F/(E* h'rms) at small loads, kappa from 1.6 to 2.5 in the literature: 1.6 in
     # Persson's theory, 2.5 in that of Bush, Gibson & Thomas (1975), simulations between
     # (Yastrebov et al. 2015, Int. J. Solids Struct. 52, 83). Waves of 6 cells are the shortest.
-    surface = self_affine(192)
+    surface = self_affine(128)
     cells = tuple(n + 8 for n in surface.shape)
     grid = vc.Grid(cells, (cells[0] * 1e-6, cells[1] * 1e-6))
     material = vc.Material(vc.Elastic(100e6), 0.5)

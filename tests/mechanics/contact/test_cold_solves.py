@@ -68,11 +68,18 @@ def test_thirty_directions_are_enough_to_eight_digits(kind: str, cells: int) -> 
     assert found.iterations <= (20 if cells < 1024 else 30)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("kind", "cells"),
+    [
+        ("rough", 128),
+        ("spots", 128),
+        *(pytest.param(each, 512, marks=pytest.mark.slow) for each in KINDS),
+    ],
+)
 def test_where_a_solve_starts_does_not_change_its_answer(
-    kind: str, monkeypatch: pytest.MonkeyPatch
+    kind: str, cells: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    problem, half_space = posed(kind, 512)
+    problem, half_space = posed(kind, cells)
     nested = solve_contact(problem, half_space, tolerance=1e-9)
     monkeypatch.setattr(ContactDomain, "coarser", lambda self: None)
     direct = solve_contact(problem, half_space, tolerance=1e-9)

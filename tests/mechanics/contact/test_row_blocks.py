@@ -63,7 +63,7 @@ def test_blocks_are_even_shares_of_all_lines(lines: int, row_bytes: int) -> None
     assert len(blocks) in (0, 1, lines) or len(blocks) % team.EVEN_SHARES == 0
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(pascal=st.floats(-60, 60), metre=st.floats(-9, 9))
 def test_the_search_finds_the_same_contact_in_any_units(pascal: float, metre: float) -> None:
     """Residual and directions are in single precision, of a range of 1e-38 to 1e38."""

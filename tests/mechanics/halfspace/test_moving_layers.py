@@ -70,7 +70,7 @@ def test_coefficients_are_the_delayed_integral(response, length):
         splits = [(each - x) / length for each in (*ends, 3.0, 10.0)] + [0.1, 1.0, 5.0]
         places = sorted({0.0, 45.0, *(each for each in splits if 0 < each < 45)})
         expected = sum(
-            quad(integrand, *pair, args=(x, y), epsabs=1e-10, epsrel=1e-9, limit=50)[0]
+            quad(integrand, *pair, args=(x, y), epsabs=1e-9, epsrel=1e-8, limit=50)[0]
             for pair in itertools.pairwise(places)
         )
         # Asked: 1e-8 of the coefficient of the loaded cell.

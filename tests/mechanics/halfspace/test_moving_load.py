@@ -36,8 +36,16 @@ def delayed(x, y, cell, length):
     return sum(parts)
 
 
-@pytest.mark.parametrize("length", [0.001, 0.01, 0.3, 30.0])
-@pytest.mark.parametrize("cell", [(1.0, 1.0), (1.0, 8.0), (1.0, 0.1)])
+@pytest.mark.parametrize(
+    "length", [0.001, 0.3, *(pytest.param(each, marks=pytest.mark.slow) for each in (0.01, 30.0))]
+)
+@pytest.mark.parametrize(
+    "cell",
+    [
+        (1.0, 8.0),
+        *(pytest.param(each, marks=pytest.mark.slow) for each in ((1.0, 1.0), (1.0, 0.1))),
+    ],
+)
 def test_coefficients_are_the_delayed_integral(cell, length):
     table = moving_influence_table((5, 2), cell, one_mode(length), axis=0)
     largest = influence_coefficient(0.0, 0.0, cell)

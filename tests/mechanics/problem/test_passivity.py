@@ -46,7 +46,7 @@ def kernels(surface, q):
     return np.array([term.response.ratio(q) for term in surface.terms])
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(bodies(), st.data())
 def test_no_wave_gains_energy(body, data):
     surface = surface_of([body])
@@ -72,7 +72,7 @@ def test_no_wave_gains_energy(body, data):
     assert (new @ kernels(surface, q) > 0).all()
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(bodies())
 def test_the_stated_error_holds_at_other_waves_and_frequencies(body):
     assume(len(surface_of([body]).terms) > 1)

@@ -29,7 +29,10 @@ def summed(x: float, alpha: float, beta: float) -> float:
                 return float(total)
 
 
-@pytest.mark.parametrize("alpha", [0.15, 0.3, 0.5, 0.7, 0.9, 0.97])
+@pytest.mark.parametrize(
+    "alpha",
+    [*(pytest.param(each, marks=pytest.mark.slow) for each in (0.15, 0.3, 0.5, 0.9)), 0.7, 0.97],
+)
 def test_values_are_those_of_the_series_in_many_digits(alpha):
     """Both sides of every change of method: x = 1, x = 8, x^(1/α) = 40."""
     for beta in (alpha, 1.0, 1 + alpha, 2.0, 2 + alpha):

@@ -80,7 +80,13 @@ PAIRS = {
     "relaxing solid": of_relaxation(POLYMER),
     "relaxing fluid": of_relaxation(FLOWING),
 }
-each_pair = pytest.mark.parametrize("pair", PAIRS.values(), ids=PAIRS.keys())
+each_pair = pytest.mark.parametrize(
+    "pair",
+    [
+        pytest.param(pair, id=name, marks=[pytest.mark.slow] * (name == "fractional Zener"))
+        for name, pair in PAIRS.items()
+    ],
+)
 
 
 def scale(pair, t):
