@@ -30,6 +30,9 @@ for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SI
     if number is not None and signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, usual)
 
+# No test cuts the power, and a killed process loses nothing that it has given to the system.
+os.fsync = lambda descriptor: None
+
 # Many tests start workers, each of which would import everything again. They are forked from one
 # process that has. Doctests, scripts and commands in processes of their own start them as usual.
 if "forkserver" in multiprocessing.get_all_start_methods():

@@ -32,9 +32,10 @@ CASE = (
 load: {kind: ramp, force: 4 N, duration: 1 s}  # then held
 time: {end: 3 s, steps: 6}
 grid: {shape: [24, 24], size: [3 mm, 3 mm]}
-output: {fields: [0 s, 2 s, 3 s]}
+output: {fields: [0 s, 2 s, 3 s], errors: false}
 """
 )
+WITH_ERRORS = CASE.replace(", errors: false", "")
 COUNT = 7  # instants
 
 

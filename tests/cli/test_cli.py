@@ -57,7 +57,10 @@ time:
 grid:
   shape: [32, 32]
   size: [3 mm, 3 mm]
+output:
+  errors: false
 """
+ERRORS = ["--set", "output.errors=true"]
 COMMANDS = (
     *("run", "check", "show", "export", "plot", "compare", "schema", "example", "demo"),
     *("fit", "material", "report", "verify", "doctor", "cite"),
@@ -87,7 +90,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The directory of a finished run."""
     here = tmp_path_factory.mktemp("finished")
     (here / "case.yaml").write_text(SPHERE, encoding="utf-8")
-    assert main(["run", str(here / "case.yaml"), "-q"]) == 0
+    assert main(["run", str(here / "case.yaml"), "-q", *ERRORS]) == 0
     return here / "case"
 
 
@@ -310,7 +313,7 @@ def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     kept = ["--set", "output.fields=[1 s, 5 s]"]
-    assert main(["run", "case.yaml", *ADAPTIVE, *kept]) == 0
+    assert main(["run", "case.yaml", *ADAPTIVE, *kept, *ERRORS]) == 0
     printed = capsys.readouterr()
     lines = printed.err.splitlines()
     # totals are estimates until the end
@@ -357,8 +360,8 @@ def test_interruption_in_the_last_step_of_an_adaptive_run_is_too_late(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _at_instant(monkeypatch, lambda state, done: state.time == 5.0)
-    without = ["--set", "output.errors=false"]  # nothing comes after the last step then
-    assert main(["run", "case.yaml", "-q", *ADAPTIVE, *without]) == 0
+    # Nothing comes after the last step where errors are not estimated.
+    assert main(["run", "case.yaml", "-q", *ADAPTIVE]) == 0
 
 
 def test_bar_follows_a_total_that_changes(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -453,9 +456,10 @@ def test_check_predicts_grid_steps_memory_time_and_contact(
     [
         ("{kind: step, force: 4 N}", "at the largest load\n"),
         ("{kind: ramp, force: 4 N, duration: 1 s}", "at the largest load (t = 1 s to 5 s);\n"),
-        (
+        pytest.param(
             "{kind: harmonic, mean: 3 N, amplitude: 1 N, period: 2 s, cycles: 2}",
             "at the largest load (first at t = 500 ms);\n",
+            marks=pytest.mark.slow,
         ),
     ],
 )
@@ -644,7 +648,8 @@ def test_approach_control_is_shown_and_drawn_like_any_run(
 ) -> None:
     said = "press to 90 um in 1 s; withdraw to -50 um in 1 s"
     load = f"load={{kind: history, sentences: {said}, tilt_x: 2 mrad}}"
-    assert main(["run", "case.yaml", "-q", *ADAPTIVE, "--set", load]) == 0
+    coarse = ["--set", "grid.shape=[24, 24]"]
+    assert main(["run", "case.yaml", "-q", *ADAPTIVE, *coarse, "--set", load]) == 0
     for figure in ("history", "hysteresis", "pressure-profile"):
         assert main(["plot", "case", figure]) == 0
     assert main(["show", "case"]) == 0
@@ -666,7 +671,9 @@ def test_plot_draws_a_figure_into_the_run_or_a_given_file(finished: Path, tmp_pa
     assert "<svg" in file.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("figure", ["stress-section", "von-mises"])
+@pytest.mark.parametrize(
+    "figure", [pytest.param("stress-section", marks=pytest.mark.slow), "von-mises"]
+)
 def test_figure_of_stresses_counts_their_depths_on_a_terminal(
     figure: str, finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -946,7 +953,8 @@ def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
 def test_finished_run_whose_table_is_not_read_is_finished(
     reader: str, buffered: str, folder: Path
 ) -> None:
-    done = _shell(f"export PYTHONUNBUFFERED={buffered}; $V run case.yaml {reader}")
+    words = " ".join(ERRORS)
+    done = _shell(f"export PYTHONUNBUFFERED={buffered}; $V run case.yaml {words} {reader}")
     assert done.returncode == 0
     last = done.stderr.splitlines()[-1]
     assert last.startswith("case: the run is finished; its table cannot be printed: ")
@@ -958,10 +966,13 @@ def test_finished_run_whose_table_is_not_read_is_finished(
 @pytest.mark.parametrize(
     "words",
     [
-        *("example", "--help", "--version"),
+        "example",
         *(
             pytest.param(words, marks=pytest.mark.slow)
-            for words in ("show finished", "check case.yaml", "schema", "run --help")
+            for words in (
+                *("--help", "--version", "run --help"),
+                *("show finished", "check case.yaml", "schema"),
+            )
         ),
     ],
 )
@@ -977,7 +988,16 @@ def test_full_output_is_said_in_one_line(words: str, folder: Path, finished: Pat
     assert _shell(f"$V {words} 2>/dev/full").returncode == 0
 
 
-@pytest.mark.parametrize("name", ["~", "~x", " lead", "trail ", "file:", "http:", "a:b", "#a", "é"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("~", " lead", "file:"),
+        *(
+            pytest.param(name, marks=pytest.mark.slow)
+            for name in ("~x", "trail ", "http:", "a:b", "#a", "é")
+        ),
+    ],
+)
 def test_directories_of_odd_names_hold_runs(
     name: str, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -73,7 +73,9 @@ def _full(*arguments: Any, **options: Any) -> None:
         (recorder, "save_checkpoint"),
     ],
 )
-@pytest.mark.parametrize("calls", [0, 4, pytest.param(6, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "calls", [pytest.param(0, marks=pytest.mark.slow), 4, pytest.param(6, marks=pytest.mark.slow)]
+)
 def test_full_disk_stops_the_run_which_continues_once_there_is_space(
     calls: int,
     where: Any,
@@ -120,7 +122,9 @@ def test_full_disk_stops_the_run_which_continues_once_there_is_space(
 
 
 @pytest.mark.skipif(resource is None, reason="Windows has no quota for a process")
-@pytest.mark.parametrize("size", [0, 2_000, 20_000, 60_000])
+@pytest.mark.parametrize(
+    "size", [*(pytest.param(size, marks=pytest.mark.slow) for size in (0, 2_000)), 20_000, 60_000]
+)
 def test_quota_stops_the_run_which_continues_without_it(
     size: int,
     folder: Path,
@@ -223,7 +227,14 @@ def test_course_of_another_run_is_not_continued(
     assert hashes(stopped) == before
 
 
-@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize(
+    "damage",
+    [
+        *(pytest.param(each, marks=pytest.mark.slow) for each in (_cut, _empty, _garbage, _text)),
+        _foreign,
+        _directory,
+    ],
+)
 def test_overwrite_replaces_a_damaged_result(
     damage: Callable[[Path], None],
     stopped: Path,
@@ -317,7 +328,16 @@ def test_hidden_files_of_other_programs_stay(folder: Path) -> None:
     assert contents("d")[".result.nc.backup"] == contents("d")["state.npz"] == b"precious"
 
 
-@pytest.mark.parametrize("name", [".state.npz.new", ".case.yaml.new", ".result.nc.working"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *(
+            pytest.param(name, marks=pytest.mark.slow)
+            for name in (".state.npz.new", ".case.yaml.new")
+        ),
+        ".result.nc.working",
+    ],
+)
 def test_link_at_a_temporary_name_is_not_written_through(
     name: str,
     folder: Path,
@@ -530,14 +550,24 @@ LAW = "time [s], relaxation_modulus [MPa]\n0.01, 10\n0.1, 9.5\n1, 7\n10, 5\n100,
     ("file", "copied"),
     [
         ("result.nc", "load-result.nc"),
-        ("Case.yaml", "load-Case.yaml"),
-        pytest.param("state.npz", "load-state.npz", marks=pytest.mark.slow),
-        pytest.param("progress.jsonl", "load-progress.jsonl", marks=pytest.mark.slow),
-        (".lock", "load-.lock"),
-        (".result.nc.working", "load-.result.nc.working"),
+        *(
+            pytest.param(name, f"load-{name}", marks=pytest.mark.slow)
+            for name in (
+                "Case.yaml",
+                "state.npz",
+                "progress.jsonl",
+                ".lock",
+                ".result.nc.working",
+            )
+        ),
         ("../outside.csv", "outside.csv"),
-        ("a/b/../../deep.csv", "deep.csv"),
-        ("{absolute}/absolute.csv", "absolute.csv"),
+        *(
+            pytest.param(*names, marks=pytest.mark.slow)
+            for names in (
+                ("a/b/../../deep.csv", "deep.csv"),
+                ("{absolute}/absolute.csv", "absolute.csv"),
+            )
+        ),
     ],
 )
 def test_table_is_copied_into_the_directory_and_over_nothing(
@@ -622,7 +652,13 @@ def test_table_whose_name_is_but_a_part_of_a_copys_is_the_users(
     assert contents("case")["load.csv"] == b"mine"
 
 
-@pytest.mark.parametrize("change", [lambda path: path.write_text("0, 8\n"), Path.unlink])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda path: path.write_text("0, 8\n"),
+        pytest.param(Path.unlink, marks=pytest.mark.slow),
+    ],
+)
 def test_table_that_is_changed_before_the_first_step_stops_the_run(
     change: Callable[[Path], None],
     folder: Path,

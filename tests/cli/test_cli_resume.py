@@ -20,6 +20,7 @@ from ruamel.yaml import YAML
 import viscontact as vc
 from interrupted_runs import (
     CASE,
+    WITH_ERRORS,
     Killed,
     at_instant,
     contents,
@@ -61,7 +62,7 @@ def test_resumed_run_ends_in_the_bits_of_an_uninterrupted_one(
 
 def test_resumed_periodic_run_ends_in_the_same_bits(folder: Path) -> None:
     """The sphere becomes one of a square array, which creeps over the border of its period."""
-    text = CASE.replace("size: [3 mm, 3 mm]", "size: [0.9 mm, 0.9 mm], periodic: true")
+    text = WITH_ERRORS.replace("size: [3 mm, 3 mm]", "size: [0.9 mm, 0.9 mm], periodic: true")
     (folder / "case.yaml").write_text(text, encoding="utf-8")
     assert main(["run", "case.yaml", "-q", "-o", "at once"]) == 0
     with xr.open_dataset(folder / "at once" / "result.nc") as ds:
@@ -163,7 +164,11 @@ def test_changed_case_is_refused_with_the_difference_in_its_own_words(
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("4 N", "4000 mN"), ("  # then held", "  # and held"), ("Zener sphere", "A sphere")],
+    [
+        ("4 N", "4000 mN"),
+        pytest.param("  # then held", "  # and held", marks=pytest.mark.slow),
+        pytest.param("Zener sphere", "A sphere", marks=pytest.mark.slow),
+    ],
 )
 def test_what_changes_no_number_is_no_change(
     old: str, new: str, folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
@@ -281,7 +286,10 @@ def test_printed_command_continues_the_run(
     assert "continuing after 3 of 7 instants" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize(
+    "name",
+    ["SIGINT", *(pytest.param(name, marks=pytest.mark.slow) for name in ("SIGTERM", "SIGHUP"))],
+)
 def test_first_request_lets_the_step_be_finished_and_saved(
     name: str, folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -411,7 +419,7 @@ def test_fault_that_comes_while_a_request_waits_is_reported(
     assert "case: the run stopped: no room" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("time", ["inner", "asked"])
+@pytest.mark.parametrize("time", ["inner", pytest.param("asked", marks=pytest.mark.slow)])
 def test_step_that_fails_is_not_gone_on_from_though_a_stop_is_asked_for_in_it(
     time: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -508,6 +516,7 @@ def test_run_whose_terminal_is_closed_stops_in_order(folder: Path) -> None:
 def test_show_and_plot_report_a_run_that_can_be_continued(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    (folder / "case.yaml").write_text(WITH_ERRORS, encoding="utf-8")
     undo = at_instant(4, lambda: signal.raise_signal(signal.SIGTERM))
     assert main(["run", "case.yaml", "-q", "-o", "a b"]) == 130
     undo()
@@ -553,13 +562,12 @@ sys.exit(main())
     ("name", "module"),
     [
         ("SIGINT", "typer"),
-        ("SIGTERM", "numpy"),
         ("SIGHUP", "exit"),
         *(
             pytest.param(name, module, marks=pytest.mark.slow)
             for module, names in {
                 "typer": ("SIGTERM", "SIGHUP"),
-                "numpy": ("SIGINT", "SIGHUP"),
+                "numpy": ("SIGINT", "SIGTERM", "SIGHUP"),
                 "exit": ("SIGINT", "SIGTERM"),
             }.items()
             for name in names

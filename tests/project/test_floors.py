@@ -111,16 +111,21 @@ def targets(node: ast.AST, module: str, is_package: bool) -> list[str]:
 @cache
 def imports(name: str, path: Path) -> tuple[Import, ...]:
     """Return every import of a file, which is read once."""
+    source = path.read_text(encoding="utf-8")
+    # Most nodes are expressions, which import by a call only.
+    calls = "import_module" in source or "__import__" in source
 
     def walk(node: ast.AST, hidden: bool) -> Iterator[Import]:
         for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.expr) and not calls:
+                continue
             where = f"{path.parent.name}/{path.name}:{getattr(child, 'lineno', 0)}"
             for target in targets(child, name, path.name == "__init__.py"):
                 yield Import(where, target, hidden or isinstance(child, ast.Call))
             function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
             yield from walk(child, hidden or function)
 
-    return tuple(walk(ast.parse(path.read_text(encoding="utf-8")), hidden=False))
+    return tuple(walk(ast.parse(source), hidden=False))
 
 
 def fault_of_other(place: str, floor: int, target: str) -> str | None:

@@ -55,19 +55,21 @@ else:
     ("code", "unwanted"),
     [
         ("import viscontact", (*HEAVY, "pydantic", "typer", "rich")),
-        ("from viscontact.cli import main; main(['--help'])", HEAVY),
+        pytest.param(
+            "from viscontact.cli import main; main(['--help'])", HEAVY, marks=pytest.mark.slow
+        ),
         ("from viscontact.cli import main; main(['run', '--help'])", HEAVY),
         (
             f"from viscontact.case import read_case; read_case({str(CASE)!r})",
             (*SLOW_PARTS, "pint"),
         ),
-        (
-            "from viscontact.cli import main; main(['example'])",
-            HEAVY,
+        pytest.param(
+            "from viscontact.cli import main; main(['example'])", HEAVY, marks=pytest.mark.slow
         ),
-        (
+        pytest.param(
             f"from viscontact.cli import main; main(['check', {str(CASE)!r}])",
             (*COMPUTES, "netCDF4"),
+            marks=pytest.mark.slow,
         ),
         (
             "import viscontact as vc; vc.simulate",

@@ -23,7 +23,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from interrupted_runs import CASE
+from interrupted_runs import WITH_ERRORS
 from viscontact.cli import main
 from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME, RESULT_NAME
 from viscontact.studies.sweep.manifest import read_manifest
@@ -199,7 +199,7 @@ def test_a_script_without_a_guard_is_told_so_by_its_processes(
 
 def test_runs_of_a_case_are_recorded_as_at_the_command_line(tmp_path: Path) -> None:
     case = tmp_path / "case.yaml"
-    case.write_text(CASE, encoding="utf-8")
+    case.write_text(WITH_ERRORS, encoding="utf-8")
     given = vc.vary(case, {"load.force": ["2 N", "4 N"]})
     with ThreadPoolExecutor(1) as pool:
         ds = vc.simulate_many(given, executor=pool, directory=tmp_path / "api")
