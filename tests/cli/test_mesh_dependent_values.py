@@ -15,10 +15,13 @@ import xarray as xr
 
 import viscontact as vc
 from drawing.plotly.figure_data import figures_in
+from reports_without_pictures import without_pictures
 from viscontact.cli import main
 from viscontact.plot import FIGURES
 from viscontact.report import report_page
 from viscontact.results.summary import headline
+
+__all__ = ["without_pictures"]  # a fixture
 
 CASE = """\
 indenter: {shape: roller, radius: 5 mm, half_length: 3 mm, profile: cylindrical}
@@ -77,7 +80,7 @@ def test_check_and_the_table_of_several_runs(
     [line] = re.findall(r"  peak pressure +(.*)", capsys.readouterr().out)
     assert re.fullmatch(r">[\d.]+ MPa on a coarse mesh \(depends on the mesh\)", line)
     varied = ["run", case, "--vary", "load.force=100N,200N", "-o", str(folder / "forces")]
-    assert main(varied) == 0
+    assert main([*varied, "-j", "1"]) == 0
     table = capsys.readouterr().out
     for run in ("force=100N", "force=200N"):
         with vc.open_results(folder / "forces" / f"case_{run}") as ds:
@@ -88,6 +91,7 @@ def test_check_and_the_table_of_several_runs(
         assert "mesh" in row
 
 
+@pytest.mark.usefixtures("without_pictures")
 def test_sentence_tile_and_map_of_the_report(ds: xr.Dataset, peaks: list[str]) -> None:
     assert f"the peak pressure >{peaks[-1]} MPa (depends on the mesh). " in headline(ds)
     largest = f"largest at t = 0 s: >{peaks[0]} MPa (depends on the mesh)"

@@ -13,6 +13,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from reports_without_pictures import without_pictures
 from viscontact.case import CaseError, read_case
 from viscontact.cli import main
 from viscontact.drawing.svg.html import written
@@ -21,6 +22,8 @@ from viscontact.report.inputs import InputRow, inputs
 from viscontact.report.measured import measured_figure, measured_lines
 from viscontact.report.title_block import file_lines, title_entries
 from viscontact.results.filed_case import FiledCase, started_at
+
+__all__ = ["without_pictures"]  # a fixture
 
 TABLE = """time [s], D [1/GPa]
 1, 0.30
@@ -105,6 +108,7 @@ def test_results_of_python_have_the_start_too() -> None:
     assert list(file_lines(found)) == []
 
 
+@pytest.mark.usefixtures("without_pictures")
 def test_report_begins_with_the_title_block(ds: xr.Dataset) -> None:
     page = report_page(ds)
     body = page[page.index("<body>") :]

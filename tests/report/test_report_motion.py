@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from reports_without_pictures import without_pictures
 from viscontact import plot
 from viscontact.bodies.loads.motion import Motion
 from viscontact.drawing.content.history import load_names, response_names
@@ -24,7 +25,12 @@ from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.report.page import report_page
 from viscontact.report.section_csv import lines_csv
 
-pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+__all__ = ["without_pictures"]  # a fixture
+
+pytestmark = [
+    pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning"),
+    pytest.mark.usefixtures("without_pictures"),
+]
 
 RUBBER = vc.Material(vc.Zener(9e6, 1e6, 1e6), poisson_ratio=0.5)
 #: Cells along x and y [m].

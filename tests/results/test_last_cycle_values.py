@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from reports_without_pictures import without_pictures
 from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
 from viscontact.drawing.content.look import LIGHT
@@ -21,8 +22,13 @@ from viscontact.report.run_data import run_data
 from viscontact.results.last_cycle_values import last_cycle, worst_notes, worst_places
 from viscontact.results.summary import headline
 
-# The punch has a sharp edge.
-pytestmark = pytest.mark.filterwarnings("ignore:the contact reaches the end")
+__all__ = ["without_pictures"]  # a fixture
+
+pytestmark = [
+    # The punch has a sharp edge.
+    pytest.mark.filterwarnings("ignore:the contact reaches the end"),
+    pytest.mark.usefixtures("without_pictures"),
+]
 
 RUBBER = vc.Material(vc.Zener(1e7, 1e7, 2e6), poisson_ratio=0.5)
 PERIOD, CYCLES = 0.5, 3

@@ -23,6 +23,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 import viscontact as vc
+from reports_without_pictures import without_pictures
 from viscontact.cli import main
 from viscontact.cli.run.summary import print_summary
 from viscontact.plot import COMPARISONS, FIGURES
@@ -32,6 +33,8 @@ from viscontact.results.formatting import format_error, format_percent, format_s
 from viscontact.results.summary import headline, summary_rows
 from viscontact.results.variables import SCALARS, scalars_of, scalars_with_error
 from viscontact.simulation.accuracy.error_models import ERROR_MODELS
+
+__all__ = ["without_pictures"]  # a fixture
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}
@@ -259,6 +262,7 @@ def test_each_value_is_followed_by_the_error_of_its_instant(bare: xr.Dataset) ->
     assert (row.part, row.when) == ("50 %", f"{float(bare.time[2]) * 1e3:.0f} ms")
 
 
+@pytest.mark.usefixtures("without_pictures")
 def test_table_notebook_report_and_headline_say_the_same(ds: xr.Dataset) -> None:
     area = next(row for row in summary_rows(ds) if row.name == "contact_area")
     text = f"{area.largest} {area.unit}"
@@ -412,7 +416,16 @@ def test_peak_that_depends_on_the_mesh_has_no_curve(
     assert not axes.texts
 
 
-@pytest.mark.parametrize("name", ["pressure-map", "pressure-profile", "pressure-radial"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "pressure-profile",
+        *(
+            pytest.param(name, marks=pytest.mark.slow)
+            for name in ("pressure-map", "pressure-radial")
+        ),
+    ],
+)
 def test_figures_of_pressure_say_that_the_peak_depends_on_the_mesh(
     name: str, singular: xr.Dataset, ds: xr.Dataset
 ) -> None:

@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from reports_without_pictures import without_pictures
 from viscontact.case import CaseError, read_case
 from viscontact.case.allowable import MOVING, NOT_STEADY, Allowable
 from viscontact.cli import main
@@ -23,6 +24,10 @@ from viscontact.results import variables
 from viscontact.results.variables import STRESSES
 from viscontact.results.verdicts import overall, verdict_on, verdicts
 from viscontact.units.dimensions import DIMENSIONS
+
+__all__ = ["without_pictures"]  # a fixture
+
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 CASE = """indenter: {shape: sphere, radius: 10 mm}
 material: {law: zener, shear_modulus: 1 GPa, delayed_modulus: 1 GPa, viscosity: 10 GPa s,
