@@ -53,7 +53,9 @@ def test_whole_numbers_of_numpy_stay_whole(tmp_path: Path) -> None:
     assert '"cells_across": 7,' in (tmp_path / "log").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("kept", range(6))
+@pytest.mark.parametrize(
+    "kept", [*range(2), *(pytest.param(kept, marks=pytest.mark.slow) for kept in range(2, 6))]
+)
 def test_cut_anywhere_the_log_continues_with_the_same_lines(kept: int, tmp_path: Path) -> None:
     path = tmp_path / "progress.jsonl"
     with ProgressLog(path) as log:

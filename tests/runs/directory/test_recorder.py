@@ -182,7 +182,9 @@ def test_pickled_objects_are_never_loaded() -> None:
 # --- a run and its directory ------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("instants", [1, 2, 7, COUNT])
+@pytest.mark.parametrize(
+    "instants", [1, 7, *(pytest.param(instants, marks=pytest.mark.slow) for instants in (2, COUNT))]
+)
 def test_run_continues_to_the_same_bits(
     instants: int, recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 
 import pytest
@@ -28,14 +29,17 @@ def test_limit_of_a_block_ends_with_it() -> None:
         assert threads() == {2}
 
 
+@pytest.mark.parametrize(
+    ("initializer", "expected"),
+    [pytest.param(None, {2}, marks=pytest.mark.slow), (limit_threads, {1})],
+)
 def test_worker_uses_one_thread_whatever_the_environment_says(
-    monkeypatch: pytest.MonkeyPatch,
+    initializer: Callable[[], object] | None, expected: set[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
     spawn = multiprocessing.get_context("spawn")
-    for initializer, expected in ((None, {2}), (limit_threads, {1})):
-        with ProcessPoolExecutor(1, mp_context=spawn, initializer=initializer) as pool:
-            assert pool.submit(threads).result() == expected
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=initializer) as pool:
+        assert pool.submit(threads).result() == expected
 
 
 @pytest.mark.slow
