@@ -533,7 +533,8 @@ def test_contact_far_from_the_origin_is_checked_and_run_on_a_grid_around_it(
     printed = " ".join(capsys.readouterr().out.split())
     assert "around x = 8 mm, y = 0 m (automatic)" in printed
     (expected,) = re.findall(r"cells in it \d+ along, (\d+) across", printed)
-    assert main(["run", "far.yaml", *far, *level, "-q"]) == 0
+    quick = ["--set", "time.steps=1", "--set", "output.errors=false"]
+    assert main(["run", "far.yaml", *far, *level, *quick, "-q"]) == 0
     ds = vc.open_results("far/result.nc")
     assert float(ds.x.mean()) == pytest.approx(8e-3, rel=1e-6)
     assert int(ds.cells_across.max()) == pytest.approx(int(expected), rel=0.1)
@@ -623,7 +624,7 @@ def test_show_prints_the_loss_per_cycle_and_an_inexact_memory(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     swing = "load={kind: harmonic, mean: 2 N, amplitude: 1 N, period: 1 s, cycles: 2}"
-    assert main(["run", "case.yaml", "--set", swing]) == 0
+    assert main(["run", "case.yaml", "--set", swing, "--set", "grid.shape=[16, 16]"]) == 0
     summary = capsys.readouterr().out
     assert re.search(r"loss per cycle \[µJ\] +- +[\d.]+ ", summary)
     assert main(["show", "case"]) == 0
@@ -815,7 +816,7 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
     whole = execution.execute
 
     def coarse(request: RunRequest) -> Path:
-        return whole(replace(request, settings=("grid.shape=[64, 32]", "time.steps=2")))
+        return whole(replace(request, settings=("grid.shape=[32, 16]", "time.steps=1")))
 
     monkeypatch.setattr(execution, "execute", coarse)
     one = ("history",)
@@ -853,14 +854,6 @@ def test_help_of_every_command_ends_with_an_example(
     lines = capsys.readouterr().out.strip().splitlines()
     assert "Example:" in " ".join(lines[-3:])
     assert f"viscontact {command}" in " ".join(lines[-3:])
-
-
-def test_help_imports_no_numpy() -> None:
-    code = (
-        "import sys; from viscontact.cli import main; main(['run', '--help']); "
-        "sys.exit(any(name in sys.modules for name in ('numpy', 'pint', 'xarray')))"
-    )
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
 
 
 def test_terminal_without_superscripts_still_gets_its_table(finished: Path) -> None:

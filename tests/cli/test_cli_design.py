@@ -53,7 +53,10 @@ def test_the_worst_corner_of_a_scatter_counts(monkeypatch: pytest.MonkeyPatch) -
         assert table.peak_pressure_of_scenarios.values.argmax(axis=1).tolist() == [2, 2, 2]
 
 
-def test_a_design_is_continued_with_resume_only(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_design_is_continued_with_resume_only(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.cli.studies.execution.write_report", lambda *_: None)
     assert main([*COMMAND, *RADIUS, "-q"]) == 0
     trials = Path("found/trials.jsonl").read_text()
     assert main([*COMMAND, *RADIUS]) == 2
@@ -135,8 +138,9 @@ def test_an_option_that_does_not_fit_is_refused_in_one_line(
 
 
 def test_a_design_that_is_not_feasible_ends_with_the_closest_trial(
-    capsys: pytest.CaptureFixture[str],
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("viscontact.cli.studies.execution.write_report", lambda *_: None)
     assert main([*COMMAND, *RADIUS, "-q", "--constraint", "approach<=1nm"]) == 1
     said = capsys.readouterr().err
     assert said.startswith(

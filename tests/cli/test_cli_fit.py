@@ -298,9 +298,9 @@ def force_curve(path: Path, heads: tuple[str, ...], *scales: float) -> Path:
 @pytest.mark.parametrize(
     ("last", "scale", "more"),
     [
-        ("deflection [nm]", 1e9, []),
+        pytest.param("deflection [nm]", 1e9, [], marks=pytest.mark.slow),
         ("deflection [mV]", 1e3 / 5e-8, ["--sensitivity", "50 nm/V"]),
-        ("force [pN]", 0.1e12, []),
+        pytest.param("force [pN]", 0.1e12, [], marks=pytest.mark.slow),
     ],
 )
 def test_a_force_curve_gives_its_contact_point_and_the_law(last, scale, more, tmp_path, capsys):

@@ -79,6 +79,22 @@ def contents(directory: str) -> dict[str, bytes]:
         return {str(name): ds[name].values.tobytes() for name in ds.variables}
 
 
+def forward_commands(folder: Path) -> None:
+    """Let tasks write down their commands, which `submitted` gives to this process."""
+    program = folder.parent / "bin" / "viscontact"
+    program.write_text('#!/bin/bash\nprintf "%q " "$@" >>commands\necho >>commands\n', "utf-8")
+
+
+def submitted(command: str) -> None:
+    """Submit the script of a job array, all tasks of which have ended then."""
+    subprocess.run(command, shell=True, check=True, capture_output=True)
+    commands = Path("commands")
+    if commands.exists():
+        for line in commands.read_text(encoding="utf-8").splitlines():
+            main(shlex.split(line))
+        commands.unlink()
+
+
 def array(count: int, **others: object) -> JobArray:
     given = {"manifest": Path("/s/out/runs.jsonl"), "left": range(count), "memory": 3e8}
     return JobArray(runs=count, **{**given, "seconds": 400.0, "logs": Path("/s/logs"), **others})  # type: ignore[arg-type]
@@ -86,11 +102,20 @@ def array(count: int, **others: object) -> JobArray:
 
 @pytest.mark.skipif(os.name == "nt", reason="batch systems run on Unix")
 @pytest.mark.parametrize(
-    "script", ["all of it.sbatch", pytest.param("all.pbs", marks=pytest.mark.slow)]
+    ("script", "forwarded"),
+    [
+        ("all of it.sbatch", True),
+        *(
+            pytest.param(script, False, marks=pytest.mark.slow)
+            for script in ("all of it.sbatch", "all.pbs")
+        ),
+    ],
 )
 def test_a_job_array_ends_in_the_bits_of_the_sweep_computed_here(
-    folder: Path, script: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, script: str, forwarded: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    if forwarded:
+        forward_commands(folder)
     sweep = ["run", "my ball.yaml", "--vary", "load.force=0.2 N,9 N", "-q"]
     assert main([*sweep, "-o", "here"]) == 1  # 9 N reach the border of the grid
     assert main([*sweep, "-o", "out", "--array", script, "-j", "2"]) == 0
@@ -98,7 +123,8 @@ def test_a_job_array_ends_in_the_bits_of_the_sweep_computed_here(
     assert submit == f"{'qsub' if script.endswith('pbs') else 'sbatch'} {shlex.quote(script)}"
     assert [path.name for path in Path("out").iterdir()] == [MANIFEST_NAME]  # nothing has begun
     assert "-1%2\n" in Path(script).read_text(encoding="utf-8")
-    subprocess.run(submit, shell=True, check=True, capture_output=True)
+    submitted(submit)
+    capsys.readouterr()  # what the tasks have printed, if here
     assert contents("out/my ball_force=0.2N") == contents("here/my ball_force=0.2N")
     failure, here = (
         json.loads((Path(place) / "my ball_force=9N" / FAILURE_NAME).read_text(encoding="utf-8"))
@@ -115,7 +141,7 @@ def test_a_job_array_ends_in_the_bits_of_the_sweep_computed_here(
     Path("out/my ball_force=9N", FAILURE_NAME).unlink()
     result = Path("out/my ball_force=0.2N", RESULT_NAME)
     before = result.stat().st_mtime_ns
-    subprocess.run(submit, shell=True, check=True, capture_output=True)
+    submitted(submit)
     assert Path("out/my ball_force=9N", FAILURE_NAME).exists()
     assert result.stat().st_mtime_ns == before
     text = Path(left).read_text(encoding="utf-8")

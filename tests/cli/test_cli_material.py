@@ -71,7 +71,13 @@ def test_a_file_is_shown_like_a_shipped_material(
     assert "not measured" not in printed
 
 
-@pytest.mark.parametrize(("which", "suffix"), [("polystyrene-130c", "png"), ("zener.yaml", "svg")])
+@pytest.mark.parametrize(
+    ("which", "suffix"),
+    [
+        pytest.param("polystyrene-130c", "png", marks=pytest.mark.slow),
+        ("zener.yaml", "svg"),
+    ],
+)
 def test_a_figure_is_written_where_asked(
     folder: Path, which: str, suffix: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -111,6 +117,7 @@ def test_a_broken_file_is_refused_with_line_and_key(
     assert "bad.yaml:5: material.viscosity: cannot read '10 MPa'" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_without_the_plot_extra_one_line_says_what_to_install(folder: Path) -> None:
     code = (
         "import sys; sys.modules['matplotlib'] = None\n"

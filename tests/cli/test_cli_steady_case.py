@@ -66,7 +66,7 @@ def test_result_is_that_of_steady(finished: Path) -> None:
     assert json.loads(lines[-1])["complete"]
 
 
-@pytest.mark.parametrize("errors", ["true", "false"])
+@pytest.mark.parametrize("errors", ["true", pytest.param("false", marks=pytest.mark.slow)])
 def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
     errors: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -103,6 +103,7 @@ def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
     assert same_bits("case", whole)
 
 
+@pytest.mark.slow
 def test_killed_run_is_resumed_to_the_same_bits(folder: Path, finished: Path) -> None:
     command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "-q", "--resume"]
     process = subprocess.Popen(command)
@@ -163,7 +164,7 @@ def test_tables_and_sweeps(
     assert capsys.readouterr().out.startswith("speed [m/s],force [N]")
     vary = ["--vary", "load.force=1 N,2 N", "--set", "motion.speed=[0.1 m/s, 1 m/s]"]
     off = ["--set", "output={fields: none, errors: false}"]
-    assert main(["run", "case.yaml", "-q", *vary, *off, "-o", "two"]) == 0
+    assert main(["run", "case.yaml", "-q", *vary, *off, "-o", "two", "-j", "1"]) == 0
     ds = vc.open_many("two")
     assert ds.friction_coefficient.dims == ("load.force", "speed")
     assert ds.force.values == pytest.approx(np.array([[1.0, 1.0], [2.0, 2.0]]))

@@ -121,7 +121,7 @@ def test_figures_report_and_tables(
 def test_the_thickness_of_a_cover_is_varied(folder: Path) -> None:
     vary = ["--vary", "indenter_material.layers[1].thickness=5 mm,2 mm"]
     off = ["--set", "motion.speed=[1 m/s]", "--set", "output={fields: none, errors: false}"]
-    assert main(["run", "case.yaml", "-q", *vary, *off, "-o", "two"]) == 0
+    assert main(["run", "case.yaml", "-q", *vary, *off, "-o", "two", "-j", "1"]) == 0
     ds = vc.open_many("two")
     thick, thin = ds.peak_pressure.isel(speed=0).values
     assert thin > 1.2 * thick

@@ -18,7 +18,9 @@ def stored(tmp_path: Path) -> Path:
     return tmp_path / "curve.nc"
 
 
-@pytest.mark.parametrize("figure", ["friction", "motion-profile"])
+@pytest.mark.parametrize(
+    "figure", ["friction", pytest.param("motion-profile", marks=pytest.mark.slow)]
+)
 def test_figures_of_steady_motion_are_drawn(stored: Path, figure: str) -> None:
     assert main(["plot", str(stored), figure]) == 0
     assert stored.with_name(f"{figure}.png").stat().st_size > 1000
