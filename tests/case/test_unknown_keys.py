@@ -59,10 +59,14 @@ def _key_of(document: Any) -> str:
     return f".{key}{_key_of(inner)}"
 
 
-DOCUMENTS = [
-    pytest.param(document, id=f"{name}{_key_of(document).removesuffix(UNKNOWN)}")
-    for name, document in _places(SCHEMA, "case")
-]
+def _documents() -> Iterator[Any]:
+    """Yield the documents as parameters; by default each object is tried in its first place."""
+    tried: set[str] = set()
+    for name, document in _places(SCHEMA, "case"):
+        again = [pytest.mark.slow] if name in tried else []
+        tried.add(name)
+        place = _key_of(document).removesuffix(UNKNOWN)
+        yield pytest.param(document, id=f"{name}{place}", marks=again)
 
 
 def test_every_object_of_the_schema_is_reached_and_closed() -> None:
@@ -76,7 +80,7 @@ def test_every_object_of_the_schema_is_reached_and_closed() -> None:
     assert open_objects == []
 
 
-@pytest.mark.parametrize("document", DOCUMENTS)
+@pytest.mark.parametrize("document", _documents())
 def test_unknown_key_is_refused_at_its_place(document: Any, tmp_path: Path) -> None:
     file = tmp_path / "case.yaml"
     file.write_text(json.dumps(document), encoding="utf-8")  # JSON is YAML, too

@@ -27,7 +27,7 @@ from fuzzing.watch import Tally, set_free_memory
 SEED = int(os.environ.get("VISCONTACT_FUZZ_SEED", "6"))
 
 #: So many inputs in all.
-DEFAULT, SLOW = 150, 10_500
+DEFAULT, SLOW = 100, 10_500
 
 # What is thrown away is no matter here, and neither is the size of what is made.
 _ANY_HEALTH = list(HealthCheck)

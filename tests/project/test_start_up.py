@@ -59,9 +59,10 @@ else:
             "from viscontact.cli import main; main(['--help'])", HEAVY, marks=pytest.mark.slow
         ),
         ("from viscontact.cli import main; main(['run', '--help'])", HEAVY),
-        (
+        pytest.param(
             f"from viscontact.case import read_case; read_case({str(CASE)!r})",
             (*SLOW_PARTS, "pint"),
+            marks=pytest.mark.slow,
         ),
         pytest.param(
             "from viscontact.cli import main; main(['example'])", HEAVY, marks=pytest.mark.slow
@@ -71,9 +72,10 @@ else:
             (*COMPUTES, "netCDF4"),
             marks=pytest.mark.slow,
         ),
-        (
+        pytest.param(
             "import viscontact as vc; vc.simulate",
             ("scipy.interpolate", "scipy.optimize", "pint", "rich"),
+            marks=pytest.mark.slow,
         ),
     ],
 )

@@ -62,7 +62,7 @@ def test_a_table_is_fitted_and_its_law_is_a_material(client: TestClient) -> None
     assert names == ["fit-contact", "fit-loop", "fit-time"]
 
 
-@pytest.mark.parametrize("units", ["us", "si"])
+@pytest.mark.parametrize("units", ["us", pytest.param("si", marks=pytest.mark.slow)])
 def test_figures_have_the_chosen_units(client: TestClient, units: str) -> None:
     asked = ASKED | {"spring_constant": "0.1 N/m"}
     first, *_ = client.post(f"/api/fit?units={units}", json=asked).json()["figures"]

@@ -306,6 +306,7 @@ def test_a_sheet_is_uploaded_and_its_fit_is_drawn_with_its_misfit(
     client.delete("/api/files/dma.xlsx")
 
 
+@pytest.mark.slow
 def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path: Path) -> None:
     client.post("/api/files?name=dma.xlsx", content=oscillation(tmp_path))
     body = """\
@@ -325,7 +326,7 @@ def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path:
     client.delete("/api/files/dma.xlsx")
 
 
-@pytest.mark.parametrize("missing", [False, True])
+@pytest.mark.parametrize("missing", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_spectrum_of_a_measured_surface_is_drawn_below_its_shape(
     missing: bool, client: TestClient
 ) -> None:
