@@ -524,9 +524,9 @@ indenter: {shape: sphere, radius: 10 mm}
 material: {law: zener, shear_modulus: 10 MPa, delayed_modulus: 10 MPa, viscosity: 10 MPa s,
   poisson_ratio: 0.5}
 load: {kind: step, force: 4 N}
-time: {end: 5 s, steps: 60}
+time: {end: 5 s, steps: 30}
 grid: {shape: [32, 32], size: [3 mm, 3 mm]}
-output: {fields: none}
+output: {fields: none, errors: false}
 """
 ROLLER = "indenter={shape: roller, radius: 10 mm, half_length: 2 mm}"
 SLOW, WIDE_GRID = "load={kind: ramp, force: 4 N, duration: 2 s}", "grid.size=[4 mm, 4 mm]"
@@ -570,6 +570,8 @@ EXPECTED = {
     "touch": ([SLOW, "time.steps=2"], "grows from nothing to 100% of its largest"),
     "release": ([OFF, "time.steps=5"], "the load falls by 100% of its largest in a single"),
 }
+#: Warned of where another of the same kind is: of either body, of the same contact.
+SIBLINGS = {"thickness of the indenter", "end face", "approach", "cells"}
 
 
 @pytest.fixture
@@ -592,11 +594,11 @@ def checked(capsys: pytest.CaptureFixture[str], *settings: str) -> str:
 @pytest.mark.parametrize(
     "settings",
     [
-        [],
-        ["material.thickness=6 mm"],  # 1.14 mm is 0.19 of it
-        [SLOW],
+        ["output.errors=true"],
+        pytest.param(["material.thickness=6 mm"], marks=pytest.mark.slow),  # 1.14 mm is 0.19 of it
+        pytest.param([SLOW], marks=pytest.mark.slow),
         [TABLED, "load={kind: ramp, force: 4 N, duration: 5 s}", "grid.size=[2 mm, 2 mm]"],
-        ["material.measured_until=5 s"],
+        pytest.param(["material.measured_until=5 s"], marks=pytest.mark.slow),
         # A crown ends the contact before the roller ends.
         [
             "indenter={shape: roller, radius: 10 mm, half_length: 1 mm, crown_radius: 20 mm}",
@@ -621,7 +623,13 @@ def warned(capsys: pytest.CaptureFixture[str], settings: list[str]) -> str:
     return capsys.readouterr().err if code else vc.open_results("out").attrs["warnings"]
 
 
-@pytest.mark.parametrize("expected", EXPECTED.values(), ids=EXPECTED)
+@pytest.mark.parametrize(
+    "expected",
+    [
+        pytest.param(each, id=name, marks=[pytest.mark.slow] if name in SIBLINGS else [])
+        for name, each in EXPECTED.items()
+    ],
+)
 @pytest.mark.usefixtures("case")
 def test_check_predicts_the_warnings_of_the_run(
     expected: tuple[Any, ...], capsys: pytest.CaptureFixture[str]
