@@ -27,6 +27,7 @@ def content() -> Maps:
     return maps_over(ellipse())
 
 
+@cache
 def still_map(style: str) -> list[plot.Figure]:
     """Panels and colour bar of all instants."""
     return plot.pressure_map(ellipse(), times=ellipse().time.values, style=style).axes

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib import pyplot, rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
@@ -67,7 +68,7 @@ def test_every_figure_of_a_sphere_draws(
 
 
 #: What a contact that is long and at an edge changes most, by default.
-LONG = {"history", "pressure-map", "pressure-profile", "pressure-3d"}
+LONG = {"history", "pressure-map", "pressure-profile"}
 
 
 @pytest.mark.parametrize(
@@ -107,6 +108,15 @@ def test_every_labelled_axis_states_its_unit(name: str, drawn: Callable[[str], F
 
 
 def test_plotting_leaves_global_settings_and_pyplots_figures_alone() -> None:
+    pyplot.close("all")
+    before = dict(rcParams)
+    FIGURES["contact-outline"](maxwell_sphere(cells=8)).draw_without_rendering()
+    assert dict(rcParams) == before
+    assert not pyplot.get_fignums()
+
+
+@pytest.mark.slow  # a process that imports everything
+def test_importing_the_figures_leaves_global_settings_alone() -> None:
     program = (
         "import matplotlib, matplotlib.pyplot as pyplot; before = dict(matplotlib.rcParams)\n"
         "from synthetic_results import maxwell_sphere\n"

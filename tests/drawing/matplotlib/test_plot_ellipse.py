@@ -40,7 +40,13 @@ FloatArray = NDArray[np.float64]
 FACTORS = {"mm": 1e-3, "µm": 1e-6, "mm²": 1e-6, "µm²": 1e-12, "MPa": 1e6, "kPa": 1e3, "Pa": 1.0}
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["long in y", "long in x"])
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(False, id="long in y"),
+        pytest.param(True, id="long in x", marks=pytest.mark.slow),
+    ],
+)
 def transposed(request: pytest.FixtureRequest) -> bool:
     return bool(request.param)
 
@@ -48,6 +54,12 @@ def transposed(request: pytest.FixtureRequest) -> bool:
 @pytest.fixture(scope="module")
 def results(transposed: bool) -> xr.Dataset:
     return ellipse(transposed=transposed)
+
+
+#: For figures that choose the longer axis: both ways by default too.
+each_way = pytest.mark.parametrize(
+    "transposed", [False, True], ids=["long in y", "long in x"], indirect=True
+)
 
 
 def factor(label: str) -> float:
@@ -105,7 +117,14 @@ def test_outlines_are_the_ellipses_of_the_instants_named(
         assert_is_rim(patch, axes, t, transposed)
 
 
-@pytest.mark.parametrize("times", [None, [2.2], [5.0, 0.0]])
+@pytest.mark.parametrize(
+    "times",
+    [
+        [2.2],
+        pytest.param(None, marks=pytest.mark.slow),
+        pytest.param([5.0, 0.0], marks=pytest.mark.slow),
+    ],
+)
 def test_contours_of_the_map_are_ellipses_of_equal_pressure(
     results: xr.Dataset, transposed: bool, times: list[float] | None
 ) -> None:
@@ -197,7 +216,14 @@ def test_compared_profiles_are_those_of_the_place_and_instants_named(
 
 
 @pytest.mark.parametrize("name", ["contact-outline", "pressure-map"])
-@pytest.mark.parametrize(("times", "named"), [(None, 5.0), ([2.2], 2.0), ([0.0], 0.0)])
+@pytest.mark.parametrize(
+    ("times", "named"),
+    [
+        (None, 5.0),
+        ([2.2], 2.0),
+        pytest.param([0.0], 0.0, marks=pytest.mark.slow),
+    ],
+)
 def test_compared_rims_are_those_of_the_instant_named(
     name: str, times: list[float] | None, named: float, results: xr.Dataset, transposed: bool
 ) -> None:
@@ -251,6 +277,7 @@ def test_indenter_is_drawn_with_the_box_of_the_contact_of_the_instant_named(
         assert middle_of == pytest.approx(middle[way], abs=edges[way])
 
 
+@each_way
 def test_each_frame_shows_the_rim_and_the_section_of_its_instant(
     results: xr.Dataset, transposed: bool
 ) -> None:
@@ -268,6 +295,7 @@ def test_each_frame_shows_the_rim_and_the_section_of_its_instant(
 # --- stresses ---------------------------------------------------------------------------------
 
 
+@each_way
 def test_stress_section_crosses_the_shorter_extent_through_the_middle(
     results: xr.Dataset, transposed: bool
 ) -> None:
@@ -365,7 +393,9 @@ def test_command_draws_the_line_and_the_instant_requested(
         assert_is_section(figure.axes[0], line, "x", -0.02e-3, 2.0, transposed)
 
 
-@pytest.mark.parametrize("name", ["contact-outline", "pressure-map"])
+@pytest.mark.parametrize(
+    "name", ["contact-outline", pytest.param("pressure-map", marks=pytest.mark.slow)]
+)
 def test_command_compares_the_instant_requested(
     drawn: Callable[..., Figure], name: str, transposed: bool
 ) -> None:

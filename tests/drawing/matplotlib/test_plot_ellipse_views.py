@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_hex
 
-from drawing.matplotlib.test_plot_ellipse import factor, level
+from drawing.matplotlib.test_plot_ellipse import each_way, factor, level
 from drawing.matplotlib.test_plot_solid import Caught, caught, with_dent
 from synthetic_results import (
     ELLIPSE_AXES,
@@ -22,7 +22,13 @@ from viscontact.plot import FIGURES, animation
 assert caught  # a fixture
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["long in y", "long in x"])
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(False, id="long in y"),
+        pytest.param(True, id="long in x", marks=pytest.mark.slow),
+    ],
+)
 def transposed(request: pytest.FixtureRequest) -> bool:
     return bool(request.param)
 
@@ -32,6 +38,7 @@ def results(transposed: bool) -> xr.Dataset:
     return ellipse(transposed=transposed)
 
 
+@each_way
 def test_section_of_an_animation_is_wide_enough_for_the_longer_extent(
     results: xr.Dataset, transposed: bool
 ) -> None:

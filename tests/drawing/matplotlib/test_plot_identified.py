@@ -21,6 +21,13 @@ from viscontact.laws import WLF, Elastic, RelaxationSeries
 from viscontact.plot import fitted_indentation, fitted_series, master_curve, save_figure
 
 T = np.geomspace(0.1, 100.0, 20)
+
+
+@pytest.fixture(autouse=True)
+def _few_dots(monkeypatch):
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 80)
+
+
 LAW = RelaxationSeries(1e6, [1e9, 3e8], [1.0, 30.0])
 
 

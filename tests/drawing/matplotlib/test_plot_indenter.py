@@ -103,8 +103,11 @@ def test_drop_is_noted_at_the_ends_of_the_drawing_or_before_it_is_unbounded() ->
 @pytest.mark.parametrize(
     ("name", "width"),
     [
-        *((name, "single") for name in SHAPES),
-        ("roller", "double"),
+        *(("crowned", "single"), ("rough ball", "single"), ("roller", "double")),
+        *(
+            pytest.param(name, "single", marks=pytest.mark.slow)
+            for name in ("roller", "punch", "ellipsoid")
+        ),
         *(pytest.param(name, "double", marks=pytest.mark.slow) for name in [*SHAPES][1:]),
     ],
 )
@@ -120,7 +123,7 @@ def test_no_text_of_a_drawing_is_cut_off_or_runs_into_it(name: str, width: str |
         assert not box.overlaps(axes.get_tightbbox())
 
 
-@pytest.mark.parametrize("body", [ROLLER, vc.Sphere(5e-3)])
+@pytest.mark.parametrize("body", [ROLLER, pytest.param(vc.Sphere(5e-3), marks=pytest.mark.slow)])
 def test_noted_exaggeration_is_the_drawn_one(body: vc.Indenter) -> None:
     """A metre up and a metre along, measured in dots."""
     figure = draw_indenter(body, SIZE)
@@ -176,6 +179,7 @@ indenter: {shape: roller, radius: 5 mm, half_length: 6 mm, profile: iso-16281}
 material: {law: elastic, shear_modulus: 700 MPa, poisson_ratio: 0.3}
 load: {kind: step, force: 20 N}
 time: {end: 1 s, steps: 2, spacing: uniform}
+grid: {shape: [32, 40], size: [14 mm, 0.4 mm]}
 """
 
 
@@ -228,11 +232,12 @@ def test_check_refuses_a_picture_in_one_line(
 @pytest.mark.parametrize(
     "body",
     [
-        vc.Cone(1.5).shifted(-1.2345e-5, 9.8765e-5),
-        vc.Sphere(5e-3).shifted(-2.6613e-4, 1.2345e-4),
-        ROLLER.shifted(x=1.2345e-3, y=-9.876e-5),
+        pytest.param(vc.Cone(1.5).shifted(-1.2345e-5, 9.8765e-5), id="cone"),
+        pytest.param(
+            vc.Sphere(5e-3).shifted(-2.6613e-4, 1.2345e-4), id="sphere", marks=pytest.mark.slow
+        ),
+        pytest.param(ROLLER.shifted(x=1.2345e-3, y=-9.876e-5), id="roller"),
     ],
-    ids=["cone", "sphere", "roller"],
 )
 def test_headings_keep_apart(body: vc.Indenter) -> None:
     """Odd places are long to write, and a section across is narrow."""

@@ -123,7 +123,10 @@ def _map(contact: str) -> Figure:
 
 
 #: Those that another one is like.
-ALIKE = {"waves, 87 %", "waves upside down, 30 %", "rough"}
+ALIKE = {
+    *("waves, 87 %", "waves, full", "waves upside down, 30 %"),
+    *("band across the border", "sphere", "rough"),
+}
 EACH = [pytest.param(name, marks=pytest.mark.slow) if name in ALIKE else name for name in CONTACTS]
 
 
@@ -160,7 +163,13 @@ def test_outline_runs_along_the_rim_and_nowhere_else(contact: str) -> None:
         assert not np.any(_painted(figure, axes, points[_shown(axes, points)]))
 
 
-@pytest.mark.parametrize("contact", ["waves, 54 %", "rough, without end", "rough", "sphere"])
+@pytest.mark.parametrize(
+    "contact",
+    [
+        *("waves, 54 %", "rough, without end"),
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("rough", "sphere")),
+    ],
+)
 def test_labels_lie_in_the_contact_and_apart(contact: str) -> None:
     figure = _map(contact)
     figure.draw_without_rendering()

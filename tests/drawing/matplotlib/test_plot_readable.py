@@ -86,7 +86,9 @@ def test_labels_of_times_over_a_week_do_not_touch(width: plot.Width | None) -> N
     assert labelled >= 4  # 0, 1 min, 1 h, 1 d
 
 
-@pytest.mark.parametrize("width", [0.4, 0.9, 1.6, 5.0])
+@pytest.mark.parametrize(
+    "width", [0.4, *(pytest.param(w, marks=pytest.mark.slow) for w in (0.9, 1.6)), 5.0]
+)
 @pytest.mark.parametrize(("first", "end"), [(36.0, 6e5), (1e-6, 2e5), (1e3, 3e8), (2e3, 2e4)])
 def test_labels_of_an_axis_of_any_width_do_not_touch(
     width: float, first: float, end: float

@@ -44,7 +44,12 @@ def test_every_figure_has_its_method() -> None:
 
 @pytest.mark.parametrize(
     ("name", "panels"),
-    [("pressure_map", 4), ("pressure_3d", 2), ("history", 3), ("pressure_profile", 1)],
+    [
+        pytest.param("pressure_map", 4, marks=pytest.mark.slow),
+        ("pressure_3d", 2),
+        ("history", 3),
+        ("pressure_profile", 1),
+    ],
 )
 def test_a_method_returns_the_axes_of_a_figure_that_pyplot_knows(
     name: str, panels: int, sphere: xr.Dataset
@@ -106,7 +111,7 @@ def test_a_width_that_is_none_is_refused(width: str | float, sphere: xr.Dataset)
         FIGURES["history"](sphere, width=width)
 
 
-@pytest.mark.parametrize("name", ["history", "pressure-map"])
+@pytest.mark.parametrize("name", ["history", pytest.param("pressure-map", marks=pytest.mark.slow)])
 def test_fonts_are_embedded_whole_in_pdf(name: str, sphere: xr.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "figure.pdf"
     save_figure(FIGURES[name](sphere), path)
@@ -192,11 +197,12 @@ def test_maps_of_runs_share_levels_and_axes() -> None:
 @pytest.mark.parametrize(
     "words",
     [
-        ["material", "pmma-paper", "-o", "it.png"],
-        ["check", "ball.yaml", "--plot", "it.png"],
-        ["fit", "creep.csv", "--data", "shear", "-o", "it.png"],
+        pytest.param(
+            ["material", "pmma-paper", "-o", "it.png"], id="material", marks=pytest.mark.slow
+        ),
+        pytest.param(["check", "ball.yaml", "--plot", "it.png"], id="check"),
+        pytest.param(["fit", "creep.csv", "--data", "shear", "-o", "it.png"], id="fit"),
     ],
-    ids=["material", "check", "fit"],
 )
 def test_every_figure_of_the_command_line_takes_a_width(
     words: list[str],

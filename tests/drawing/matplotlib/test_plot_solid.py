@@ -71,8 +71,12 @@ def heights_at_cells(corners: FloatArray, x: FloatArray, y: FloatArray) -> dict[
 
 @pytest.mark.parametrize(
     "results",
-    [maxwell_sphere(cells=24), roller(shape=(48, 16)), ellipse(), ellipse(transposed=True)],
-    ids=["sphere", "roller", "ellipse", "transposed ellipse"],
+    [
+        pytest.param(maxwell_sphere(cells=24), id="sphere", marks=pytest.mark.slow),
+        pytest.param(roller(shape=(48, 16)), id="roller"),
+        pytest.param(ellipse(), id="ellipse", marks=pytest.mark.slow),
+        pytest.param(ellipse(transposed=True), id="transposed ellipse"),
+    ],
 )
 def test_height_of_the_pressure_surface_is_the_pressure(results: xr.Dataset, caught: Caught):
     last = float(results.time[-1])
@@ -151,7 +155,7 @@ def test_depth_of_the_deformed_surface_is_the_displacement(caught: Caught):
     assert 0 <= low < 10
 
 
-@pytest.mark.parametrize("transposed", [False, True])
+@pytest.mark.parametrize("transposed", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_depth_on_unequal_cells_is_that_of_its_place_and_instant(transposed: bool, caught: Caught):
     results = ellipse(transposed=transposed).assign_coords(time=[0.0, 120.0, 300.0])
     figure = FIGURES["surface-3d"](with_dent(results), times=[120.0])
@@ -212,7 +216,7 @@ def test_numbers_at_the_short_side_of_a_slender_box_stay_apart():
 
 
 def test_noted_stretch_of_heights_is_the_drawn_one():
-    results = with_dent(maxwell_sphere(cells=40))
+    results = with_dent(maxwell_sphere(cells=24))
     figure = FIGURES["surface-3d"](results, times=[0.0])
     noted = next(t.get_text() for t in figure.texts if "heights" in t.get_text())
     axes = figure.axes[0]
@@ -229,8 +233,15 @@ def test_noted_stretch_of_heights_is_the_drawn_one():
     assert float(re.search(r"heights ([\d.]+)×", noted)[1]) == pytest.approx(drawn, rel=0.05)
 
 
-@pytest.mark.parametrize("name", ["pressure-3d", "surface-3d"])
-@pytest.mark.parametrize(("width", "body"), [("single", "sphere"), (0.12, "roller")])
+@pytest.mark.parametrize(
+    ("width", "body", "name"),
+    [
+        ("single", "sphere", "pressure-3d"),
+        pytest.param("single", "sphere", "surface-3d", marks=pytest.mark.slow),
+        pytest.param(0.12, "roller", "pressure-3d", marks=pytest.mark.slow),
+        (0.12, "roller", "surface-3d"),
+    ],
+)
 def test_no_text_of_a_figure_in_space_is_cut_off(name: str, width: str | float, body: str):
     results = maxwell_sphere(cells=16) if body == "sphere" else roller(shape=(32, 12))
     figure = FIGURES[name](results, times=[0.0, 1000.0], width=width)
@@ -259,7 +270,7 @@ def test_runs_stand_side_by_side_on_common_axes(caught: Caught):
 
 def test_facets_are_an_image_and_texts_are_text_in_a_pdf(tmp_path: Path):
     path = tmp_path / "surface.pdf"
-    save_figure(FIGURES["pressure-3d"](maxwell_sphere(cells=24)), path)
+    save_figure(FIGURES["pressure-3d"](maxwell_sphere(cells=16), times=[0.0]), path)
     assert path.stat().st_size < 600_000
     content = path.read_bytes()
     assert b"/FontFile2" in content
