@@ -16,13 +16,20 @@ from viscontact.case import read_case
 from viscontact.cli import main
 
 
+@pytest.fixture(autouse=True)
+def _few_dots(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 80)
+
+
 def run_as_a_user(name: str, folder: Path) -> xr.Dataset:
     """Copy the example, run it, show it, draw its figures."""
     case, directory = folder / f"{name}.yaml", folder / name
     assert main(["example", name, "-o", str(case)]) == 0
-    assert main(["run", str(case), "--quiet"]) == 0
+    # The bars of one of them are enough.
+    bars = [] if name == "sphere-load-unload" else ["--set", "output.errors=false"]
+    assert main(["run", str(case), "--quiet", *bars]) == 0
     assert main(["show", str(directory)]) == 0
-    for figure in ("history", "hysteresis", "pressure-profile"):
+    for figure in ("history", "hysteresis", "pressure-profile")[: 1 if bars else 3]:
         assert main(["plot", str(directory), figure]) == 0
     with vc.open_results(directory) as ds:
         return ds.load()
@@ -119,7 +126,20 @@ def test_friction_of_a_rolling_roller_is_its_lever_over_its_radius(tmp_path: Pat
     """
     case, directory = tmp_path / "roller-rolling.yaml", tmp_path / "roller-rolling"
     assert main(["example", "roller-rolling", "-o", str(case)]) == 0
-    assert main(["run", str(case), "--quiet", "--set", "motion.speed=[10 mm/s, 1 m/s]"]) == 0
+    assert (
+        main(
+            [
+                "run",
+                str(case),
+                "--quiet",
+                "--set",
+                "motion.speed=[10 mm/s, 1 m/s]",
+                "--set",
+                "output.errors=false",
+            ]
+        )
+        == 0
+    )
     assert main(["plot", str(directory), "pressure-map", "--speed", "1 m/s"]) == 0
     assert main(["report", str(directory)]) == 0
     page = (directory / "report.html").read_text(encoding="utf-8")

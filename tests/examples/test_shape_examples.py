@@ -16,13 +16,18 @@ from viscontact.cli import main
 EXAMPLES = ("roller-logarithmic", "pyramid-creep")
 
 
+@pytest.fixture(autouse=True)
+def _few_dots(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 150)
+
+
 def run_as_a_user(name: str, folder: Path) -> xr.Dataset:
     """Copy the example, draw its body, run it, draw its figure."""
     case, directory = folder / f"{name}.yaml", folder / name
     assert main(["example", name, "-o", str(case)]) == 0
     assert main(["check", str(case), "--plot"]) == 0
     assert (folder / f"{name}-indenter.png").stat().st_size > 10_000
-    assert main(["run", str(case), "--quiet"]) == 0
+    assert main(["run", str(case), "--quiet", "--set", "output.errors=false"]) == 0
     assert main(["plot", str(directory), "pressure-profile"]) == 0
     with vc.open_results(directory) as ds:
         return ds.load()
