@@ -44,7 +44,14 @@ def pasted(folder: Path, printed: str) -> vc.Material:
     return read_case(path).material
 
 
-@pytest.mark.parametrize("name", INDENTED)
+#: Those with more parameters than a law of their kind beside them.
+LONGER = {"burgers", "power-law-with-instant"}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if name in LONGER else name for name in INDENTED],
+)
 def test_a_law_found_by_indentation_can_be_pasted_into_a_case(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
