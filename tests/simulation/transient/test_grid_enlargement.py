@@ -52,7 +52,7 @@ def sphere(grid: vc.Grid, **more: Any) -> RunSetup:
 def eccentric(grid: vc.Grid) -> RunSetup:
     """Not even across y, remembered step by step, and overrun along x first."""
     load = vc.ramp(0.1, 1.0, eccentricity_x=2e-4, eccentricity_y=2e-5)
-    times = vc.uniform_times(2.0, 20)
+    times = vc.uniform_times(2.0, 12)
     return prepare_run(Problem(vc.Sphere(0.01), POWER, load, grid, times, tolerance=TOLERANCE))
 
 
@@ -139,7 +139,15 @@ def test_grid_grows_no_further_than_an_automatic_one_may_be(
         states_of(growing(prepare(small)))
 
 
-@pytest.mark.parametrize("kind", RUNS)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=pytest.mark.slow)
+        if kind in {"sphere", "staged", "steps of its choice"}
+        else kind
+        for kind in RUNS
+    ],
+)
 def test_run_continues_to_the_same_bits_before_and_after_its_grid_grows(kind: str) -> None:
     prepare, small = RUNS[kind]
     run = growing(prepare(small))
@@ -220,7 +228,7 @@ def recorded(directory: Path, fields: str | list[float] = "all") -> Recorded:
     return Recorded(directory, OverTime(run, errors=False))
 
 
-@pytest.mark.parametrize("fields", ["all", SOME])
+@pytest.mark.parametrize("fields", [pytest.param("all", marks=pytest.mark.slow), SOME])
 def test_recorded_result_is_the_one_that_is_returned(
     fields: str | list[float], tmp_path: Path
 ) -> None:
@@ -237,8 +245,15 @@ def test_recorded_result_is_the_one_that_is_returned(
             assert ds[name].values.tobytes() == variable.values.tobytes(), name
 
 
-@pytest.mark.parametrize("fields", ["all", SOME])
-@pytest.mark.parametrize("pause", [0.0, 1e9])  # checkpoints after every step, after the first only
+@pytest.mark.parametrize(
+    ("pause", "fields"),  # checkpoints after every step, after the first only
+    [
+        (0.0, SOME),
+        (1e9, "all"),
+        pytest.param(0.0, "all", marks=pytest.mark.slow),
+        pytest.param(1e9, SOME, marks=pytest.mark.slow),
+    ],
+)
 def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
     fields: str | list[float], pause: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

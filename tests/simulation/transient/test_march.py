@@ -61,7 +61,7 @@ RUNS = {
             ZENER,
             vc.harmonic(0.1, 0.06, 2.0, 1),
             SMALL,
-            vc.adaptive_times(2.2, 0.03),
+            vc.adaptive_times(2.2, 0.1),
         )
     ),
     "adaptive power law in a soft start": lambda: prepare_run(
@@ -70,7 +70,7 @@ RUNS = {
             POWER,
             vc.ramp(0.1, 1.0),
             GRID,
-            vc.adaptive_times(3.0, 0.03),
+            vc.adaptive_times(3.0, 0.1),
             kept=KeptFields([2.0]),
         )
     ),
@@ -156,7 +156,7 @@ def test_run_continues_from_restart_data_after_any_step(run: RunSetup) -> None:
     whole = steps_of(March(run))
     assert len(whole) > 7
     march = March(run)
-    every = max(1, len(whole) // 5)  # a swing has hundreds
+    every = max(1, len(whole) // 3)  # a swing has hundreds
     for count, _ in enumerate(march, 1):
         if count < 3 or count % every == 0:
             resumed = steps_of(March(run, through_a_file(march.restart_data())))
