@@ -80,7 +80,7 @@ def test_a_larger_value_of_one_goal_and_a_smaller_one_of_the_other_are_traded(
         path,
         {"indenter.radius": ("4 mm", "10 mm")},
         minimise=["peak_pressure", "contact_area"],
-        runs=60,
+        runs=40,
         workers=1,
     )
     front = found.front

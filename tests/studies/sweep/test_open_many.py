@@ -173,7 +173,7 @@ def test_collected_file_with_different_times_holds_the_same(listed: Path, tmp_pa
         xr.testing.assert_identical(stored, vc.open_many(listed))
 
 
-@pytest.mark.parametrize("block", [1, 3000, 5000, 2**24])
+@pytest.mark.parametrize("block", [1, 3000, pytest.param(5000, marks=pytest.mark.slow), 2**24])
 def test_size_of_the_blocks_changes_nothing(
     grid: Path, tmp_path: Path, block: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -181,9 +181,10 @@ def test_size_of_the_blocks_changes_nothing(
     path = tmp_path / "sweep.nc"
     write_joint_result(joint_layout(grid), path, lambda *n: None)
     monkeypatch.undo()
+    expected = vc.open_many(grid)
     with xr.open_dataset(path) as stored:
         for name in stored.data_vars:
-            xr.testing.assert_identical(stored[name], vc.open_many(grid)[name])
+            xr.testing.assert_identical(stored[name], expected[name])
 
 
 def test_slabs_cover_every_element_once() -> None:
@@ -243,7 +244,13 @@ def test_results_of_earlier_versions_are_read_from_their_file(copied: Path, grid
     xr.testing.assert_identical(vc.open_many(copied), vc.open_many(grid))
 
 
-@pytest.mark.parametrize("damage", [b"5\n", b'{"time": 1.0, "for\n', b"[]\n", b"\xff\n"])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        *(b'{"time": 1.0, "for\n', b"\xff\n"),
+        *(pytest.param(text, marks=pytest.mark.slow) for text in (b"5\n", b"[]\n")),
+    ],
+)
 def test_damaged_log_does_not_hide_the_result(copied: Path, grid: Path, damage: bytes) -> None:
     path = places(copied)[1] / PROGRESS_NAME
     lines = path.read_bytes().splitlines(keepends=True)
