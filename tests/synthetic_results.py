@@ -29,7 +29,7 @@ SERIES = {
 
 
 def maxwell_sphere(
-    times: Sequence[float] = (0.0, 10.0, 100.0, 300.0), cells: int = 40, fields: bool = True
+    times: Sequence[float] = (0.0, 10.0, 100.0, 300.0), cells: int = 64, fields: bool = True
 ) -> xr.Dataset:
     """Step load on a sphere against a Maxwell half-space, nu = 1/2, in closed form.
 

@@ -56,7 +56,7 @@ def panel(figure: Figure, label: str) -> Any:
 
 
 def test_a_prescribed_tilt_is_a_line_from_zero_without_band_or_offset() -> None:
-    ds = with_tilt(maxwell_sphere(), 5e-4)
+    ds = with_tilt(maxwell_sphere(cells=40), 5e-4)
     figure = plot.history(ds)
     axes = panel(figure, "Tilt along x")
     figure.draw_without_rendering()
@@ -64,15 +64,15 @@ def test_a_prescribed_tilt_is_a_line_from_zero_without_band_or_offset() -> None:
     assert axes.get_ylim() == pytest.approx((0.0, 575.0))  # µrad
     assert axes.yaxis.get_offset_text().get_text() == ""
     # A tilt that is computed keeps its band.
-    free = with_tilt(maxwell_sphere(), 5e-4)
-    free.attrs["case"] = maxwell_sphere().attrs["case"]
+    free = with_tilt(maxwell_sphere(cells=40), 5e-4)
+    free.attrs["case"] = maxwell_sphere(cells=40).attrs["case"]
     assert panel(plot.history(free), "Tilt along x").collections
 
 
 @pytest.mark.parametrize("width", [None, "single"])
 def test_labels_of_times_over_a_week_do_not_touch(width: plot.Width | None) -> None:
     times = np.append(0.0, np.geomspace(36.0, 604800.0, 5))
-    ds = maxwell_sphere()
+    ds = maxwell_sphere(cells=40)
     ds = ds.isel(time=[0, -1]).interp(time=np.linspace(*ds["time"].values[[0, -1]], times.size))
     ds = ds.assign_coords(time=times).assign(force=("time", np.full(times.size, 10.0)))
     figure = plot.history(ds, width=width)
@@ -108,7 +108,7 @@ def test_labels_of_an_axis_of_any_width_do_not_touch(
 
 
 def test_a_prescribed_negative_tilt_is_below_zero() -> None:
-    axes = panel(plot.history(with_tilt(maxwell_sphere(), -5e-4)), "Tilt along x")
+    axes = panel(plot.history(with_tilt(maxwell_sphere(cells=40), -5e-4)), "Tilt along x")
     assert axes.get_ylim() == pytest.approx((-575.0, 0.0))
 
 
@@ -129,7 +129,7 @@ def test_other_runs_have_no_order(names: list[str]) -> None:
 
 
 def test_eight_runs_are_named_in_two_rows_beside_a_long_entry_on_bands() -> None:
-    ds = maxwell_sphere()
+    ds = maxwell_sphere(cells=40)
     ds["approach_error"] = 0.1 * ds["approach"]
     figure = plot.compare_histories({f"force={n}N": ds for n in range(1, 9)})
     runs, band = figure.legends
@@ -174,7 +174,7 @@ def test_many_spots_are_coloured_cells_up_to_the_true_peak() -> None:
 
 
 def test_the_style_of_a_map_can_be_chosen() -> None:
-    ds = maxwell_sphere()
+    ds = maxwell_sphere(cells=40)
     figures = {
         style: plot.pressure_map(ds, times=[300.0], style=style)
         for style in (None, "contours", "colours")
@@ -200,7 +200,7 @@ def test_style_of_another_figure_is_refused(
 
 
 def test_the_film_shows_the_whole_section_of_a_peak_that_depends_on_the_mesh() -> None:
-    ds = maxwell_sphere()
+    ds = maxwell_sphere(cells=40)
     ds["peak_pressure_error"] = np.inf * ds["peak_pressure"]
     film = plot.animation(ds, seconds=1.0, fps=4.0)
     section = film.figure.axes[2]
