@@ -97,19 +97,24 @@ def test_step_load_follows_lee_and_radok(law):
 
 
 @pytest.mark.parametrize(
-    ("exponent", "order"), [pytest.param(0.2, 1.8, marks=pytest.mark.slow), (0.5, 1.5)]
+    ("exponent", "order", "finest", "bound"),
+    [
+        (0.5, 1.5, 100, 3e-4),
+        pytest.param(0.2, 1.8, 200, 1e-4, marks=pytest.mark.slow),
+        pytest.param(0.5, 1.5, 200, 1e-4, marks=pytest.mark.slow),
+    ],
 )
-def test_power_law_rise_follows_lee_and_radok_with_order_2_less_n(exponent, order):
+def test_power_law_rise_follows_lee_and_radok_with_order_2_less_n(exponent, order, finest, bound):
     """A body without instant compliance: J(0) = 0."""
     exact = reference.lee_radok_ramp(10.0, 1.0, 0.01, *power_law(exponent))
     errors = []
-    for n in [50, 100, 200]:
+    for n in [finest // 4, finest // 2, finest]:
         t = reference.clustered_times([0.0, 1.0], n)
         contact = reference.press_axisymmetric(
             SPHERE, t, force=10 * t, creep_compliance=power_law(exponent)[0], elements=n
         )
         errors.append(worst(contact.approach, exact.approach(t)))
-    assert errors[-1] < 1e-4
+    assert errors[-1] < bound
     assert np.all(orders(errors) > order - 0.25)
 
 
@@ -171,20 +176,27 @@ def test_haversine_of_approach_follows_ting_with_second_order(law):
     assert instants[-1] < 3e-5
 
 
-@pytest.mark.parametrize("rise", [pytest.param(1.0, marks=pytest.mark.slow), 3.0])
-def test_triangle_of_force_follows_ting_with_second_order(rise):
+@pytest.mark.parametrize(
+    ("rise", "finest", "bound"),
+    [
+        (3.0, 60, 4e-4),
+        pytest.param(1.0, 120, 1e-4, marks=pytest.mark.slow),
+        pytest.param(3.0, 120, 1e-4, marks=pytest.mark.slow),
+    ],
+)
+def test_triangle_of_force_follows_ting_with_second_order(rise, finest, bound):
     """With the slow one the contact still grows while the force falls."""
     exact = reference.ting_force_triangle(10.0, rise, 0.01, 2e9, 1.0)
     errors = []
-    for n in [30, 60, 120]:
+    for n in [finest // 4, finest // 2, finest]:
         t = reference.clustered_times([0.0, rise, 2 * rise], n)
         contact = reference.press_axisymmetric(
             SPHERE, t, force=exact.force(t), creep_compliance=MAXWELL, elements=n
         )
         errors.append(worst(contact.approach, exact.approach(t)))
-    assert errors[-1] < 1e-4
+    assert errors[-1] < bound
     assert np.all(orders(errors) > 1.8)
-    assert worst(contact.contact_radius, exact.contact_radius(t)) < 1e-4
+    assert worst(contact.contact_radius, exact.contact_radius(t)) < bound
     assert contact.lost.tolist() == [2 * rise]
 
 

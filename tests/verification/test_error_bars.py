@@ -97,7 +97,7 @@ def tallied(seed: int, count: int, most: int) -> Tally:
 
 
 def test_bars_hold_the_true_error_in_95_of_100_and_are_not_wide() -> None:
-    tally = tallied(seed=5, count=12, most=30)
+    tally = tallied(seed=5, count=10, most=30)
     assert np.mean(tally.all >= 1) >= COVERED, "\n".join(tally.lines)
     assert np.median(tally.all) <= MEDIAN, "\n".join(tally.lines)
     assert tally.singular > 10

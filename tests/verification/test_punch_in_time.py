@@ -102,7 +102,7 @@ def test_steady_swing_is_the_complex_compliance(softness, name, period, control)
             cycles=cycles,
         )
     )
-    coarse = np.arange(64 * (cycles - 1)) * period / 64
+    coarse = np.arange(32 * (cycles - 1)) * period / 32
     fine = period * (cycles - 1 + np.arange(193) / 192)
     states = marched(BODIES[name].material, load, np.concatenate([coarse, fine]))
     last = states[-193:]
@@ -143,9 +143,9 @@ def test_swing_of_laws_with_a_wide_spectrum(softness, name, cycles):
 
 
 def test_swing_from_rest_with_its_transient(softness):
-    """The whole history (Boltzmann). Measured: order 2.0, down to 1e-5 at 288 steps a cycle."""
+    """The whole history (Boltzmann). Measured: order 2.0, down to 2e-5 at 192 steps a cycle."""
     period, body = 150.0, BODIES["zener"]
-    steps, errors = np.array([128, 192, 288]), []
+    steps, errors = np.array([128, 192]), []
     for n in steps:
         times = np.linspace(0, 2 * period, 2 * n + 1)
         exact = reference.punch_harmonic_start(
@@ -228,7 +228,7 @@ def test_stairs_of_approach_relax():
     stiffness = state.force / 1e9 / 1e-6  # 2 a
     stairs, levels = np.array([0.0, 10.0, 40.0]), np.array([1e-6, 3e-6, 2e-6])
     load = vc.ApproachHistory([0, 10, 10, 40, 40], levels[[0, 0, 1, 1, 2]])
-    steps, errors = np.array([25, 50, 100]), []
+    steps, errors = np.array([50, 100]), []
     for n in steps:
         times = np.unique(
             np.concatenate([stair + 60 * np.linspace(0, 1, n + 1) ** 2 for stair in stairs])

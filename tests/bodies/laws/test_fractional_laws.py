@@ -8,7 +8,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viscontact.laws import (
@@ -61,6 +61,7 @@ def test_transforms_of_creep_and_relaxation_are_inverse(law, s):
 
 
 @each_law
+@settings(max_examples=15)
 @given(decades, st.floats(-9, 6))
 def test_mean_creep_is_the_integral_over_its_length(law, start, width):
     """Gauss-Legendre on panels of a quarter of a decade in t, with a first one from 0."""
@@ -73,6 +74,7 @@ def test_mean_creep_is_the_integral_over_its_length(law, start, width):
 
 
 @each_law
+@settings(max_examples=15)
 @given(decades)
 def test_mean_from_the_start_holds_what_came_before(law, end):
     """t m(0, t) = t' m(0, t') + (t - t') m(t', t)."""
@@ -93,6 +95,7 @@ def test_creep_grows_and_modulus_falls_over_forty_decades(law):
 
 
 @each_law
+@settings(max_examples=15)
 @given(decades)
 def test_complex_modulus_is_that_of_the_relaxation_and_of_the_creep(law, omega):
     """By the rules Γ(1+n) (i omega τ)^-n for (t/τ)^n and x/(1 + x), x = (i omega τ)^a, for E_a."""
@@ -176,6 +179,7 @@ def test_early_and_late_the_leading_spring_pot_alone_is_seen(one, other, time):
 
 
 @each_law
+@settings(max_examples=15)
 @given(decades, decades)
 def test_a_slowed_law_is_the_law_at_shorter_times(law, factor, t):
     slow = law.slowed(factor)

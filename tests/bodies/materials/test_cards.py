@@ -482,7 +482,7 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.lists(PIECES, max_size=14).map("".join) | st.text(max_size=30))
 def test_any_file_is_a_card_or_a_value_error(
     tmp_path_factory: pytest.TempPathFactory, text: str

@@ -68,7 +68,16 @@ class Images(SurfaceResponse):
 
 
 @pytest.mark.parametrize("cell", [(1.0, 1.0), (8.0, 1.0), (1.0, 30.0)])
-@pytest.mark.parametrize("length", [1e-3, 0.05, 0.6, 3.0, 100.0])
+@pytest.mark.parametrize(
+    "length",
+    [
+        1e-3,
+        pytest.param(0.05, marks=pytest.mark.slow),
+        0.6,
+        pytest.param(3.0, marks=pytest.mark.slow),
+        100.0,
+    ],
+)
 def test_coefficients_are_integrals_over_the_cell_for_any_thickness(length, cell):
     # The image's kernel 0.3/(π sqrt(r² + 4 h²)) over the cell, by hand along x and by adaptive
     # quadrature along y.
@@ -90,7 +99,15 @@ def test_coefficients_are_integrals_over_the_cell_for_any_thickness(length, cell
         assert table[i, j] == pytest.approx(0.3 / np.pi * expected, abs=1e-9 * self_term)
 
 
-@pytest.mark.parametrize("thickness", [1e-3, 0.1, 1.0, 10.0])
+@pytest.mark.parametrize(
+    "thickness",
+    [
+        1e-3,
+        pytest.param(0.1, marks=pytest.mark.slow),
+        1.0,
+        pytest.param(10.0, marks=pytest.mark.slow),
+    ],
+)
 def test_cells_of_a_layer_add_up_to_uniaxial_compression(thickness):
     # A uniform pressure on all cells: the compression h (1 - 2ν)/(2 (1 - ν) G) of the layer.
     layer = ElasticStack((ElasticLayer(thickness, 1.0, 0.3),), None)
@@ -143,7 +160,15 @@ def test_a_strip_follows_its_own_integral(name):
         )
 
 
-@pytest.mark.parametrize("stiffness", [None, 1e-5, 1e-3, 3.0])
+@pytest.mark.parametrize(
+    "stiffness",
+    [
+        None,
+        pytest.param(1e-5, marks=pytest.mark.slow),
+        1e-3,
+        pytest.param(3.0, marks=pytest.mark.slow),
+    ],
+)
 def test_cells_of_a_period_add_up_to_a_strip(stiffness):
     # On a rigid base, and soft and hard covers on a half-space.
     base = None if stiffness is None else ElasticBase(1.0, 0.3)

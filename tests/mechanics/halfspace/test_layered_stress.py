@@ -22,8 +22,8 @@ def equal_parts(nu):
     return LayeredStress(ElasticStack(layers, ElasticBase(2.0, nu)))
 
 
-@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
-@pytest.mark.parametrize("edge", [0.01, 0.5, 1000.0])
+@pytest.mark.parametrize("nu", [0.0, 0.3, pytest.param(0.5, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("edge", [0.01, pytest.param(0.5, marks=pytest.mark.slow), 1000.0])
 def test_equal_layers_under_cells_of_any_size_are_loves_half_space(nu, edge):
     """Below the first layer nothing comes from Love's closed form. Measured: 1e-12."""
     body = equal_parts(nu)
@@ -35,7 +35,15 @@ def test_equal_layers_under_cells_of_any_size_are_loves_half_space(nu, edge):
 
 
 @pytest.mark.parametrize("stack", [COATED, ON_RIGID])
-@pytest.mark.parametrize("depth", [1e-6, 0.2, 0.4, 0.45])
+@pytest.mark.parametrize(
+    "depth",
+    [
+        1e-6,
+        0.45,
+        pytest.param(0.2, marks=pytest.mark.slow),
+        pytest.param(0.4, marks=pytest.mark.slow),
+    ],
+)
 def test_small_cells_in_a_row_have_the_stresses_of_single_ones(stack, depth):
     """Most of the row is interpolated, single cells are not. Measured: 2e-15."""
     body, edge = LayeredStress(stack), 0.004
@@ -47,7 +55,9 @@ def test_small_cells_in_a_row_have_the_stresses_of_single_ones(stack, depth):
             assert row[:, i, j] == pytest.approx(one, abs=1e-13)
 
 
-@pytest.mark.parametrize("periodic", [(True, False), (True, True)])
+@pytest.mark.parametrize(
+    "periodic", [pytest.param((True, False), marks=pytest.mark.slow), (True, True)]
+)
 def test_equal_layers_are_a_half_space_on_every_grid(periodic):
     grid = Grid((9, 6), (2.0, 1.7), periodic, centre=(0.1, 0.2))
     pressure = np.random.default_rng(4).uniform(0, 1, grid.shape)
@@ -59,7 +69,9 @@ def test_equal_layers_are_a_half_space_on_every_grid(periodic):
         assert found == pytest.approx(wanted, abs=1e-11)
 
 
-@pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, True)])
+@pytest.mark.parametrize(
+    "periodic", [(False, False), pytest.param((False, True), marks=pytest.mark.slow), (True, True)]
+)
 @pytest.mark.parametrize("body", [0.3, LayeredStress(COATED)])
 def test_a_plane_and_a_section_agree_where_they_meet(periodic, body):
     grid = Grid((6, 5), (2.0, 1.7), periodic, centre=(0.1, 0.2))
@@ -186,14 +198,14 @@ def test_a_thin_incompressible_layer_follows_lubrication_theory():
     pressure = np.exp(-(grid.y**2))
     slope = -2 * grid.y * pressure
     errors = []
-    for thickness in (0.1, 0.05, 0.025):
+    for thickness in (0.05, 0.025):
         body = LayeredStress(ElasticStack((ElasticLayer(thickness, 1.0, 0.5),), None))
         stress = stress_on_plane(pressure[None, :], grid, thickness, body)
         shear = stress["yz"][0] / thickness
         errors.append((np.abs(stress["zz"][0] + pressure).max(), np.abs(shear - slope).max()))
     assert np.array(errors[-1]).max() < 0.01
     ratios = np.array(errors[:-1]) / np.array(errors[1:])
-    assert ratios == pytest.approx(np.full((2, 2), 4.0), rel=0.2)
+    assert ratios == pytest.approx(np.full((1, 2), 4.0), rel=0.2)
 
 
 def test_layers_that_slide_pass_no_shear_on():

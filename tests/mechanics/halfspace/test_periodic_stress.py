@@ -121,7 +121,10 @@ def test_waves_along_a_wide_band_have_the_stresses_of_waves() -> None:
     assert band["xz"] == pytest.approx(mean * whole["xz"], abs=1e-5)
 
 
-@pytest.mark.parametrize("depth", [1e-5, pytest.param(0.03, marks=pytest.mark.slow), 2.0])
+@pytest.mark.parametrize(
+    "depth",
+    [1e-5, pytest.param(0.03, marks=pytest.mark.slow), pytest.param(2.0, marks=pytest.mark.slow)],
+)
 @pytest.mark.parametrize("body", [HalfSpaceStress(0.3), LayeredStress(COVER)])
 def test_images_between_points_are_those_of_single_places(
     body: StressResponse, depth: float
