@@ -78,7 +78,10 @@ def test_the_map_contains_the_outline_of_the_reference() -> None:
 
 
 def test_colours_and_units_can_be_chosen(ds: xr.Dataset) -> None:
-    assert ds.viscontact.explore().layout.paper_bgcolor == LIGHT.card
+    layout = ds.viscontact.explore().layout
+    assert layout.paper_bgcolor == LIGHT.card
+    assert layout.template.layout.xaxis.showline
+    assert layout.template.layout.yaxis.showline
     figure = ds.viscontact.explore(dark=True, units="us")
     assert figure.layout.paper_bgcolor == DARK.card
     assert figure.layout.xaxis.title.text == "x [in]"

@@ -72,6 +72,7 @@ def template_of(look: Look) -> Part:
         "gridcolor": look.grid,
         "zeroline": False,
         "zerolinecolor": look.edge,
+        "showline": True,
         "linecolor": look.edge,
         "ticks": "outside",
         "ticklen": 3,
