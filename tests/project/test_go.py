@@ -276,7 +276,7 @@ def test_ci_ends_with_the_readme_test_command() -> None:
     lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").strip().splitlines()
     assert lines[-1] == "./go test"
     assert "./go lint" in lines
-    assert "./go docs" in lines
+    assert any(line.startswith("./go docs") for line in lines)
 
 
 def test_the_extras_are_those_promised() -> None:
