@@ -33,16 +33,19 @@ class StressPlane:
     depths: Floats  # [m], shape (m,)
     stress: Floats  # [Pa], shape (m, n)
     axis: str  # of `across`, "x" or "y"
-    place: float  # of the plane on the other axis [m]
+    place: float | None  # of the plane on the other axis [m]; None if nothing varies along it
     half_width: float  # of the largest shown contact along that axis [m]
     interfaces: tuple[float, ...] = ()  # depths of interfaces of layers [m]
 
     @property
     def place_in_words(self) -> str:
-        """Position of the plane, such as "x = 2 mm"."""
+        """Position of the plane, such as "x = 2 mm"; empty if nothing varies along that axis."""
+        if self.place is None:
+            return ""
         # Cell centres that are zero up to rounding are zero.
         place = self.place if abs(self.place) > 1e-9 * self.half_width else 0.0
-        return f"{'x' if self.axis == 'y' else 'y'} = {format_quantity(place, 'm', 3)}"
+        at = format_quantity(place, "m", 3).replace("-", "−")
+        return f"{'x' if self.axis == 'y' else 'y'} = {at}"
 
     @property
     def reach(self) -> float:
@@ -159,6 +162,8 @@ def _section(
     left, right, front, back = snapshot.extent()
     length, width = _extents(snapshot)
     is_long = length >= width
+    pressure, normal = snapshot.pressure, 0 if is_long else 1
+    is_uniform = np.ptp(pressure, axis=normal).max() <= _EQUAL * pressure.max()
     across = snapshot.y if is_long else snapshot.x
     middle = (front + back) / 2 if is_long else (left + right) / 2
     peak = across[_place_of_peak(snapshot)[is_long]]
@@ -169,7 +174,7 @@ def _section(
         depths,
         stress[:, near],
         "y" if is_long else "x",
-        next(place for place in _plane(snapshot) if place is not None),
+        next((at for at in _plane(snapshot) if at is not None and not is_uniform), None),
         half_width,
         tuple(depth for depth in source.interfaces if depth < depths[-1]),
     )

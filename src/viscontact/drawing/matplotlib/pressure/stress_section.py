@@ -101,7 +101,8 @@ def stress_section(
         note = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
         # Below an infinite pressure the largest stress is infinite too.
         note = peak_note([results], [section.time]) or note
-        style.add_heading(axes, f"{heading}, {section.place_in_words}\n{note}")
+        place = ", ".join(filter(None, (heading, section.place_in_words)))
+        style.add_heading(axes, f"{place}\n{note}")
     for axes, section in list(zip(panels, sections, strict=True))[-1 if alike else 0 :]:
         axes.set_xlabel(length.label(section.axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
