@@ -277,7 +277,9 @@ def test_run_of_a_sweep_whose_case_is_edited_meanwhile_is_refused(
 
     editing = threading.Thread(target=edit)
     editing.start()
+    # One after the other: the second begins after the case has been edited.
     words = ["run", str(case), "--vary", "load.force=1N,2N", "-o", str(first.parent), "-q"]
+    words += ["-j", "1"]
     assert main(words) == 1
     editing.join()
     assert (first / RESULT_NAME).exists()
