@@ -14,6 +14,11 @@ from viscontact.case import read_case
 from viscontact.cli import main
 
 
+@pytest.fixture(autouse=True)
+def _few_dots(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 80)
+
+
 def test_patch_is_what_its_note_says() -> None:
     source = files("viscontact.case.examples") / "rough-patch.npz"
     with as_file(source) as file:

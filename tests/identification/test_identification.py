@@ -165,7 +165,7 @@ def test_each_convention_of_a_test_gives_the_one_law():
     np.testing.assert_allclose(fit.law(T), CreepSeries(0.5, [2.0], [5.0])(T), rtol=1e-6)
 
 
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(st.floats(-6, 12), st.floats(-8, 8), st.integers(0, 2**16))
 def test_fits_scale_with_units_of_time_and_stress(stress, time, seed):
     measured = scattered(relaxing(T, 1.0), 0.01, seed)

@@ -186,6 +186,7 @@ grid: {shape: [32, 40], size: [14 mm, 0.4 mm]}
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 80)
     Path("case.yaml").write_text(CASE)
     return tmp_path
 

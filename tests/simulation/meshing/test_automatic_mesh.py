@@ -60,7 +60,7 @@ CASES = {
 
 
 #: Those whose contact another one has too: in the middle, at a sharp end.
-ALIKE = {"sphere", "cone", "sharp roller", "crowned roller at its end"}
+ALIKE = {"sphere", "sphere, force aside", "cone", "sharp roller", "crowned roller at its end"}
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,14 @@ def differing(
     return found
 
 
-@pytest.fixture(params=RUNS, scope="module")
+#: Of hundreds of steps; another one chooses its steps, and another has cycles.
+LONG = "adaptive swing"
+
+
+@pytest.fixture(
+    params=[pytest.param(name, marks=pytest.mark.slow) if name == LONG else name for name in RUNS],
+    scope="module",
+)
 def run(request: pytest.FixtureRequest) -> RunSetup:
     return RUNS[request.param]()
 

@@ -318,7 +318,10 @@ def test_long_run_is_a_process_of_its_own_and_ends_in_the_same_bits(
     assert contents(case.parent / "child") == contents(case.parent / "warm")
 
 
-@pytest.mark.parametrize("longest_warm", [0.0, 1e9], ids=["process", "warm"])
+@pytest.mark.parametrize(
+    "longest_warm",
+    [pytest.param(0.0, id="process", marks=pytest.mark.slow), pytest.param(1e9, id="warm")],
+)
 def test_file_requests_a_task_to_stop_and_no_further_one_begins(
     case: Path, longest_warm: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:

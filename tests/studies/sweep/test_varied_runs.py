@@ -39,9 +39,10 @@ def lines(runs: list[VariedRun]) -> list[SweepRun]:
 
 
 def test_runs_are_those_of_the_command_line(case: Path) -> None:
-    runs = vc.vary(case, FORCES, settings={"material.poisson_ratio": 0.4})
+    runs = vc.vary(case, FORCES, settings={"material.poisson_ratio": 0.4, "grid.tolerance": 0.05})
     assert pickle.loads(pickle.dumps(runs)) == runs
     words = ["--vary", "load.force=0.2 N,0.4 N", "--set", "material.poisson_ratio=0.4"]
+    words += ["--set", "grid.tolerance=0.05"]
     assert main(["run", "ball.yaml", "-o", "out", "-q", *words]) == 0
     ours, theirs = lines(runs), list(read_manifest(Path("out/runs.jsonl")))
     assert ours == theirs
