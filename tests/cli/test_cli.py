@@ -426,6 +426,7 @@ def test_fault_of_ours_is_a_line_and_not_a_traceback(
     assert "Traceback" not in message
 
 
+@pytest.mark.slow
 def test_load_file_travels_with_the_run(folder: Path) -> None:
     Path("tables").mkdir()
     Path("tables/load.csv").write_text("time [s], force [N]\n0, 4\n", encoding="utf-8")
@@ -909,6 +910,20 @@ def test_netcdf_of_something_else_is_refused_in_one_line(
         assert len(message.splitlines()) == 1
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device here")
+def test_finished_run_whose_table_is_not_written_says_so(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Path("/dev/full").open("w", encoding="utf-8") as output, monkeypatch.context() as patched:
+        patched.setattr("sys.stdout", output)
+        assert main(["run", "case.yaml", *ERRORS]) == 0
+    *_, step, stage, last = capsys.readouterr().err.splitlines()
+    why = "No space left on device"
+    assert last == f"case: the run is finished; its table cannot be printed: {why}"
+    assert stage.startswith("estimating errors")
+    assert "step" in step
+
+
 def _shell(line: str) -> subprocess.CompletedProcess[str]:
     """What a shell makes of a line in which $V is the command."""
     if os.name == "nt":
@@ -937,12 +952,12 @@ def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("reader", "buffered"),
     [
-        ("| sleep 0; exit ${PIPESTATUS[0]}", "1"),
-        pytest.param(">/dev/full", "", marks=pytest.mark.slow),
-        pytest.param(">/dev/full", "1", marks=pytest.mark.slow),
-        pytest.param("| sleep 0; exit ${PIPESTATUS[0]}", "", marks=pytest.mark.slow),
+        (reader, buffered)
+        for reader in (">/dev/full", "| sleep 0; exit ${PIPESTATUS[0]}")
+        for buffered in ("", "1")
     ],
 )
+@pytest.mark.slow
 def test_finished_run_whose_table_is_not_read_is_finished(
     reader: str, buffered: str, folder: Path
 ) -> None:

@@ -73,6 +73,7 @@ def test_resumed_periodic_run_ends_in_the_same_bits(folder: Path) -> None:
     assert same_bits("case", at_once)
 
 
+@pytest.mark.slow
 def test_resumed_run_on_layers_ends_in_the_same_bits(folder: Path) -> None:
     """Two terms, each with its own internal variables: a cover that creeps on an elastic core."""
     data = YAML(typ="safe", pure=True).load(CASE)

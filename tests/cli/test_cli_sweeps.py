@@ -299,6 +299,7 @@ def test_run_that_fails_is_listed_and_the_others_are_collected(
     assert np.isnan(ds.approach).all("time").values.tolist() == [False, True, False]
 
 
+@pytest.mark.slow
 def test_surfaces_of_a_folder_are_texts_along_a_dimension(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
