@@ -80,7 +80,7 @@ def test_every_object_of_the_schema_is_reached_and_closed() -> None:
     assert open_objects == []
 
 
-@pytest.mark.parametrize("document", _documents())
+@pytest.mark.parametrize("document", list(_documents()))
 def test_unknown_key_is_refused_at_its_place(document: Any, tmp_path: Path) -> None:
     file = tmp_path / "case.yaml"
     file.write_text(json.dumps(document), encoding="utf-8")  # JSON is YAML, too

@@ -379,11 +379,12 @@ def test_band_is_interrupted_where_the_error_is_not_known(bare: xr.Dataset) -> N
 def test_panel_of_a_peak_that_depends_on_the_mesh_says_so_and_has_no_band(
     singular: xr.Dataset, ds: xr.Dataset
 ) -> None:
-    axes = panel(FIGURES["history"](singular), "Peak")
+    figure = FIGURES["history"](singular)
+    axes = panel(figure, "Peak")
     assert axes.get_title(loc="right") == "peak depends on the mesh"
     # Without contact its error is zero, which makes no band either.
     assert bands(axes) == []
-    assert bands(panel(FIGURES["history"](singular), "Approach"))
+    assert bands(panel(figure, "Approach"))
     assert panel(FIGURES["history"](ds), "Peak").get_title(loc="right") == ""
     both = COMPARISONS["history"]({"round": ds, "sharp": singular})
     said = "1 of 2 runs not drawn:\npeak depends on the mesh"

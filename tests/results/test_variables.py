@@ -155,12 +155,8 @@ OPTIONAL = [name for name in SCALARS if name not in REQUIRED]
 
 @pytest.fixture(
     params=[
-        *(NEW, "peak_line_load"),
-        *(
-            pytest.param(name, marks=pytest.mark.slow)
-            for name in OPTIONAL
-            if name != "peak_line_load"
-        ),
+        NEW,
+        *(pytest.param(name, marks=pytest.mark.slow) for name in OPTIONAL),
     ]
 )
 def older(

@@ -131,6 +131,7 @@ def test_file_system_of_several_machines_is_leased_even_if_its_locks_work_here(
     assert not has_locks(tmp_path)
 
 
+@pytest.mark.slow
 def test_copied_directory_with_a_lease_is_leased_where_locks_work(tmp_path: Path) -> None:
     token = "a" * 32
     left(tmp_path, token)
@@ -516,7 +517,11 @@ def suspended_and_taken_over(runner: Runner, directory: Path, delay: float, at: 
 
 
 @pytest.mark.parametrize(
-    ("delay", "at"), [(0.0, 0), (0.1, 8), pytest.param(0.15, COUNT, marks=pytest.mark.slow)]
+    ("delay", "at"),
+    [
+        (0.0, 0),
+        *(pytest.param(*each, marks=pytest.mark.slow) for each in ((0.1, 8), (0.15, COUNT))),
+    ],
 )
 def test_run_that_was_suspended_stops_before_its_next_write_and_its_successor_gets_the_same_bits(
     delay: float, at: int, tmp_path: Path, whole: Path, runner: Runner

@@ -64,7 +64,7 @@ def test_cut_anywhere_the_log_continues_with_the_same_lines(kept: int, tmp_path:
     whole = path.read_bytes()
     ends = [0, *(at + 1 for at, byte in enumerate(whole) if byte == ord("\n"))]
     # A killed process leaves a part of the line it was at; all parts of it are tried.
-    for end in range(ends[kept], len(whole), 7):
+    for end in range(ends[kept], len(whole), 13):
         path.write_bytes(whole[:end])
         reached = state(kept - 1).time if kept else None
         with ProgressLog.resume(path, kept, reached) as log:

@@ -274,9 +274,9 @@ def test_file_that_may_not_grow_any_more_ends_the_writing_in_order(room: int, pa
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="kills its own children")
 def test_result_is_whole_and_readable_whenever_its_writer_is_killed(path: Path) -> None:
-    run = script("killed_writer.py", str(path), "4", "20240607")
+    run = script("killed_writer.py", str(path), "8", "20240607")
     assert run.returncode == 0, run.stderr
     report = json.loads(run.stdout)
     assert report["faults"] == []
-    assert report["rows"] > 4
-    assert report["readings"] > 4
+    assert report["rows"] > 8
+    assert report["readings"] > 8

@@ -49,9 +49,9 @@ def test_reader_continues_with_what_it_has_opened(
 ) -> None:
     # Lazily opened, the file is read long after others have taken its place.
     monkeypatch.setenv("HDF5_USE_FILE_LOCKING", locking)
-    times, seen = np.arange(160.0), path.with_name("seen.nc")
+    times, seen = np.arange(80.0), path.with_name("seen.nc")
     with ResultWriter(path, Contents(GRID, times)) as writer:
-        for row in range(40):
+        for row in range(20):
             writer.append(state(row, times=times))
         writer.publish()
         command = [sys.executable, "-c", READER, str(path), str(seen)]
@@ -59,16 +59,16 @@ def test_reader_continues_with_what_it_has_opened(
             assert reader.stdin
             assert reader.stdout
             assert reader.stdout.readline() == b"open\n"
-            for row in range(40, 160):
+            for row in range(20, 80):
                 writer.append(state(row, times=times))
-                if row % 20 == 0:
+                if row % 10 == 0:
                     assert writer.publish()
             writer.finish()
             reader.stdin.write(b"\n")
-    assert faults_of(path, 160, None, times=times) == []
+    assert faults_of(path, 80, None, times=times) == []
     with xr.open_dataset(seen) as old:
-        assert old.sizes["time"] == 40
-        for row in range(40):
+        assert old.sizes["time"] == 20
+        for row in range(20):
             np.testing.assert_array_equal(old.pressure[row], state(row, times=times).pressure)
     assert names(path) == [NAME, "seen.nc"]
 
