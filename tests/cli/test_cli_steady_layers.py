@@ -53,6 +53,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_result_is_that_of_steady(finished: Path) -> None:
     bodies, options = problem()
     with vc.open_results(finished) as ds:

@@ -365,6 +365,7 @@ def test_the_citation_is_that_of_the_file(page: _Page) -> None:
 # --- the command
 
 
+@pytest.mark.usefixtures("without_pictures")
 def test_report_writes_a_page_next_to_the_result(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
