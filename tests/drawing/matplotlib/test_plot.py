@@ -310,7 +310,7 @@ def test_comparison_names_its_runs(long_contact: xr.Dataset) -> None:
     assert [text.get_text() for text in legend.get_texts()] == ["e = 0", "e = L"]
 
 
-@pytest.mark.parametrize("name", ["history", "hysteresis"])
+@pytest.mark.parametrize("name", [pytest.param("history", marks=pytest.mark.slow), "hysteresis"])
 def test_legend_of_many_runs_leaves_the_panels_their_height(name: str, sphere: xr.Dataset) -> None:
     few, many = (
         COMPARISONS[name]({f"ball_force={n}N": sphere for n in range(count)}) for count in (2, 24)

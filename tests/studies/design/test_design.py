@@ -106,6 +106,7 @@ def test_the_result_states_the_case_before_and_after(ball: Path) -> None:
 
 
 def test_a_design_goes_on_where_it_was_interrupted(ball: Path, tmp_path: Path) -> None:
+    ball.write_text(BALL)
     place = tmp_path / "found"
 
     def designed(progress: object = None) -> xr.Dataset:
@@ -152,6 +153,7 @@ def test_several_workers_are_used_and_give_the_same_result(
             ball, change, minimise="contact_area", constraints=limit, runs=12, workers=workers
         ).table
 
+    ball.write_text(BALL)
     monkeypatch.setattr(executor_choice, "LocalWorkers", Counted)
     xr.testing.assert_identical(designed(2), designed(1))
     assert max(at_a_time) == 2
