@@ -44,7 +44,6 @@ def test_a_design_writes_the_best_case_and_the_trials(capsys: pytest.CaptureFixt
         assert table.approach.values.argmax() == 1
 
 
-@pytest.mark.slow
 def test_the_worst_corner_of_a_scatter_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("viscontact.cli.studies.execution.write_report", lambda *_: None)
     assert main([*COMMAND, *RADIUS, "--scatter", "load.force=50mN:0.2N", "-q"]) == 0
