@@ -467,7 +467,20 @@ GUARDS = {
         ),
     ),
 }
-each_guard = pytest.mark.parametrize("guard", GUARDS.values(), ids=GUARDS)
+#: Those whose words another guard has too, met in another way.
+LIKE_ANOTHER = {
+    "a turned map finer than the grid",
+    "an approach that is taken back in one step",
+    "a run beyond the data of one of two materials",
+    "a later jump sooner than the first row",
+}
+each_guard = pytest.mark.parametrize(
+    "guard",
+    [
+        pytest.param(each, id=name, marks=[pytest.mark.slow] if name in LIKE_ANOTHER else [])
+        for name, each in GUARDS.items()
+    ],
+)
 
 
 @each_guard
