@@ -527,7 +527,7 @@ def test_contact_far_from_the_origin_is_checked_and_run_on_a_grid_around_it(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text, _, _ = SPHERE.partition("grid:")
-    (folder / "far.yaml").write_text(f"{text}grid: {{tolerance: 5 %}}\n", encoding="utf-8")
+    (folder / "far.yaml").write_text(f"{text}grid: {{tolerance: 20 %}}\n", encoding="utf-8")
     far = ["--set", "indenter.offset_x=8 mm", "--set", "load.force=1 uN"]
     level = ["--set", "load.tilt_x=0 rad", "--set", "load.tilt_y=0 rad"]
     assert main(["check", "far.yaml", *far, *level]) == 0
@@ -817,7 +817,8 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
     whole = execution.execute
 
     def coarse(request: RunRequest) -> Path:
-        return whole(replace(request, settings=("grid.shape=[32, 16]", "time.steps=1")))
+        settings = ("grid.shape=[32, 16]", "time.steps=1", "output.errors=false")
+        return whole(replace(request, settings=settings))
 
     monkeypatch.setattr(execution, "execute", coarse)
     one = ("history",)
