@@ -238,7 +238,7 @@ STRONG = {
     "Zener 1000": vc.Zener(1e6, 1e6 / 999, 1e6 / 999),
     "relaxation 100": vc.RelaxationSeries(1e4, [9.9e5], [1.0]),
 }
-BY_DEFAULT = (("Zener 1000", "step"), ("Zener 10", "stage"))
+BY_DEFAULT = (("Zener 10", "stage"),)
 LOADS = {
     "step": lambda force, approach: vc.step(force),
     "ramp": lambda force, approach: vc.ramp(force, 3.0),

@@ -128,7 +128,7 @@ def test_bars_where_contact_is_lost_hold_and_are_not_wide():
     assert abs(float(ds.approach[-1]) - exact) <= bar < 5e-3 * deepest
     # Work is that of Lee and Radok's force while the body comes, and of Ting's while it goes; a run
     # on four times as many cells has it to a tenth of a per cent.
-    fine = run(LAWS["zener"], 79, 192)
+    fine = run(LAWS["zener"], 67, 144)
     assert abs(float(ds.work[-1] - fine.work[-1])) <= float(ds.work_error[-1])
     assert float(ds.work_error[-1]) < 0.02 * float(fine.work.max())
 

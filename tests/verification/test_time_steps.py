@@ -111,7 +111,7 @@ def slow(*case):
         slow("burgers", "triangle"),
         slow("creep_series", "ramp"),
         slow("fractional_zener", "step"),
-        ("solid_ball_on_a_fluid", "stage in"),
+        slow("solid_ball_on_a_fluid", "stage in"),
         slow("solid_ball_on_a_fluid", "jumps"),
         slow("tabulated_relaxation", "triangle"),
     ],

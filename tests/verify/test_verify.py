@@ -21,9 +21,9 @@ from viscontact.verify.growing import _step
 LONG = (
     *("approach triangle", "approach haversine", "force haversines", "contact lost"),
     *("flat punch, harmonic", "TabulatedRelaxation", "TabulatedCreep", "FractionalZener"),
-    *("cylinder from rest", "reciprocating wave", "ramp, Zener", "force, Burgers"),
-    *("force, CreepSeries", "force, RelaxationSeries", "force, Maxwell", "slow steady"),
-    *("fast steady motion, V", "moving wave in full contact"),
+    *("cylinder from rest", "reciprocating wave", "under a ramp", "force triangle"),
+    *("force, CreepSeries", "force, RelaxationSeries", "force, Maxwell", "force, Burgers"),
+    *("slow steady", "fast steady motion, V", "moving wave in full contact"),
 )
 
 BALL = CASES[0]

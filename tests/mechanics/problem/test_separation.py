@@ -213,7 +213,7 @@ def test_a_wide_spectrum_takes_no_more_terms():
         ),
     ],
 )
-@pytest.mark.parametrize("first", [1e-2, 1e-6])
+@pytest.mark.parametrize("first", [pytest.param(1e-2, marks=pytest.mark.slow), 1e-6])
 def test_laws_without_an_instant_compliance_are_separated_from_the_first_step_on(
     law, transform, bulk, first
 ):

@@ -80,10 +80,12 @@ PAIRS = {
     "relaxing solid": of_relaxation(POLYMER),
     "relaxing fluid": of_relaxation(FLOWING),
 }
+#: Powers of time, a fractional power law, a solid and a fluid remain.
+SLOW = ("fractional Zener", "fractional Maxwell", "two spring-pots", "t^0.1", "t^-0.1")
 each_pair = pytest.mark.parametrize(
     "pair",
     [
-        pytest.param(pair, id=name, marks=[pytest.mark.slow] * (name == "fractional Zener"))
+        pytest.param(pair, id=name, marks=[pytest.mark.slow] * (name in SLOW))
         for name, pair in PAIRS.items()
     ],
 )
