@@ -461,8 +461,8 @@ def test_terminal_that_is_ignored_stays_ignored() -> None:
 
 @pytest.mark.slow
 def test_real_process_is_stopped_and_resumed(folder: Path) -> None:
-    # a thousand steps, so that there is time to stop it
-    command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1000"]
+    # more than a thousand steps, so that there is time to stop it
+    command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1200"]
     run = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     progress = Path("case/progress.jsonl")
     while not (progress.exists() and progress.read_text(encoding="utf-8").count("\n") > 3):
@@ -476,7 +476,7 @@ def test_real_process_is_stopped_and_resumed(folder: Path) -> None:
     run.send_signal(signal.SIGTERM)
     _, said = run.communicate(timeout=60)
     assert run.returncode == 130
-    kept = int(said.split("case keeps ")[1].split(" of 1001 instants")[0])
+    kept = int(said.split("case keeps ")[1].split(" of 1201 instants")[0])
     with vc.open_results("case") as ds:
         assert ds.sizes["time"] == kept == len(progress.read_text(encoding="utf-8").splitlines())
 
@@ -498,7 +498,7 @@ def test_directory_in_use_is_refused_in_one_line(
 
 def test_run_whose_terminal_is_closed_stops_in_order(folder: Path) -> None:
     pty = pytest.importorskip("pty", reason="no pseudo-terminals of this kind on Windows")
-    command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1000"]
+    command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1200"]
     child, terminal = pty.fork()
     if not child:
         os.execv(sys.executable, command)
