@@ -124,7 +124,7 @@ def test_adaptive_steps_reach_the_tolerance_and_know_their_error(name, history):
     """
     case = problem(name, history)
     adaptive = case.run(vc.adaptive_times(case.body.end, 1e-3))
-    error = adaptive.error(fine(case, adaptive))
+    error = adaptive.error(fine(case, adaptive, tolerance=3e-5))
     assert error < 1e-3
     assert (0.5 if name.startswith("fractional") else 1.0) < adaptive.estimate / error < 30
 
