@@ -91,7 +91,9 @@ def test_a_master_curve_of_oscillations_explains_which_markers_are_storage_and_l
         measured = {"storage": modulus.real, "loss": modulus.imag}
         sets.append(Isotherm(temperature, omega, measured))
     panel = master_curve(build_master_curve(sets, 300.0)).axes[0]
-    assert panel.get_title(loc="left") == "As measured: ● storage, □ loss"
+    narrow = master_curve(build_master_curve(sets, 300.0), width="single").axes[0]
+    for axes in (panel, narrow):
+        assert axes.get_title(loc="left") == "As measured: ● storage, □ loss"
     storage, loss = panel.lines[:2]
     assert (storage.get_marker(), loss.get_marker()) == ("o", "s")
     assert loss.get_markerfacecolor() == "none"

@@ -47,6 +47,8 @@ def test_the_bars_are_the_elasticities_the_largest_on_top(table: xr.Dataset) -> 
     assert colours[0] != colours[1] == colours[2]
     assert first.yaxis_inverted()
     assert len(second.patches) == 4
+    none = tornado(table.assign(elasticity=table["elasticity"] * np.nan)).axes[0]
+    assert [text.get_text() for text in none.get_yticklabels()] == [""]
 
 
 def test_the_report_states_each_elasticity_with_its_error(

@@ -72,7 +72,7 @@ def _over_time(
     x, (first, end) = readable_unit("s", times), times[[0, -1]].tolist()
     at_once = [value for _, value in curves.values()]
     return Panel(
-        Axis("Time", x, (first, end), "log", first),
+        Axis("Time", x, (first, end), "log", first, in_clock_units=True),
         Axis.of(quantity, si, at_once, *(values for values, _ in curves.values())),
         tuple(
             Curve(times, values, name, Ink(place=number))

@@ -34,6 +34,7 @@ class Axis:
     #: "time" is logarithmic from the first step on, with the instant 0 at its beginning.
     scale: Literal["linear", "log", "time"] = "linear"
     first: float = 0.0  # instant [s] or speed [m/s] from which a logarithmic scale goes
+    in_clock_units: bool = False  # hours and days are marked on a logarithmic scale of times
     has_choice: bool = False  # a reader may choose between a linear and a logarithmic scale
     texts: tuple[str, ...] = ()  # at 0, 1, 2, ... in place of numbers
 

@@ -38,10 +38,10 @@ def _bars(table: xr.Dataset, output: str) -> Panel:
     one = table.isel(input=order)
     values, errors = one["elasticity"].values, one["elasticity_error"].values
     places, falls = np.arange(float(values.size)), values < 0
-    number = ReadableUnit("", 1.0)
+    number, names = ReadableUnit("", 1.0), tuple(key_label(str(key)) for key in one["input"].values)
     return Panel(
         Axis("Elasticity: % per %", number),
-        Axis("", number, texts=tuple(key_label(str(key)) for key in one["input"].values)),
+        Axis("", number, texts=names or ("",)),  # no number if there is no bar
         tuple(
             Curve(values[of], places[of], ink=ink, look="bars", error_x=errors[of])
             for of, ink in ((falls, SECOND), (~falls, FIRST))

@@ -123,7 +123,7 @@ def scale_along(axes: Axes, axis: Axis) -> None:
             axes.set_xlim(start, end)
     if axis.scale == "log":
         axes.set_xscale("log")
-    if axis.scale != "linear" and axis.limits is not None and axis.quantity == "Time":
+    if axis.limits is not None and (axis.scale == "time" or axis.in_clock_units):
         label = label_log_time(axes, axis.unit, float(axis.unit(axis.first)), end)
     if axes.xaxis.get_tick_params()["labelbottom"]:
         axes.set_xlabel(label)

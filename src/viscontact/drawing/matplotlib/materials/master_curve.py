@@ -63,7 +63,7 @@ def master_curve(
     sets, shifts, master = axes = [panels[name] for name in "ABC"]
     for each, panel in zip(axes, master_panels(curve, fit, rules), strict=True):
         draw_panel(each, panel)
-        if not is_wide:
+        if not is_wide and each is master:
             style.add_heading(each, panel.title.replace(", ", "\n", 1))
     _refine(sets)
     _refine(master)
