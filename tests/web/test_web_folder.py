@@ -140,4 +140,7 @@ def test_a_run_of_an_earlier_version_is_listed(kept: Path, tmp_path: Path) -> No
     run = tmp_path / "runs" / RUN
     run.mkdir(parents=True)
     shutil.copy(kept / "request.json", run / "asked.json")
-    assert [name for name, _ in Folder(tmp_path).runs()] == [RUN]
+    (run / "found.json").write_text('{"key": "same", "found": {"area": 1}}', encoding="utf-8")
+    folder = Folder(tmp_path)
+    assert [name for name, _ in folder.runs()] == [RUN]
+    assert folder.summary(RUN, "same") == {"area": 1}

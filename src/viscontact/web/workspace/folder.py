@@ -61,8 +61,10 @@ class Folder:
         self.path = path.absolute()
         for part in (_FILES, _RUNS):
             (self.path / part).mkdir(parents=True, exist_ok=True)
-        for entry in (self.path / _RUNS).glob("*/asked.json"):  # of earlier versions
-            entry.replace(entry.with_name(_ENTRY_NAME))
+        for earlier, name in (("asked.json", _ENTRY_NAME), ("found.json", _SUMMARY_NAME)):
+            for file in (self.path / _RUNS).glob(f"*/{earlier}"):
+                with suppress(OSError):  # a linked run that cannot be written to
+                    file.replace(file.with_name(name))
         self._put_shipped_files()
 
     @property
