@@ -652,7 +652,7 @@ def test_approach_control_is_shown_and_drawn_like_any_run(
     load = f"load={{kind: history, sentences: {said}, tilt_x: 2 mrad}}"
     coarse = ["--set", "grid.shape=[24, 24]"]
     assert main(["run", "case.yaml", "-q", *ADAPTIVE, *coarse, "--set", load]) == 0
-    for figure in ("history", "hysteresis", "pressure-profile"):
+    for figure in ("history", "hysteresis", "pressure-profile", "pressure-map"):
         assert main(["plot", "case", figure]) == 0
     assert main(["show", "case"]) == 0
     shown = capsys.readouterr().out
@@ -821,11 +821,11 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
         return whole(replace(request, settings=settings))
 
     monkeypatch.setattr(execution, "execute", coarse)
-    one = ("history",)
-    monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", one)
+    two = ("pressure-map", "history")
+    monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", two)
     assert main(["demo", "-q"]) == 0
     kept = {path.name for path in Path("viscontact-demo").iterdir()}
-    assert {"result.nc", "case.yaml", "history.png"} <= kept
+    assert {"result.nc", "case.yaml", "pressure-map.png", "history.png"} <= kept
     monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", ())
     assert main(["demo", "-q"]) == 0
 
@@ -953,12 +953,16 @@ def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("reader", "buffered"),
     [
-        (reader, buffered)
-        for reader in (">/dev/full", "| sleep 0; exit ${PIPESTATUS[0]}")
-        for buffered in ("", "1")
+        ("| sleep 0; exit ${PIPESTATUS[0]}", "1"),
+        *(
+            pytest.param(reader, buffered, marks=pytest.mark.slow)
+            for reader, buffered in (
+                *((">/dev/full", ""), (">/dev/full", "1")),
+                ("| sleep 0; exit ${PIPESTATUS[0]}", ""),
+            )
+        ),
     ],
 )
-@pytest.mark.slow
 def test_finished_run_whose_table_is_not_read_is_finished(
     reader: str, buffered: str, folder: Path
 ) -> None:

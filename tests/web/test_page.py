@@ -471,7 +471,6 @@ def test_results_change_units_and_show_a_reference(page: Any, server: seen.Serve
     assert page.locator("#numbers th").all_inner_texts()[-1] != "change"
 
 
-@pytest.mark.slow
 def test_an_empty_place_announces_the_drawing_until_it_is_made(
     browser: Any, server: seen.Server
 ) -> None:

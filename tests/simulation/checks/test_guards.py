@@ -585,7 +585,7 @@ EXPECTED = {
     "release": ([OFF, "time.steps=5"], "the load falls by 100% of its largest in a single"),
 }
 #: Warned of where another of the same kind is: of either body, of the same contact.
-SIBLINGS = {"thickness of the indenter", "end face", "approach", "cells"}
+SIBLINGS = {"thickness of the indenter", "approach"}
 
 
 @pytest.fixture
