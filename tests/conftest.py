@@ -16,7 +16,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.studies.executors import local
 
-settings.register_profile("reproducible", derandomize=True, deadline=None, max_examples=50)
+settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
 
 # Tests start a hundred processes. Where no bytecode may be written each would compile all that it

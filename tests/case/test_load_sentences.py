@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from pydantic_core import PydanticCustomError
 
 import viscontact as vc
+from random_examples import given_few_or_many
 from viscontact.case.loads.grammar import EXAMPLES
 from viscontact.case.loads.sentence_history import MOST_POINTS, LoadPoints, SentenceError, course_of
 from viscontact.case.loads.sentences import read_sentences, split_sentences
@@ -244,7 +245,9 @@ _WORDS = st.sampled_from(
 )
 
 
-@given(st.one_of(st.text(max_size=60), st.lists(_WORDS, max_size=14).map(" ".join)))
+@given_few_or_many(
+    50, 400, st.one_of(st.text(max_size=60), st.lists(_WORDS, max_size=14).map(" ".join))
+)
 @example("step to 1 / N")
 @example("repeat 999999999 times; repeat 9 times")
 def test_any_text_is_a_history_or_refused_in_one_line(text: str) -> None:

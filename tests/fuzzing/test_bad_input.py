@@ -1,8 +1,8 @@
 """Bad input is refused in words: never a traceback, a hang, or more memory than was announced.
 
 Every family mutates valid input and adds what is none; see the modules beside this one. The
-default run tries 150 inputs in this process, the same ones each time. The slow campaign tries
-10 600 more and takes about three minutes on two idle cores, five on busy ones; its seed is
+default run tries 100 inputs in this process, the same ones each time. The slow campaign tries
+10 500 more and takes about three minutes on two idle cores, five on busy ones; its seed is
 VISCONTACT_FUZZ_SEED, 6 if that is not set. A case that fails is shrunk by Hypothesis, which prints
 it.
 """

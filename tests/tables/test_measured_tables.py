@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from random_examples import given_few_or_many
 from viscontact.laws import TabulatedCreep
 from viscontact.tables import Table, read_table
 
@@ -280,8 +280,9 @@ def test_columns_cannot_be_written_to(tmp_path: Path) -> None:
         table(tmp_path, PLAIN)["time"][0] = 3.0
 
 
-@settings(max_examples=100, deadline=None)
-@given(
+@given_few_or_many(
+    100,
+    200,
     st.lists(st.floats(-1e30, 1e30, allow_subnormal=False), min_size=1, max_size=5),
     st.sampled_from(["Pa", "MPa", "psi"]),
     st.booleans(),
@@ -304,8 +305,11 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=150, deadline=None)
-@given(st.lists(PIECES, max_size=30).map("".join) | st.text(max_size=40) | st.binary(max_size=40))
+@given_few_or_many(
+    150,
+    400,
+    st.lists(PIECES, max_size=30).map("".join) | st.text(max_size=40) | st.binary(max_size=40),
+)
 def test_any_file_is_a_finite_table_or_a_value_error(
     tmp_path_factory: pytest.TempPathFactory, content: str | bytes
 ) -> None:

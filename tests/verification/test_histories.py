@@ -8,10 +8,10 @@ mesh, on which all of this is exact but for the solver's tolerance.
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscontact as vc
+from random_examples import given_few_or_many
 from verification.pressing import over_time
 
 TOLERANCE = 1e-10
@@ -73,8 +73,9 @@ def close(found, exact, bound=BOUND):
     assert np.abs(found - exact).max() <= bound * scale
 
 
-@settings(max_examples=4)
-@given(material=materials(0.02), one=levels(), other=levels(), share=st.floats(0.1, 0.9))
+@given_few_or_many(
+    4, 25, material=materials(0.02), one=levels(), other=levels(), share=st.floats(0.1, 0.9)
+)
 def test_forces_on_a_fixed_contact_are_superposed(material, one, other, share):
     """Boltzmann: approach and pressure of F1 + F2 are the sums of those of F1 and of F2.
 
@@ -99,8 +100,9 @@ def test_forces_on_a_fixed_contact_are_superposed(material, one, other, share):
         close(apart + more, joint, REPLAYED)
 
 
-@settings(max_examples=4)
-@given(material=materials(), level=levels(0.5), late=st.floats(0.5, 50.0), staged=st.booleans())
+@given_few_or_many(
+    4, 15, material=materials(), level=levels(0.5), late=st.floats(0.5, 50.0), staged=st.booleans()
+)
 def test_a_later_start_shifts_the_clock(material, level, late, staged):
     times, values = level
 
@@ -120,8 +122,14 @@ def test_a_later_start_shifts_the_clock(material, level, late, staged):
         )
 
 
-@settings(max_examples=4)
-@given(material=materials(), level=levels(0.5), factor=st.floats(1e-3, 1e3), staged=st.booleans())
+@given_few_or_many(
+    4,
+    15,
+    material=materials(),
+    level=levels(0.5),
+    factor=st.floats(1e-3, 1e3),
+    staged=st.booleans(),
+)
 def test_a_slower_law_under_a_slower_history_does_the_same_later(material, level, factor, staged):
     """Time has no unit but the law's: `slowed` multiplies it."""
     times, values = level
@@ -140,8 +148,9 @@ def test_a_slower_law_under_a_slower_history_does_the_same_later(material, level
         close([getattr(state, name) for state in slow], [getattr(state, name) for state in fast])
 
 
-@settings(max_examples=4)
-@given(
+@given_few_or_many(
+    4,
+    15,
     material=materials(),
     level=levels(0.5),
     size=st.floats(1e-6, 1e3),
@@ -176,8 +185,7 @@ def test_size_and_modulus_scale_out(material, level, size, hardness):
         close([getattr(s, name) / unit for s in theirs], [getattr(s, name) for s in ours], REPLAYED)
 
 
-@settings(max_examples=3)
-@given(material=materials(), level=levels(0.6), tilt=st.floats(-0.004, 0.004))
+@given_few_or_many(3, 8, material=materials(), level=levels(0.6), tilt=st.floats(-0.004, 0.004))
 def test_a_stage_tilted_the_other_way_presses_the_mirror_image(material, level, tilt):
     times, values = level
 
@@ -193,8 +201,9 @@ def test_a_stage_tilted_the_other_way_presses_the_mirror_image(material, level, 
     assert np.abs(aside[0] + aside[1]).max() < REPLAYED
 
 
-@settings(max_examples=3)
-@given(
+@given_few_or_many(
+    3,
+    6,
     material=materials(),
     force=st.lists(st.floats(0.5, 1.0), min_size=7, max_size=7),
     aside=st.floats(-1.0, 1.0),

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscontact as vc
+from random_examples import given_few_or_many
 from viscontact.bodies.materials.cards import (
     Card,
     read_abaqus,
@@ -482,8 +483,7 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=25, deadline=None)
-@given(st.lists(PIECES, max_size=14).map("".join) | st.text(max_size=30))
+@given_few_or_many(25, 300, st.lists(PIECES, max_size=14).map("".join) | st.text(max_size=30))
 def test_any_file_is_a_card_or_a_value_error(
     tmp_path_factory: pytest.TempPathFactory, text: str
 ) -> None:

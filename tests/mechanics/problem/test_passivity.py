@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 import viscontact as vc
+from random_examples import given_few_or_many
 from viscontact.mechanics.halfspace.layered_influence import layered_influence_table
 from viscontact.mechanics.problem.creeping_stack import CreepingStack
 from viscontact.mechanics.problem.passivity import passive_share
@@ -46,8 +47,7 @@ def kernels(surface, q):
     return np.array([term.response.ratio(q) for term in surface.terms])
 
 
-@settings(max_examples=5)
-@given(bodies(), st.data())
+@given_few_or_many(5, 15, bodies(), st.data())
 def test_no_wave_gains_energy(body, data):
     surface = surface_of([body])
     assume(len(surface.terms) > 1)
@@ -72,8 +72,7 @@ def test_no_wave_gains_energy(body, data):
     assert (new @ kernels(surface, q) > 0).all()
 
 
-@settings(max_examples=5)
-@given(bodies())
+@given_few_or_many(5, 15, bodies())
 def test_the_stated_error_holds_at_other_waves_and_frequencies(body):
     assume(len(surface_of([body]).terms) > 1)
     found, stack = separate(body), CreepingStack(body)
