@@ -23,6 +23,7 @@ WHOLE_ARRAYS, COMPUTED_ARRAYS = 11.1, 6.4
 
 #: Freed arrays of a run that the process keeps, of all cells and of those computed, and the most
 #: that is kept for each [bytes], measured with glibc, which gives memory of large arrays back.
+#: The same run keeps all of them or none, depending on what was allocated before it.
 FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 
 #: Further arrays under a moving body, and of a sum over all steps.
@@ -81,9 +82,17 @@ def needed_memory(
         arrays = WHOLE_ARRAYS + share * (COMPUTED_ARRAYS + arrays)
     else:
         arrays += WORK_ARRAYS
-    array = 8.0 * float(grid.shape[0]) * float(grid.shape[1])
-    freed = FREED_WHOLE_ARRAYS + share * FREED_COMPUTED_ARRAYS
-    return PROGRAM + array * arrays + freed * min(array, MOST_FREED)
+    return PROGRAM + _array_memory(grid) * arrays + freed_memory(grid, mirrored)
+
+
+def freed_memory(grid: Grid, mirrored: tuple[bool, bool] = (False, False)) -> float:
+    """Memory of freed arrays that the process of a run may keep [bytes]."""
+    arrays = FREED_WHOLE_ARRAYS + 0.5 ** sum(mirrored) * FREED_COMPUTED_ARRAYS
+    return arrays * min(_array_memory(grid), MOST_FREED)
+
+
+def _array_memory(grid: Grid) -> float:
+    return 8.0 * float(grid.shape[0]) * float(grid.shape[1])
 
 
 def least_memory(
