@@ -23,11 +23,7 @@ class SteadyMotion(AtOrigin):
     rolling: bool | None = None
 
     def __post_init__(self) -> None:
-        twice = [speed for speed in self.speeds if self.speeds.count(speed) > 1]
-        if twice:
-            raise ValueError(
-                f"speed: each speed is needed once, got {format_quantity(twice[0], 'm/s')} twice"
-            )
+        checked_speeds("speed", self.speeds)
 
 
 def steady_motion(speed: ArrayLike, along: str, rolling: bool | None) -> SteadyMotion:
@@ -47,8 +43,10 @@ def checked_speeds(name: str, given: Any) -> Floats:
         raise ValueError(f"{name} must be numbers in m/s, got {given!r}") from None
     if speeds.ndim != 1 or not speeds.size or not (np.isfinite(speeds) & (speeds > 0)).all():
         raise ValueError(f"{name} must be positive and finite [m/s], got {given!r}")
-    if len(np.unique(speeds)) < len(speeds):
-        raise ValueError(f"{name}: each speed is needed once, got {given!r}")
+    found, count = np.unique_counts(speeds)
+    if (count > 1).any():
+        twice = format_quantity(found[count > 1][0], "m/s")
+        raise ValueError(f"{name}: each speed is needed once, got {twice} twice")
     return speeds
 
 
