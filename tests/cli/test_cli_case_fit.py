@@ -70,7 +70,7 @@ def test_an_interrupted_fit_goes_on_with_resume_only(
     assert main([*COMMAND, *MODULUS]) == 2
     assert "a-fit.jsonl: holds runs already" in capsys.readouterr().err
     assert main([*COMMAND, "--change", "material.shear_modulus=1 MPa:9 MPa", "--resume"]) == 2
-    assert "a-fit.jsonl: holds the runs of another fit" in capsys.readouterr().err
+    assert "a-fit.jsonl: holds another fit" in capsys.readouterr().err
     assert main([*COMMAND, *MODULUS, "--resume"]) == 0
     assert not Path("a-fit.jsonl").exists()
 

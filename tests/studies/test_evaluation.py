@@ -12,7 +12,7 @@ import pytest
 
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Evaluation
 from viscontact.studies.executors.executor_choice import ChosenWorkers
-from viscontact.studies.journal import Entry, journal_in
+from viscontact.studies.journal import Entry, journal_of
 
 
 @dataclass(frozen=True)
@@ -83,10 +83,10 @@ def test_a_failed_run_has_the_first_line_of_its_reason() -> None:
 
 
 def test_outcomes_of_a_journal_count_but_are_not_computed(tmp_path: Path) -> None:
-    with journal_in(tmp_path, "roots", {}) as journal:
+    with journal_of("roots", {}, directory=tmp_path) as journal:
         assert roots(Evaluation(Budget(2), journal=journal), 4.0, 2.0)[1] == 2.0**0.5
     executor = AtOnce()
-    with journal_in(tmp_path, "roots", {}) as journal:
+    with journal_of("roots", {}, directory=tmp_path) as journal:
         evaluation = Evaluation(Budget(3), ChosenWorkers(executor, 2), journal)
         assert roots(evaluation, 2.0, 4.0, 9.0) == [2.0**0.5, 2.0, 3.0]
     assert executor.numbers == [9.0]

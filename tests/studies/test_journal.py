@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from viscontact.studies.journal import JOURNAL_NAME, Entry, journal_at, journal_in
+from viscontact.studies.journal import JOURNAL_NAME, Entry, journal_of
 
 ARGUMENTS = {"case": "abc", "change": {"load.force": ("1 N", "2 N")}}
 
 
 def kept(place: Path, **runs: float) -> dict[str, Entry]:
     """Journal in a directory after some runs."""
-    with journal_in(place, "design", ARGUMENTS) as journal:
+    with journal_of("design", ARGUMENTS, directory=place) as journal:
         assert journal is not None
         for key, value in runs.items():
             journal.keep(key, Entry({"value": value}))
@@ -66,7 +66,7 @@ def test_a_line_that_a_killed_process_has_begun_is_removed(tmp_path: Path) -> No
     ("text", "message"),
     {
         "earlier version": ('{"design": {}}\n', "is not a journal of this version of viscontact"),
-        "no JSON": ("a,b\n", ":1: is not a line of JSON; remove the file"),
+        "no JSON": ("a,b\n", ":1: is not a line of JSON: 'a,b'; remove the file"),
         "another study": ('{"study": "fit"}\n', "holds another design, with a different study"),
     }.values(),
 )
@@ -87,6 +87,15 @@ def test_a_damaged_line_is_named_by_its_number(tmp_path: Path) -> None:
         kept(tmp_path)
 
 
+def test_a_last_line_without_an_end_is_damaged_where_more_follows(tmp_path: Path) -> None:
+    kept(tmp_path, a=1.0)
+    path = tmp_path / JOURNAL_NAME
+    with path.open("a") as file:
+        file.write(" " * 10_000_000 + "1\n")
+    with pytest.raises(ValueError, match="jsonl:3: is not a line of JSON"):
+        kept(tmp_path)
+
+
 def test_bytes_that_are_no_text_are_refused(tmp_path: Path) -> None:
     (tmp_path / JOURNAL_NAME).write_bytes(b"\xff\xfe\n")
     with pytest.raises(ValueError, match="is not UTF-8 text"):
@@ -94,7 +103,8 @@ def test_bytes_that_are_no_text_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_second_study_in_the_directory_is_refused(tmp_path: Path) -> None:
-    with journal_in(tmp_path, "design", ARGUMENTS), pytest.raises(ValueError, match="is in use"):
+    busy = pytest.raises(ValueError, match="is in use")
+    with journal_of("design", ARGUMENTS, directory=tmp_path), busy:
         kept(tmp_path)
     file = tmp_path / "file"
     file.write_text("")
@@ -104,13 +114,16 @@ def test_a_second_study_in_the_directory_is_refused(tmp_path: Path) -> None:
 
 def test_two_journals_in_files_of_one_folder_are_independent(tmp_path: Path) -> None:
     one, other = tmp_path / "one.jsonl", tmp_path / "other.jsonl"
-    with journal_at(one, "fit", ARGUMENTS) as first, journal_at(other, "fit", ARGUMENTS) as second:
+    with (
+        journal_of("fit", ARGUMENTS, file=one) as first,
+        journal_of("fit", ARGUMENTS, file=other) as second,
+    ):
         assert first is not None
         assert second is not None
         first.keep("a", Entry())
         with (
             pytest.raises(ValueError, match=r"one\.jsonl is in use by another run"),
-            journal_at(one, "fit", ARGUMENTS),
+            journal_of("fit", ARGUMENTS, file=one),
         ):
             pass
     assert sorted(each.name for each in tmp_path.iterdir()) == ["one.jsonl", "other.jsonl"]

@@ -12,9 +12,13 @@ from typing import Any
 
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.studies.json_lines import read_lines
 
 #: Journal in the directory of a study.
 JOURNAL_NAME = "trials.jsonl"
+
+#: Remedy for a line that cannot be read.
+_REMEDY = "remove the file"
 
 
 @dataclass(frozen=True)
@@ -41,115 +45,93 @@ class Entry:
 class Journal:
     """Outcomes of runs by their values, kept in a file; ValueError if it is of another study."""
 
-    def __init__(self, path: Path, study: str, arguments: Mapping[str, Any], place: str) -> None:
+    def __init__(
+        self, path: Path, study: str, arguments: Mapping[str, Any], place: Path, kind: str
+    ) -> None:
         self._path = path
-        lines = _whole_lines(path)
         header = {"study": study, **json.loads(json.dumps(dict(arguments)))}
-        if lines:
-            _require_same(_read_line(path, 1, lines[0]), header, place)
-        self.recorded: dict[str, Entry] = dict(
-            _entry(path, n, line) for n, line in enumerate(lines[1:], 2)
-        )
+        self.recorded: dict[str, Entry] = {}
+        if path.exists():
+            lines = read_lines(path, _line, "a journal of runs", _REMEDY, appended=True)
+            _require_same(next(lines, header), header, place, kind)
+            self.recorded |= lines
         # A line that a killed process has begun is removed.
         with replacing(path) as file:
-            file.writelines(f"{line}\n".encode() for line in lines or [json.dumps(header)])
+            file.write(_encoded(header))
+            file.writelines(_encoded([key, each.as_json]) for key, each in self.recorded.items())
 
     def keep(self, key: str, outcome: Entry) -> None:
         """Append the outcome of a run, as JSON."""
-        with self._path.open("a", encoding="utf-8") as file:
-            # JSON of Python has NaN and Infinity, which it also reads.
-            file.write(json.dumps([key, outcome.as_json]) + "\n")
+        with self._path.open("ab") as file:
+            file.write(_encoded([key, outcome.as_json]))
         self.recorded[key] = outcome
 
 
 @contextmanager
-def journal_in(
-    directory: str | PathLike[str] | None,
+def journal_of(
     study: str,
     arguments: Mapping[str, Any],
     *,
+    directory: str | PathLike[str] | None = None,
+    file: str | PathLike[str] | None = None,
     overwrite: bool = False,
 ) -> Iterator[Journal | None]:
-    """Lock a study's directory and open its journal; None without, ValueError if in use."""
-    if directory is None:
+    """Lock and open the journal of a study, in its directory or in a file; None without either.
+
+    ValueError if it is in use, or of another study.
+    """
+    if directory is not None:
+        place, kind = Path(directory), "directory"
+        if place.exists() and not place.is_dir():
+            raise ValueError(f"directory: {place} is a file; name a directory for the {study}")
+        path, lock = place / JOURNAL_NAME, place
+    elif file is not None:
+        path = place = Path(file)
+        # A lock is that of a directory; the folder of the file may be at work for something else.
+        kind, lock = "file", path.with_name(f"{path.name}.lock")
+    else:
         yield None
         return
-    place = Path(directory)
-    if place.exists() and not place.is_dir():
-        raise ValueError(f"directory: {place} is a file; name a directory for the {study}")
-    place.mkdir(parents=True, exist_ok=True)
+    lock.mkdir(parents=True, exist_ok=True)
     try:
-        with locked(place):
+        with locked(lock):
             if overwrite:
-                (place / JOURNAL_NAME).unlink(missing_ok=True)
-            where = f"{place}: holds another {study}|choose another directory"
-            yield Journal(place / JOURNAL_NAME, study, arguments, where)
+                path.unlink(missing_ok=True)
+            yield Journal(path, study, arguments, place, kind)
     except DirectoryInUse as error:
-        raise ValueError(str(error)) from None
-
-
-@contextmanager
-def journal_at(
-    path: str | PathLike[str] | None,
-    study: str,
-    arguments: Mapping[str, Any],
-    *,
-    overwrite: bool = False,
-) -> Iterator[Journal | None]:
-    """Lock a file and open the journal of a study in it; None without a file."""
-    if path is None:
-        yield None
-        return
-    file = Path(path)
-    # A lock is that of a directory; the folder of the file may be at work for something else.
-    place = file.with_name(f"{file.name}.lock")
-    place.mkdir(parents=True, exist_ok=True)
-    try:
-        with locked(place):
-            if overwrite:
-                file.unlink(missing_ok=True)
-            where = f"{file}: holds the runs of another {study}|choose another file"
-            yield Journal(file, study, arguments, where)
-    except DirectoryInUse:
-        raise ValueError(
-            f"{file} is in use by another run; wait until it is over, or choose another file"
-        ) from None
+        busy = f"{place} is in use by another run; wait until it is over, or choose another file"
+        raise ValueError(str(error) if file is None else busy) from None
     finally:
-        with suppress(OSError):  # another run holds it
-            place.rmdir()
+        if lock != place:
+            with suppress(OSError):  # another run holds it
+                lock.rmdir()
 
 
-def _require_same(found: Any, wanted: Mapping[str, Any], place: str) -> None:
+def _require_same(found: Any, wanted: Mapping[str, Any], place: Path, kind: str) -> None:
     """Raise ValueError unless the first line of a journal is that of the study."""
     if found == wanted:
         return
-    which, remedy = place.split("|")
     if not isinstance(found, dict) or "study" not in found:
-        which = which.partition(":")[0]
-        raise ValueError(f"{which}: is not a journal of this version of viscontact; {remedy}")
+        raise ValueError(
+            f"{place}: is not a journal of this version of viscontact; choose another {kind}"
+        )
     changed = [name for name in wanted if found.get(name) != wanted[name]]
-    raise ValueError(f"{which}, with a different {', '.join(changed) or 'header'}; {remedy}")
+    raise ValueError(
+        f"{place}: holds another {wanted['study']}, with a different "
+        f"{', '.join(changed) or 'header'}; choose another {kind}"
+    )
 
 
-def _whole_lines(path: Path) -> list[str]:
-    """Complete lines of a file; none without it."""
-    try:
-        return path.read_text(encoding="utf-8").split("\n")[:-1]
-    except FileNotFoundError:
-        return []
-    except UnicodeDecodeError:
-        raise ValueError(f"{path}: is not UTF-8 text, as a journal of runs is") from None
-
-
-def _read_line(path: Path, number: int, line: str) -> Any:
-    try:
-        return json.loads(line)
-    except ValueError:
-        raise ValueError(f"{path}:{number}: is not a line of JSON; remove the file") from None
-
-
-def _entry(path: Path, number: int, line: str) -> tuple[str, Entry]:
-    match _read_line(path, number, line):
+def _line(found: Any, number: int) -> Any:
+    """First line as it is, and the key and the entry of each other one."""
+    match found:
+        case _ if number == 1:
+            return found
         case [str(key), dict(outcome)]:
             return key, Entry.read(outcome)
-    raise ValueError(f"{path}:{number}: is not a run of a study; remove the file")
+    raise ValueError(f"is not a run of a study; {_REMEDY}")
+
+
+def _encoded(line: Any) -> bytes:
+    """Line of JSON as Python has it, with NaN and Infinity, in ASCII."""
+    return f"{json.dumps(line)}\n".encode()

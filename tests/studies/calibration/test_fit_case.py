@@ -116,7 +116,7 @@ def test_an_interrupted_fit_goes_on_from_its_log(tmp_path: Path) -> None:
     lines = log.read_text().splitlines()
     assert len(lines) == 1 + whole.runs  # none was made twice
     assert fit(trials=log).intervals == whole.intervals
-    with pytest.raises(ValueError, match="holds the runs of another fit, with a different unknown"):
+    with pytest.raises(ValueError, match="holds another fit, with a different unknown"):
         fit(trials=log, contact_point=("-1 um", "1 um"))
 
 

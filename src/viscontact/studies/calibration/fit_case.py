@@ -34,7 +34,7 @@ from viscontact.studies.case_values import (
 )
 from viscontact.studies.evaluation import Budget, BudgetSpentError, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
-from viscontact.studies.journal import journal_at
+from viscontact.studies.journal import journal_of
 from viscontact.units.numbers import whole
 
 _RUNS_PER_UNKNOWN = 40
@@ -194,7 +194,7 @@ def fit_case(  # noqa: PLR0913
         "cells": repr([(each.own_cells, each.coarse_cells) for each in experiments]),
     }
     at_a_time = len(experiments) * len(unknowns)
-    journal = journal_at(trials, "fit", arguments, overwrite=overwrite)
+    journal = journal_of("fit", arguments, file=trials, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client, at_a_time)
     with evaluating(Budget(most), journal, chosen, progress) as evaluation:
         residuals = Residuals(experiments, unknowns, evaluation)

@@ -34,7 +34,7 @@ from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
-from viscontact.studies.journal import journal_in
+from viscontact.studies.journal import journal_of
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
 from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
@@ -178,7 +178,7 @@ def design(  # noqa: PLR0913
         **{"constraints": repr(limits), "settings": fixed},
     }
     of_case = CaseTrials(path, fixed, scenarios, goals, limits, coarse_cells(own))
-    journal = journal_in(directory, "design", arguments, overwrite=overwrite)
+    journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:
         levels = ("coarse", "case") if of_case.coarse else ("case",)

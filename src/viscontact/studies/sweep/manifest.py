@@ -11,12 +11,13 @@ from typing import Any
 
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.directory.atomic_files import replacing
+from viscontact.studies.json_lines import read_lines
 
 #: Kinds of designs: combinations, pairs, rows of a table, random samples, or several case files.
 DESIGNS = ("grid", "zip", "table", "sample", "cases")
 
-#: Longest line of a manifest [characters].
-_LONGEST_LINE = 10_000_000
+#: Remedy for a line that cannot be read.
+_REMEDY = "remove the file, and repeat the command that began the sweep with --resume"
 
 
 @dataclass(frozen=True)
@@ -66,32 +67,17 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
 
 def read_manifest(path: Path) -> Iterator[SweepRun]:
     """Yield the runs of a manifest, in constant memory; ValueError names the damaged line."""
-    with path.open(encoding="utf-8") as lines:
-        number = 0
-        try:
-            while line := lines.readline(_LONGEST_LINE):
-                number += 1
-                yield _read_run(line, number)
-        except UnicodeDecodeError:
-            raise ValueError(f"{path}: is not UTF-8 text, as a manifest is") from None
-        except ValueError as error:
-            raise ValueError(f"{path}:{number}: {error}") from None
-    if number == 0:
+    is_empty = True
+    for run in read_lines(path, _read_run, "a manifest", _REMEDY):
+        is_empty = False
+        yield run
+    if is_empty:
         raise ValueError(f"{path}: holds no runs; remove it, and repeat the command of the sweep")
 
 
-def _read_run(line: str, number: int) -> SweepRun:
-    try:
-        found = json.loads(line)
-    except ValueError:
-        raise ValueError(
-            f"is not a line of JSON: {line[:40]!r}; remove the file, and repeat the command that "
-            "began the sweep with --resume"
-        ) from None
-    except RecursionError:
-        raise ValueError("is nested too deeply for a line of a manifest") from None
+def _read_run(found: Any, number: int) -> SweepRun:
     if not isinstance(found, dict):
-        raise ValueError(f"must be an object of JSON, as {{...}}, got {line[:40]!r}")
+        raise ValueError(f"must be an object of JSON, as {{...}}, got {found!r:.40}")
     run = SweepRun(
         _entry(found, "run", int),
         _entry(found, "name", str),

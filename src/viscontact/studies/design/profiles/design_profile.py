@@ -30,7 +30,7 @@ from viscontact.studies.design.profiles.tables import deviating, finite_table, t
 from viscontact.studies.design.scenarios import scenarios_of
 from viscontact.studies.evaluation import Budget, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
-from viscontact.studies.journal import journal_in
+from viscontact.studies.journal import journal_of
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
 from viscontact.units.formatting import format_quantity
@@ -151,7 +151,7 @@ def design_profile(  # noqa: PLR0913
         **{"profile": repr(curves), "at": str(at), "over": repr(scenarios)},
         **{"drop_tolerance": repr(tolerance), "settings": fixed, "runs": budget.most},
     }
-    journal = journal_in(directory, "design", arguments, overwrite=overwrite)
+    journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:
         made = ProfileRuns(rollers, at, evaluation)
