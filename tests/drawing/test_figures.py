@@ -11,11 +11,14 @@ import pytest
 from synthetic_results import maxwell_sphere
 from viscontact import plot
 from viscontact.drawing.choice import FigureChoice
+from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.map import maps_over
-from viscontact.drawing.figures import TABLE, FigureEntry, Reported
+from viscontact.drawing.content.usefulness import TESTS
+from viscontact.drawing.figures import TABLE, Chapter, FigureEntry, Reported
 from viscontact.drawing.plotly.run_figures import INTERACTIVE, run_figures
 from viscontact.report.result_chapters import loop_part
 from viscontact.report.still_figures import still_figures
+from viscontact.web.runs.run_figures import run_figures as sent_figures
 
 #: Keywords for axes and size, which are no choice on the command line.
 _PAGE = {"axes", "width"}
@@ -35,6 +38,7 @@ def test_interactive_figures_are_those_of_the_table() -> None:
     reported = [each.reported for each in TABLE if each.reported]
     named = [each.interactive for each in reported if each.interactive]
     assert sorted(named) == sorted(INTERACTIVE)
+    assert {each.of_use for each in reported if each.of_use} == set(TESTS)
     assert all(each.heading for each in reported)
     assert not any(each.interactive for each in reported if each.chapter in ("spots", "stress"))
     run = maxwell_sphere([0.0, 1.0], cells=8)
@@ -61,6 +65,19 @@ def test_reports_draw_a_new_row_of_the_table(
     )
     assert printed == ["Further"]
     assert shown == ([] if interactive else ["Further"])
+
+
+@pytest.mark.parametrize("chapter", ["pressure", "friction", "histories", "loops"])
+def test_page_is_sent_all_figures_of_the_report(
+    chapter: Chapter, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run, further = maxwell_sphere([0.0, 1.0], cells=8), Reported(chapter, "Further", "histories")
+    table = (*TABLE, FigureEntry("further", reported=further))
+    monkeypatch.setattr("viscontact.drawing.plotly.run_figures.TABLE", table)
+    shown = [each.layout.meta["name"] for each in run_figures(run, maps_over(run))[chapter]]
+    sent = sent_figures(run, LIGHT)["surface" if chapter == "pressure" else chapter]
+    assert [each["layout"]["meta"]["name"] for each in sent] == shown
+    assert len(shown) > 1
 
 
 def test_names_are_known_without_matplotlib() -> None:

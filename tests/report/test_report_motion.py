@@ -17,6 +17,7 @@ from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.section import section
+from viscontact.drawing.matplotlib.histories.hysteresis import loops as printed_loops
 from viscontact.drawing.plotly.histories import history
 from viscontact.drawing.plotly.loops import loops
 from viscontact.drawing.plotly.pressure_map import pressure_map
@@ -113,6 +114,9 @@ def test_area_of_the_last_loop_is_the_motion_work_of_a_cycle() -> None:
     ds = _run(vc.reciprocating(3e-4, 1.0, cycles=2), np.linspace(0, 2, 49).tolist(), middle=0.0)
     (loop,) = loops_of(ds)
     assert (loop.name, loop.last, loop.end) == ("loop-y", 24, 48)
+    (printed,) = printed_loops(ds).axes  # as in PDF
+    assert printed.get_ylabel().startswith("Resistance along y")
+    assert not printed.get_title(loc="right")  # a loss is one of force over approach
     (figure,) = loops(ds, replace(LIGHT, system="si"))
     position, force = figure.data[1].x, figure.data[1].y
     work = float(ds.motion_work[-1] - ds.motion_work[24])

@@ -115,13 +115,16 @@ def test_run_over_speed_is_followed_and_shown(client: TestClient) -> None:
     assert None not in friction["error"]
     # The creep is 9/10 of the compliance, within 10 ms: the mean retardation time is 9 ms.
     figures = client.get(f"/api/runs/{run}/figures").json()
-    slow, fast, curve = figures["friction"]["data"]
+    (drawn,) = figures["friction"]
+    slow, fast, curve = drawn["data"]
     assert array_of(slow["y"])[0] == pytest.approx(
         reference.slow_friction_coefficient(RADIUS, 9e-3, 0.01), rel=1e-5
     )
     assert friction["value"][0] == pytest.approx(array_of(slow["y"])[0], rel=0.1)
     assert array_of(curve["y"]) == pytest.approx(friction["value"], rel=1e-6)
     assert fast["name"] == "limit of fast motion"
+    shown = [each["layout"]["meta"]["name"] for each in figures["histories"]]
+    assert {"history-approach", "history-resistance_y"} <= set(shown)
     assert figures["scale"] == "log"
     shown, _, along, _ = figures["surface"]
     titles = [frame["layout"]["meta"]["title"] for frame in shown["frames"]]

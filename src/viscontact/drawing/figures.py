@@ -25,6 +25,8 @@ class Reported:
     #: Function among those of `drawing/plotly/run_figures.py`. Reports in HTML and the page show
     #: its figures; without it, reports in HTML have the still figure, as those in PDF do.
     interactive: str = ""
+    #: Test among those of `drawing/content/usefulness.py`, if it is of use for some results only.
+    of_use: str = ""
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,10 @@ TABLE = (
         "line-load",
         compare="compare_line_loads",
         reported=Reported(
-            "pressure", "Line load along x: the pressure integrated over y", "line_loads"
+            "pressure",
+            "Line load along x: the pressure integrated over y",
+            "line_loads",
+            of_use="has_line_load",
         ),
     ),
     _fields("pressure-3d", function="pressure_surface", compare="compare_pressure_surfaces"),
@@ -100,7 +105,7 @@ TABLE = (
     FigureEntry(
         "hysteresis",
         compare="compare_hysteresis",
-        reported=Reported("loops", "Force over approach", "loops"),
+        reported=Reported("loops", "Loops", "loops", of_use="has_loops"),
     ),
     FigureEntry("creep", compare="compare_creep", of="both", any_time=True),
     FigureEntry("exact"),

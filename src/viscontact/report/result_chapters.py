@@ -16,6 +16,8 @@ from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.history import load_names
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.section import Lines, line_load, section
+from viscontact.drawing.content.usefulness import is_of_use
+from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.panel_over_run import LINEAR, LOGARITHMIC
 from viscontact.drawing.plotly.pressure_map import map_remarks
 from viscontact.drawing.svg.html import element
@@ -72,7 +74,7 @@ def pressure_part(ds: xr.Dataset, maps: Maps | None, figures: list[Figure]) -> I
     lines, unit = [section(maps, "x"), section(maps, "y")], maps.window.unit
     sections = (_lines(maps, each, f"{each.title}, {each.place(unit)}") for each in lines)
     yield element("div", *sections, class_="pair")
-    if maps.is_long:
+    if is_of_use(entry_of("line-load"), ds):
         lines.append(line_load(maps))
         yield _lines(maps, lines[-1], lines[-1].title)
     yield element(
@@ -142,7 +144,7 @@ def _load_and_response(ds: xr.Dataset, figures: list[Figure]) -> Iterator[Elemen
 def loop_part(ds: xr.Dataset, figures: list[Figure]) -> Iterator[Element]:
     """Yield loops of a run."""
     if figures:
-        yield element("h3", "Loops")
+        yield element("h3", entry_of("hysteresis").heading)
         yield element("div", *map(_loop, figures), class_="panels")
     yield from still_figures(ds, "loops", beside_interactive=True)
 

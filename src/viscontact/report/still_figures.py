@@ -11,24 +11,19 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.drawing import matplotlib
-from viscontact.drawing.content.loop import has_force_loop
+from viscontact.drawing.content.usefulness import is_of_use
 from viscontact.drawing.figures import TABLE, Chapter
 from viscontact.drawing.matplotlib.histories.history import history_with_load
+from viscontact.drawing.matplotlib.histories.hysteresis import loops
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.svg.html import element
 from viscontact.report.drawings import drawn
 from viscontact.results.run_axis import run_axis
-from viscontact.results.shown_scalars import is_long
 
 #: Pixels of an inch.
 _PIXELS = 96
-#: Tests of a result for figures that are of use for some results only.
-_OF_USE: dict[str, Callable[[xr.Dataset], bool]] = {
-    "line-load": lambda ds: is_long(ds) and "line_load" in ds,
-    "hysteresis": has_force_loop,
-}
 #: Functions that differ from those of the command line.
-_OWN: dict[str, Callable[..., Figure]] = {"history": history_with_load}
+_OWN: dict[str, Callable[..., Figure]] = {"history": history_with_load, "hysteresis": loops}
 
 
 def still_figures(
@@ -42,7 +37,7 @@ def still_figures(
         and each.reported.chapter == chapter
         and each.of in ("both", run_axis(ds).name)
         and not (beside_interactive and each.reported.interactive)
-        and _OF_USE.get(each.name, bool)(ds)
+        and is_of_use(each, ds)
     ]
     for number, entry in enumerate(entries):
         if number or beside_interactive:

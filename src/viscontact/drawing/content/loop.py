@@ -46,18 +46,14 @@ def loops_of(run: xr.Dataset) -> list[Loop]:
     return [_hysteresis(cycle), *found]
 
 
-def has_force_loop(run: xr.Dataset) -> bool:
-    """Test for a loop of force over approach."""
-    return any(loop.value == "force" for loop in loops_of(run))
-
-
 def loop_panel(runs: Mapping[str, xr.Dataset], loop: Loop, units: Units = readable_unit) -> Panel:
     """Panel of whole loops of runs by name, with the errors of both scalars."""
     curves = tuple(
         _curve(run, loop, name, ink)
         for (name, run), ink in zip(runs.items(), inks_of(list(runs)), strict=True)
     )
-    return _panel(loop, curves, units, _last_loss(list(runs.values())))
+    note = _last_loss(list(runs.values())) if loop.value == "force" else ""
+    return _panel(loop, curves, units, note)
 
 
 def cycle_panel(

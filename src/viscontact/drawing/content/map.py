@@ -19,7 +19,6 @@ from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
-from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import Snapshot, field_times
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.units.formatting import readable_unit
@@ -83,9 +82,8 @@ class Maps:
 
     maps: tuple[Map, ...]
     window: Window  # part of the surface that contains every contact
-    stored: int = 0  # number of instants with fields in the result
-    is_long: bool = False  # a contact whose line load is of use
-    motion: str | None = None  # axis of a motion
+    stored: int = 0  # number of instants with fields in the result, if it is a single one
+    motion: str | None = None  # axis of a motion of a single result
     reference: Maps | None = None  # compared with them
 
     @property
@@ -96,7 +94,7 @@ class Maps:
     @property
     def moves(self) -> bool:
         """True if each map shows the place of a moving body."""
-        return self.maps[0].body is not None
+        return self.motion is not None
 
     @property
     def peak_note(self) -> str:
@@ -195,15 +193,17 @@ def maps_at(results: Runs, times: ArrayLike | None, figure: str, *, count: int =
         Map(heading, each, marked, place and place(each.time))
         for heading, each, marked in headed_snapshots(results, times, figure, count=count)
     )
-    return Maps(maps, window_around([each.snapshot for each in maps]))
+    window = window_around([each.snapshot for each in maps])
+    if len(runs) > 1:
+        return Maps(maps, window)
+    return Maps(maps, window, field_times(runs[0], figure).size, motion_axis(runs[0]))
 
 
 def maps_over(run: xr.Dataset) -> Maps:
     """Maps at instants over a whole run, at most `MOST_INSTANTS`."""
     stored = field_times(run, "map")
     chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
-    maps = maps_at(run, stored[chosen], "map")
-    return replace(maps, stored=stored.size, is_long=is_long(run), motion=motion_axis(run))
+    return maps_at(run, stored[chosen], "map")
 
 
 def maps_if_any(run: xr.Dataset) -> Maps | None:

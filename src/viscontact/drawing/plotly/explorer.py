@@ -10,6 +10,8 @@ import xarray as xr
 
 from viscontact.drawing.content.look import DARK, LIGHT, Look
 from viscontact.drawing.content.map import Maps, maps_over
+from viscontact.drawing.content.usefulness import is_of_use
+from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.parts import Part, template_of
 from viscontact.drawing.plotly.pressure_map import pressure_map
 from viscontact.drawing.plotly.sections import line_loads, sections
@@ -78,7 +80,9 @@ def explore(
         raise ValueError(f"width: wanted {_LEAST_WIDTH} pixels or more, got {width}")
     look = replace(DARK if dark else LIGHT, system=units)
     maps = maps_over(in_order(result))
-    figures = [pressure_map(maps, look), *sections(maps, look), *line_loads(maps, look)]
+    figures = [pressure_map(maps, look), *sections(maps, look)]
+    if is_of_use(entry_of("line-load"), result):
+        figures += line_loads(maps, look)
     return _combine(figures, maps, look, width)
 
 

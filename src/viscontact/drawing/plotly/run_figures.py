@@ -10,6 +10,7 @@ import xarray as xr
 
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.map import Maps
+from viscontact.drawing.content.usefulness import is_of_use
 from viscontact.drawing.figures import TABLE, Chapter
 from viscontact.drawing.plotly.friction import friction
 from viscontact.drawing.plotly.histories import histories
@@ -31,7 +32,7 @@ def run_figures(
     """Figures of a result in order and of its maps, if any, from top to bottom in each chapter."""
     found: dict[Chapter, list[go.Figure]] = {chapter: [] for chapter in get_args(Chapter)}
     for entry in TABLE:
-        if entry.reported is None or not entry.reported.interactive:
+        if not entry.reported or not entry.reported.interactive or not is_of_use(entry, ds):
             continue
         into, draw = found[entry.reported.chapter], INTERACTIVE[entry.reported.interactive]
         if not entry.at_instants:

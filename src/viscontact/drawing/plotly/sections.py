@@ -26,9 +26,7 @@ def draw_section(maps: Maps, along: Along, look: Look = LIGHT) -> go.Figure:
 
 
 def line_loads(maps: Maps, look: Look = LIGHT) -> list[go.Figure]:
-    """Draw the line load along x at every instant, with a frame for each, if it is of use."""
-    if not maps.is_long:
-        return []
+    """Draw the line load along x at every instant, with a frame for each."""
     lines = line_load(maps)
     others = None if maps.reference is None else line_load(maps.reference)
     return [_curves(maps, look, lines, [lines.title] * len(maps.maps), others)]

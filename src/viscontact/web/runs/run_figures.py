@@ -40,8 +40,7 @@ def run_figures(ds: xr.Dataset, look: Look, reference: xr.Dataset | None = None)
     return {
         **{"surface": drawn["pressure"], "start": 0 if maps is None else maps.start},
         "remarks": "" if maps is None else map_remarks(maps),
-        "friction": next(iter(drawn["friction"]), None),
-        **{"histories": drawn["histories"], "loops": drawn["loops"]},
+        **{chapter: drawn[chapter] for chapter in ("friction", "histories", "loops")},
         "scale": _scale(ds, look, other),
     }
 

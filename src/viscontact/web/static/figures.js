@@ -56,13 +56,8 @@ async function drawAnswer(request, shown, reference) {
 
 function drawSurface({ surface, start, remarks }, row, isSame) {
   place("map-chapter").hidden = !surface.length;
-  const placed = ["map", "section-x", "section-y", "line-load"];
-  drawPanels(place("surface-panels"), surface.filter(({ layout }) => !placed.includes(layout.meta.name)));
-  for (const name of placed) {
-    const figure = surface.find(({ layout }) => layout.meta.name === name);
-    if (name === "line-load") place(name).parentElement.hidden = !figure;
-    if (figure) draw(place(name), figure); else clear(place(name));
-  }
+  drawPlaced(surface, ["map", "section-x", "section-y", "line-load"], "surface-panels");
+  place("line-load").parentElement.hidden = !place("line-load").figure;
   if (!surface.length) return;
   const slider = place("instant-slider"), last = surface[0].frames.length - 1;
   const index = isSame && Number(slider.value) <= last ? slider.value : String(start);
@@ -75,8 +70,8 @@ function drawSurface({ surface, start, remarks }, row, isSame) {
 }
 
 function drawHistories({ friction, histories, scale }, over, isSame) {
-  place("friction-chapter").hidden = !friction;
-  if (friction) draw(place("friction"), friction); else clear(place("friction"));
+  place("friction-chapter").hidden = !friction.length;
+  drawPlaced(friction, ["friction"], "friction-panels");
   // Nothing is drawn over a single speed; the table has its numbers.
   place("histories-chapter").hidden = !histories.length;
   place("histories-title").textContent = `Over ${over}`;
@@ -87,6 +82,15 @@ function drawHistories({ friction, histories, scale }, over, isSame) {
   Object.assign(dataset, { linear: `Show linear ${over}`, log: `Show logarithmic ${over}` });
   button.textContent = dataset[dataset.shown === "log" ? "linear" : "log"];
   if (scale) show(dataset.shown);
+}
+
+// Figures that have a place of their name, and panels for the others.
+function drawPlaced(figures, names, others) {
+  drawPanels(place(others), figures.filter(({ layout }) => !names.includes(layout.meta.name)));
+  for (const name of names) {
+    const figure = figures.find(({ layout }) => layout.meta.name === name);
+    if (figure) draw(place(name), figure); else clear(place(name));
+  }
 }
 
 // A panel for each figure, in their order; those that are there are drawn again.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.along_run import within_span
 from viscontact.drawing.content.compared_runs import runs_of
-from viscontact.drawing.content.loop import Loop, loop_panel
+from viscontact.drawing.content.loop import Loop, loop_panel, loops_of
 from viscontact.drawing.content.panel import Curve, Panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.error_band import legend_entries
@@ -77,21 +77,7 @@ def hysteresis(
     if any(lacks_datum(run) for run in runs.values()):
         raise ValueError(f"{_NAME}: the approach of a line contact has no datum; draw history")
     shown = {name: within_span(run, _names(run), times, _NAME, name) for name, run in runs.items()}
-    wide = page_width(width, style.ONE_COLUMN)
-    figure = style.new_figure(wide, min(3.3, 0.8 * wide))
-    axes, panel = figure.subplots(), loop_panel(shown, Loop(_NAME, "approach", "force"))
-    bands = draw_panel(axes, panel)
-    lines = axes.get_lines()
-    for curve in panel.curves:
-        _add_arrows(axes, panel, curve)
-    entries = legend_entries(lines, list(shown), bands)
-    if entries:
-        handles, labels = zip(*entries, strict=True)
-        if len(labels) > _MOST_INSIDE:
-            style.add_legend_below(figure, handles, labels)
-        else:
-            style.add_legend(axes, handles, labels, loc="best")
-    return figure
+    return _figure(shown, [Loop(_NAME, "approach", "force")], width)
 
 
 def compare_hysteresis(
@@ -134,6 +120,31 @@ def compare_hysteresis(
     ('Approach [µm]', 'Force [mN]')
     """
     return hysteresis(runs, times=times, width=width)
+
+
+def loops(results: xr.Dataset) -> Figure:
+    """Draw all loops of a run: force over approach, and resistance over position."""
+    return _figure({"": results}, loops_of(results), None)
+
+
+def _figure(runs: Mapping[str, xr.Dataset], drawn: Sequence[Loop], width: Width | None) -> Figure:
+    """Figure with a panel for each loop of some runs by name."""
+    wide = page_width(width, style.ONE_COLUMN)
+    figure = style.new_figure(wide, min(3.3, 0.8 * wide) * len(drawn))
+    for axes, loop in zip(figure.subplots(len(drawn), squeeze=False).flat, drawn, strict=True):
+        panel = loop_panel(runs, loop)
+        bands = draw_panel(axes, panel)
+        lines = axes.get_lines()
+        for curve in panel.curves:
+            _add_arrows(axes, panel, curve)
+        entries = legend_entries(lines, list(runs), bands)
+        if entries:
+            handles, labels = zip(*entries, strict=True)
+            if len(labels) > _MOST_INSIDE:
+                style.add_legend_below(figure, handles, labels)
+            else:
+                style.add_legend(axes, handles, labels, loc="best")
+    return figure
 
 
 def _names(run: xr.Dataset) -> list[str]:

@@ -1,0 +1,33 @@
+"""Results for which the figures of reports and of the calculator page are of use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import xarray as xr
+
+from viscontact.drawing.content.loop import loops_of
+from viscontact.drawing.figures import FigureEntry
+from viscontact.results.shown_scalars import is_long
+
+
+def is_of_use(entry: FigureEntry, ds: xr.Dataset) -> bool:
+    """True if a figure shows something of a result."""
+    test = TESTS.get(entry.reported.of_use) if entry.reported else None
+    return test is None or test(ds)
+
+
+def has_line_load(ds: xr.Dataset) -> bool:
+    """True for a long contact with its pressure."""
+    return is_long(ds) and "pressure" in ds
+
+
+def has_loops(ds: xr.Dataset) -> bool:
+    """True for a run with loops of force over approach, or of resistance over position."""
+    return bool(loops_of(ds))
+
+
+#: Tests that the table of figures names.
+TESTS: dict[str, Callable[[xr.Dataset], bool]] = {
+    each.__name__: each for each in (has_line_load, has_loops)
+}
