@@ -238,7 +238,7 @@ def test_further_runs_of_a_case_are_added_on_the_same_cells(tmp_path: Path) -> N
     with pytest.raises(ValueError, match=r"=0.4 N and load.force=400 mN are equal; give each once"):
         compute("0.05 N", "0.2 N", "0.4 N", "400 mN")
     given = vc.vary(case, {"load.force": ["0.05 N", "0.2 N", "0.4 N"]})
-    with pytest.raises(ValueError, match=r"2 of them would go to .*0.4N; give each once"):
+    with pytest.raises(ValueError, match=r"0.4N: 2 of the runs would go there; .* each value once"):
         vc.simulate_many([*given, given[-1]], workers=1, directory=sweep)
 
 
@@ -299,3 +299,17 @@ def test_case_that_is_edited_during_the_runs_is_refused(tmp_path: Path) -> None:
     with ThreadPoolExecutor(1) as executor:
         ds = vc.simulate_many(varied, executor=executor, directory=tmp_path / "sweep")
     assert ds.state.values.tolist() == ["done", "done"]
+
+
+def test_case_may_change_until_a_run_begins(tmp_path: Path) -> None:
+    case, sweep = tmp_path / "case.yaml", tmp_path / "sweep"
+    case.write_text(AUTOMATIC, encoding="utf-8")
+    varied = vc.vary(case, {"load.force": ["0.1 N", "0.2 N"]})
+    with pytest.raises(RuntimeError, match="2 of 2 runs failed"):
+        vc.simulate_many(varied, executor=Broken(), directory=sweep)
+    case.write_text(AUTOMATIC.replace("end: 1 s", "end: 2 s"), encoding="utf-8")
+    for _ in range(2):  # the second call finds the case that the first one has computed
+        with ThreadPoolExecutor(1) as executor:
+            ds = vc.simulate_many(varied, executor=executor, directory=sweep)
+        assert ds.state.values.tolist() == ["done", "done"]
+        assert float(ds.time[-1]) == 2.0

@@ -23,6 +23,7 @@ from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
 from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
+from viscontact.studies.sweep.continuation import refuse_shared_directories
 from viscontact.studies.sweep.designs import Design
 from viscontact.studies.sweep.extremes import extreme_rows
 
@@ -57,7 +58,10 @@ def checked_jobs(
     if problems:
         refuse(*problem_lines(problems, planned))
     found = [jobs[number] for number in range(len(runs))]
-    _refuse_shared_directories(found)
+    try:
+        refuse_shared_directories([job.directory for job in found])
+    except ValueError as error:
+        refuse(str(error))
     return _with_names(found)
 
 
@@ -134,19 +138,6 @@ def _refuse_in_use(request: RunRequest, directory: Path) -> None:
     # A worker of the command that is resumed may still save; the run waits for its end.
     if not request.resume and (message := in_use(directory)):
         refuse(message)
-
-
-def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
-    # On a file system that ignores the case of letters, MPa and mPa are the same name.
-    parents = {job.directory.parent: str(job.directory.parent.resolve()) for job in jobs}
-    places = [f"{parents[job.directory.parent]}/{job.directory.name}".casefold() for job in jobs]
-    for place, count in Counter(places).items():
-        if count > 1:
-            job = jobs[places.index(place)]
-            refuse(
-                f"{job.directory}: {count} of the runs would go there; give each case file a name "
-                "of its own, and each value once"
-            )
 
 
 def _with_names(jobs: list[Job]) -> list[Job]:

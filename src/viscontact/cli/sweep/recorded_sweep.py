@@ -12,11 +12,17 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.studies.sweep import continuation
-from viscontact.studies.sweep.case_digests import changed_since, with_digests
 from viscontact.studies.sweep.common_cells import KEY
-from viscontact.studies.sweep.continuation import OtherSweepError, continued, has_begun
+from viscontact.studies.sweep.continuation import (
+    ChangedCaseError,
+    OtherSweepError,
+    continued,
+    has_begun,
+    pinned,
+    record,
+)
 from viscontact.studies.sweep.equal_values import comparable
-from viscontact.studies.sweep.manifest import SweepRun, write_manifest
+from viscontact.studies.sweep.manifest import SweepRun
 from viscontact.studies.sweep.varied_runs import case_name
 
 
@@ -50,18 +56,15 @@ class RecordedSweep:
 
     def with_digests(self, *, mixed: bool) -> RecordedSweep:
         """Sweep with digests of its cases; refuse changed ones unless runs may be mixed."""
-        # Cases may change as long as no run has results.
         if self.directory is None:
             return self
-        if not mixed and any_begun(self.directory, self.earlier):
-            for each in self.earlier:
-                if parts := changed_since(self.directory, each):
-                    refuse(
-                        f"{self.directory}: holds runs of the case {Path(each.case).name} before "
-                        f"it changed: {', '.join(parts)}; choose another directory with -o "
-                        "DIR, or continue with the changed case by --resume"
-                    )
-        return replace(self, runs=with_digests(self.directory, self.runs))
+        try:
+            return replace(self, runs=pinned(self.directory, self.runs, mixed=mixed))
+        except ChangedCaseError as error:
+            refuse(
+                f"{self.directory}: {error}; choose another directory with -o DIR, or continue "
+                "with the changed case by --resume"
+            )
 
     def requests(self, planned: Sequence[RunRequest]) -> list[RunRequest]:
         """Return the requests with the directories and settings of the runs."""
@@ -74,11 +77,10 @@ class RecordedSweep:
 
     def write(self) -> None:
         """Write the manifest, unless it is there already."""
-        digests = [[each.digests for each in runs] for runs in (self.runs, self.earlier)]
-        if self.directory is None or (self.runs == self.earlier and digests[0] == digests[1]):
+        if self.directory is None:
             return
         try:
-            write_manifest(self.directory, self.runs)
+            record(self.directory, self.runs, self.earlier)
         except OSError as error:
             refuse(f"{self.directory / MANIFEST_NAME}: cannot be written: {error}")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -10,8 +11,9 @@ from pathlib import Path
 from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.earlier_result import stored_run
 from viscontact.runs.directory.lock import is_locked
+from viscontact.studies.sweep.case_digests import changed_since, with_digests
 from viscontact.studies.sweep.equal_values import comparable
-from viscontact.studies.sweep.manifest import SweepRun, read_manifest
+from viscontact.studies.sweep.manifest import SweepRun, read_manifest, write_manifest
 
 #: Designs whose directories are named after the values of their runs, not after their numbers.
 _NAMED_BY_VALUES = ("grid", "zip")
@@ -23,6 +25,10 @@ class OtherSweepError(ValueError):
     def __init__(self, message: str, *, is_left_out: bool = False) -> None:
         super().__init__(message)
         self.is_left_out = is_left_out
+
+
+class ChangedCaseError(ValueError):
+    """Run with results of its case before that was changed."""
 
 
 def recorded_runs(directory: Path) -> list[SweepRun]:
@@ -72,6 +78,44 @@ def continued(
                 f"its run {each.directory} has results, and is none of these", is_left_out=True
             )
     return found
+
+
+def refuse_shared_directories(places: Sequence[Path]) -> None:
+    """Raise ValueError if several runs of a command or call would go to one directory."""
+    # On a file system that ignores the case of letters, MPa and mPa are the same name.
+    parents = {place.parent: str(place.parent.resolve()) for place in places}
+    names = [f"{parents[place.parent]}/{place.name}".casefold() for place in places]
+    name, count = Counter(names).most_common(1)[0]
+    if count > 1:
+        raise ValueError(
+            f"{places[names.index(name)]}: {count} of the runs would go there; give each case "
+            "file a name of its own, and each value once"
+        )
+
+
+def pinned(directory: Path, runs: Sequence[SweepRun], *, mixed: bool = False) -> list[SweepRun]:
+    """Return the runs with the digests of their cases now.
+
+    ChangedCaseError for a run with results of another case, unless results may be `mixed`.
+    """
+    found = with_digests(directory, runs)
+    for before, now in zip(runs, found, strict=True):
+        is_same = mixed or not before.digests or before.digests == now.digests
+        if is_same or not has_begun(directory / before.directory):
+            continue
+        if parts := changed_since(directory, before):
+            raise ChangedCaseError(
+                f"holds runs of the case {Path(before.case).name} before it changed: "
+                f"{', '.join(parts)}"
+            )
+    return found
+
+
+def record(directory: Path, runs: Sequence[SweepRun], earlier: Sequence[SweepRun]) -> None:
+    """Write the manifest of runs, unless it is there already, with the same digests."""
+    digests = [[each.digests for each in some] for some in (runs, earlier)]
+    if list(runs) != list(earlier) or digests[0] != digests[1]:
+        write_manifest(directory, runs)
 
 
 def _has_new(runs: Sequence[SweepRun], by_place: dict[str, SweepRun]) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,14 +13,16 @@ from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
 from viscontact.studies.executors.driver import Active, Workers, case_task, drive
 from viscontact.studies.executors.simulation_task import SimulationTask, change_of_results
 from viscontact.studies.executors.task import RecordedTask
-from viscontact.studies.sweep.case_digests import changed_since, with_digests
 from viscontact.studies.sweep.continuation import (
+    ChangedCaseError,
     OtherSweepError,
     continued,
-    has_begun,
+    pinned,
+    record,
     recorded_runs,
+    refuse_shared_directories,
 )
-from viscontact.studies.sweep.manifest import SweepRun, write_manifest
+from viscontact.studies.sweep.manifest import SweepRun
 from viscontact.studies.sweep.specifications import Recipe, known_memory
 from viscontact.studies.sweep.varied_runs import VariedRun, case_name, sweep_run
 
@@ -84,17 +85,17 @@ def _write_runs(
         found = continued(directory, runs, earlier)
     except OtherSweepError as error:
         raise ValueError(f"{directory}: holds other runs: {error}; choose another one") from None
-    name, count = Counter(each.directory for each in found).most_common(1)[0]
-    if count > 1:
-        raise ValueError(f"runs: {count} of them would go to {directory / name}; give each once")
+    refuse_shared_directories([directory / each.directory for each in found])
     for run, recipe in zip(found, recipes, strict=True):
         _refuse_other_results(run, recipe, directory)
-    pinned = with_digests(directory, found)
-    for before, now in zip(found, pinned, strict=True):
-        _refuse_changed_case(before, now, directory)
-    if found != earlier:
-        write_manifest(directory, pinned)
-    return pinned
+    try:
+        found = pinned(directory, found)
+    except ChangedCaseError as error:
+        raise ValueError(
+            f"{directory}: {error}; choose another directory, or undo the change"
+        ) from None
+    record(directory, found, earlier)
+    return found
 
 
 def _sweep_run(
@@ -125,17 +126,6 @@ def _refuse_other_results(run: SweepRun, recipe: Recipe, directory: Path) -> Non
             f"{directory}: holds other runs: its {run.directory} has {change}; runs that are given "
             "as mappings are known by their position: keep their order and append others at the "
             "end, or choose another directory"
-        )
-
-
-def _refuse_changed_case(before: SweepRun, now: SweepRun, directory: Path) -> None:
-    """Raise ValueError for a run with results, by its digests of a case that has changed since."""
-    if before.digests == now.digests or not has_begun(directory / before.directory):
-        return
-    if parts := changed_since(directory, before):
-        raise ValueError(
-            f"{directory}: holds runs of the case {Path(before.case).name} before it changed: "
-            f"{', '.join(parts)}; choose another directory, or undo the change"
         )
 
 
