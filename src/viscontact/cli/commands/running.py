@@ -158,11 +158,9 @@ def run(
                 execute(common)
                 return
             with interruption.postponed():
-                from viscontact.cli.sweep.execution import execute_many
-                from viscontact.cli.sweep.job_array import write_array
+                from viscontact.cli.sweep.execution import execute_several
                 from viscontact.cli.sweep.plan_options import PlanOptions
                 from viscontact.cli.sweep.request import ManyRequest
-                from viscontact.cli.sweep.single_task import execute_task
             options = PlanOptions(
                 tuple(varied or ()),
                 zipped,
@@ -172,19 +170,9 @@ def run(
                 seed,
                 None if method is None else method.value,
             )
-            if scheduler is not None and not scheduler.strip():
-                refuse("--scheduler: is empty; give the address or the file of one, or local")
-            request = ManyRequest(tuple(cases), common, options, jobs, scheduler or "")
-            if scheduler and (task is not None or array is not None):
-                refuse("--scheduler computes the runs; --array and --task do not go with it")
-            if task is not None:
-                execute_task(request, array, task)
-            elif array is not None:
-                write_array(request, array)
-            elif manifests := [each for each in cases if each.suffix == ".jsonl"]:
-                refuse(f"{manifests[0]}: is a manifest of runs; compute one of them with --task N")
-            else:
-                execute_many(request)
+            execute_several(
+                ManyRequest(tuple(cases), common, options, jobs, scheduler, array, task)
+            )
     except KeyboardInterrupt:
         stop("interrupted", code=INTERRUPTED)
 

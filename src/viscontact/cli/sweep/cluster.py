@@ -82,6 +82,8 @@ def _client(scheduler: str, count: int) -> Iterator[Any]:
 
 def _address(scheduler: str) -> str:
     """Address of a scheduler, which may be given by its file."""
+    if not scheduler.strip():
+        refuse("--scheduler: is empty; give the address or the file of one, or local")
     file = Path(scheduler)
     if not file.is_file():
         if ":" in scheduler and file.suffix != ".json":

@@ -6,9 +6,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 
 from viscontact.cli.sweep.cluster import cluster_tasks
+from viscontact.cli.sweep.job_array import write_array
 from viscontact.cli.sweep.jobs import CheckedSweep, checked_sweep, fitting, resource_warnings
 from viscontact.cli.sweep.progress import shown_runs
 from viscontact.cli.sweep.request import ManyRequest
+from viscontact.cli.sweep.single_task import execute_task
 from viscontact.cli.sweep.table import first_names, print_table
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
@@ -23,6 +25,20 @@ from viscontact.studies.sweep.states import State, state_at_end
 
 #: Most failed runs that are named at the end.
 _MOST_NAMES = 20
+
+
+def execute_several(request: ManyRequest) -> None:
+    """Run several cases, or one run of a manifest, or write the script of a job array."""
+    if request.scheduler is not None and (request.task, request.array) != (None, None):
+        refuse("--scheduler computes the runs; --array and --task do not go with it")
+    if request.task is not None:
+        execute_task(request, request.task)
+    elif request.array is not None:
+        write_array(request, request.array)
+    elif manifests := [each for each in request.cases if each.suffix == ".jsonl"]:
+        refuse(f"{manifests[0]}: is a manifest of runs; compute one of them with --task N")
+    else:
+        execute_many(request)
 
 
 def execute_many(request: ManyRequest) -> None:
@@ -53,7 +69,7 @@ def _workers(
     if request.jobs and not quiet and not request.is_elsewhere:
         for line in resource_warnings(jobs, wanted, at_once, threads):
             say(line)
-    if request.scheduler:
+    if request.scheduler is not None:
         place = request.common.output or request.cases[0].parent
         with cluster_tasks(request.scheduler, at_once, place, jobs, quiet=quiet) as tasks:
             yield tasks

@@ -30,12 +30,14 @@ class ManyRequest:
     common: RunRequest  # its case is ignored, its output holds the run directories
     options: PlanOptions = field(default_factory=PlanOptions)
     jobs: int | None = None  # as many as there are cores
-    scheduler: str = ""  # of a cluster: address, file, or local
+    scheduler: str | None = None  # of a cluster: address, file, or local
+    array: Path | None = None  # script of a job array, which is written in place of the runs
+    task: int | None = None  # number of the only run in a manifest, which is the case
 
     @property
     def is_elsewhere(self) -> bool:
         """True if the runs are computed by a scheduler, on other machines."""
-        return self.scheduler not in ("", "local")
+        return self.scheduler not in (None, "local")
 
     def planned(self) -> list[PlannedRun]:
         """Return each combination of a case and a row of its design."""
@@ -67,7 +69,7 @@ class ManyRequest:
         yield from self.options.words()
         if self.jobs is not None:
             yield from ("-j", str(self.jobs))
-        if self.scheduler:
+        if self.scheduler is not None:
             yield from ("--scheduler", self.scheduler)
 
     def _output(self, case: Path, name: str) -> Path | None:

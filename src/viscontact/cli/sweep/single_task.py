@@ -35,12 +35,12 @@ from viscontact.studies.sweep.manifest import SweepRun, read_manifest, write_man
 _OWN_GRID, _CELLS = {"grid", "grid.shape", "grid.size"}, f"grid.{KEY}"
 
 
-def execute_task(request: ManyRequest, array: Path | None, number: int) -> None:
+def execute_task(request: ManyRequest, number: int) -> None:
     """Compute the run with a number in a manifest, or the rest of it, with other settings."""
     common = request.common
     if common.overwrite and common.resume:
         refuse("--resume continues a run and --overwrite starts it again: give one of them")
-    is_plain = request == ManyRequest(request.cases, request.common) and array is None
+    is_plain = request == ManyRequest(request.cases, request.common, task=number)
     if len(request.cases) > 1 or not is_plain or common.output is not None:
         refuse(
             f"--task {number}: takes the manifest of a sweep, which names the case, the settings "
