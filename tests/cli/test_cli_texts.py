@@ -8,7 +8,7 @@ from pathlib import Path
 from viscontact.bodies.indenters import Sphere
 from viscontact.cli.material.fit_options import read_indenter, read_kelvin, read_stress, read_weight
 from viscontact.cli.quick_imports import quick_imports
-from viscontact.cli.studies.arguments import as_typed, bounds
+from viscontact.cli.studies.typed_options import as_typed, bounds
 from viscontact.cli.sweep.checks import _list_names
 from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch, split_values
 from viscontact.cli.sweep.request import ManyRequest

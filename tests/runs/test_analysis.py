@@ -12,7 +12,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.bodies.loads.steady_motion import SteadyMotion
-from viscontact.mechanics.problem.arguments import contact_problem
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder

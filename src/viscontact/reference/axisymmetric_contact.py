@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.profiles import Profile, arcsine
+from viscontact.reference.values import Values
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
-from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.values import Values, require_positive
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.values import Values, require_positive
 
 #: Wave number times thickness beyond which L - 1 is below rounding.
 SHORTEST_WAVE = 22.0

@@ -11,10 +11,10 @@ import math
 
 import numpy as np
 
-from viscontact.reference.arguments import require_positive
 from viscontact.reference.growing_load import RampedLoad, SuddenLoad
 from viscontact.reference.hereditary import TimeFunction, evaluate
 from viscontact.reference.lee_radok_contact import LeeRadokContact
+from viscontact.reference.values import require_positive
 
 
 def lee_radok_step(

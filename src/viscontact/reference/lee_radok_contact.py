@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values
 from viscontact.reference.growing_load import GrowingLoad
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
+from viscontact.reference.values import Values
 
 _PAIRS_AT_ONCE = 64  # (r, t) pairs evaluated together: some 10 MB of intermediate arrays
 

@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import require_positive
+from viscontact.reference.values import require_positive
 
 
 class Profile(Protocol):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.values import Values, require_positive
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 from scipy.special import expit, ive, kve
 
-from viscontact.reference.arguments import require_positive
+from viscontact.reference.values import require_positive
 
 #: Argument of Bessel functions from which on two terms of their asymptotic series are enough.
 LARGE = 1e7

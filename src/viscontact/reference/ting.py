@@ -10,10 +10,10 @@ from typing import TypeAlias
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import require_positive
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
 from viscontact.reference.profiles import ConeProfile, SphereProfile
 from viscontact.reference.ting_contact import SinglePress
+from viscontact.reference.values import require_positive
 
 GrowingProfile: TypeAlias = SphereProfile | ConeProfile
 """Indenter whose contact grows with the approach."""

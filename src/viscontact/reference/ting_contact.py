@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values
+from viscontact.reference.values import Values
 
 
 def over_times(function: Callable[[Floats], Floats], t: ArrayLike) -> Values:

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.ting import GrowingProfile
 from viscontact.reference.ting_contact import TingContact
+from viscontact.reference.values import Values, require_positive
 
 _GAUSS, _WEIGHTS = legendre.leggauss(60)
 

@@ -12,8 +12,8 @@ from scipy.integrate import quad
 from scipy.special import lambertw
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.ting_contact import SinglePress, over_times
+from viscontact.reference.values import Values, require_positive
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,10 @@ from scipy.optimize import brentq
 from scipy.special import hyp1f1
 
 from viscontact.backend.arrays import Floats
-from viscontact.reference.arguments import Values, require_positive
 from viscontact.reference.profiles import SphereProfile
 from viscontact.reference.ting import GrowingProfile
 from viscontact.reference.ting_contact import SinglePress
+from viscontact.reference.values import Values, require_positive
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,11 @@ from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.problem.arguments import contact_problem
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.solving import solve
-from viscontact.simulation.checks.arguments import unusual_radius
+from viscontact.simulation.checks.problem_checks import unusual_radius
 from viscontact.simulation.transient.found_events import carried_out
 from viscontact.simulation.transient.progress_bar import ProgressBar, reported
 from viscontact.simulation.transient.setup import prepare_run

@@ -14,7 +14,7 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.steady_motion import steady_motion
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.problem.arguments import contact_problem
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.solving import solve
 from viscontact.simulation.steady_motion.preparation import prepare

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from viscontact.bodies.indenters.arc import arc_drop
-from viscontact.bodies.indenters.arguments import acute_angle
 from viscontact.bodies.indenters.named_profiles import named_profile, profile_from_table
 from viscontact.bodies.indenters.point_line import TableLine, mirrored, numbers
+from viscontact.bodies.indenters.position_checks import acute_angle
 
 
 def test_arc_of_radius_five_drops_by_one_at_three():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from viscontact.bodies.loads.arguments import instants, numbers
+from viscontact.bodies.loads.history_points import instants, numbers
 from viscontact.bodies.loads.level import prescribed_level
 from viscontact.bodies.loads.program import Segment
 from viscontact.bodies.loads.program_sentences import parsed_condition, parsed_sentences

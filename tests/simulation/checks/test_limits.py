@@ -7,11 +7,11 @@ import pytest
 
 import viscontact as vc
 from viscontact.bodies.materials.compliance import SeriesCompliance
-from viscontact.simulation.checks.arguments import unusual_radius
 from viscontact.simulation.checks.material import law_warnings, origin_warnings, splitting_warnings
 from viscontact.simulation.checks.mesh import layer_warnings
 from viscontact.simulation.checks.motion import free_tilt_warnings, unresolved_loss, way_warnings
 from viscontact.simulation.checks.periodicity import datum_warnings
+from viscontact.simulation.checks.problem_checks import unusual_radius
 from viscontact.simulation.checks.sampling import local_approach
 from viscontact.simulation.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
 

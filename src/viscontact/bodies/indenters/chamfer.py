@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.arc import arc_drop
-from viscontact.bodies.indenters.arguments import acute_angle
+from viscontact.bodies.indenters.position_checks import acute_angle
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import check_fields, non_negative

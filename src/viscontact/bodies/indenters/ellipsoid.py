@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.arc import arc_drop
-from viscontact.bodies.indenters.arguments import positions
 from viscontact.bodies.indenters.indenter import Indenter
+from viscontact.bodies.indenters.position_checks import positions
 from viscontact.units.numbers import check_fields
 
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters.arguments import acute_angle, positions
 from viscontact.bodies.indenters.indenter import Indenter
+from viscontact.bodies.indenters.position_checks import acute_angle, positions
 from viscontact.units.numbers import check_fields, store, whole
 
 

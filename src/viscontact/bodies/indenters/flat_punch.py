@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.bodies.indenters.arguments import positions
 from viscontact.bodies.indenters.indenter import Indenter
+from viscontact.bodies.indenters.position_checks import positions
 from viscontact.units.numbers import check_fields
 
 

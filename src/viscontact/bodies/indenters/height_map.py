@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats, Integers
-from viscontact.bodies.indenters.arguments import positions
 from viscontact.bodies.indenters.indenter import Indenter
+from viscontact.bodies.indenters.position_checks import positions
 from viscontact.units.formatting import format_quantity
 
 #: Largest height, whose square is still a finite number [m].

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters.arguments import positions
+from viscontact.bodies.indenters.position_checks import positions
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import check_fields, finite
 

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.arc import arc_drop
-from viscontact.bodies.indenters.arguments import positions
 from viscontact.bodies.indenters.crowns import CylindricalProfile, PartialCrown
 from viscontact.bodies.indenters.indenter import Indenter
 from viscontact.bodies.indenters.named_profiles import named_profile, profile_from_table
+from viscontact.bodies.indenters.position_checks import positions
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.units.numbers import positive
 

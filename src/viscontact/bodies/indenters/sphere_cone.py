@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.arc import arc_drop
-from viscontact.bodies.indenters.arguments import acute_angle, positions
 from viscontact.bodies.indenters.indenter import Indenter
+from viscontact.bodies.indenters.position_checks import acute_angle, positions
 from viscontact.units.numbers import as_real, check_fields, positive
 
 

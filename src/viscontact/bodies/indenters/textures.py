@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters.arguments import positions
 from viscontact.bodies.indenters.indenter import Indenter
+from viscontact.bodies.indenters.position_checks import positions
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import check_fields, finite
 

@@ -9,13 +9,13 @@ from functools import cached_property
 from typing import Literal
 
 from viscontact.backend.arrays import Complexes, Floats
-from viscontact.bodies.laws.arguments import one_of
 from viscontact.bodies.laws.interconversion.cached_inverse import Inverse
 from viscontact.bodies.laws.interconversion.curve_transform import oscillating
 from viscontact.bodies.laws.interconversion.log_curve import LogCurve
 from viscontact.bodies.laws.interconversion.oscillation import half_inverse
 from viscontact.bodies.laws.interconversion.volterra import first_node
 from viscontact.bodies.laws.law import Law, slowing
+from viscontact.bodies.laws.parameter_checks import one_of
 from viscontact.bodies.laws.table_columns import check_columns, check_left
 from viscontact.bodies.laws.uniaxial import uniaxial
 

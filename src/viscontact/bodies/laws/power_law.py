@@ -9,11 +9,11 @@ import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Complexes, Floats
-from viscontact.bodies.laws.arguments import exponent
 from viscontact.bodies.laws.interconversion.log_curve import mean_power
 from viscontact.bodies.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.bodies.laws.interconversion.oscillation import half_inverse
 from viscontact.bodies.laws.law import Law, slowing
+from viscontact.bodies.laws.parameter_checks import exponent
 from viscontact.bodies.laws.uniaxial import uniaxial
 from viscontact.units.numbers import check_fields, non_negative
 

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import Self
 
 from viscontact.backend.arrays import Complexes, Floats
-from viscontact.bodies.laws.arguments import check_series
 from viscontact.bodies.laws.interconversion.oscillation import (
     modulus_of_creep,
     modulus_of_relaxation,
@@ -25,6 +24,7 @@ from viscontact.bodies.laws.interconversion.series import (
     relaxation_function,
 )
 from viscontact.bodies.laws.law import Law, slowing
+from viscontact.bodies.laws.parameter_checks import check_series
 from viscontact.bodies.laws.uniaxial import uniaxial
 from viscontact.units.numbers import check_fields, non_negative
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viscontact.bodies.laws.arguments import compressibility
+from viscontact.bodies.laws.parameter_checks import compressibility
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import positive
 

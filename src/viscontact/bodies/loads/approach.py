@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.loads import arguments
+from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.piecewise import PiecewiseHistory
 from viscontact.units.numbers import store
 
@@ -71,9 +71,9 @@ class ApproachHistory(PiecewiseHistory):
         tilt_y: ArrayLike | None = 0.0,
     ) -> None:
         # Written out, so that lists are accepted and arrays are stored.
-        instants = arguments.instants(times)
-        values = arguments.values(ApproachHistory, "approach", approach, instants.size)
-        tilts = arguments.tail(ApproachHistory, instants.size, tilt_x=tilt_x, tilt_y=tilt_y)
+        instants = history_points.instants(times)
+        values = history_points.values(ApproachHistory, "approach", approach, instants.size)
+        tilts = history_points.tail(ApproachHistory, instants.size, tilt_x=tilt_x, tilt_y=tilt_y)
         store(self, times=instants, approach=np.broadcast_to(values, instants.shape), **tilts)
 
     def approach_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
@@ -102,7 +102,7 @@ class ApproachHistory(PiecewiseHistory):
         >>> ApproachHistory([1.0], [1e-6]).approach_at([0.0, 1.0, 2.0]).tolist()
         [0.0, 1e-06, 1e-06]
         """
-        instants = arguments.numbers("times", times, "s")
+        instants = history_points.numbers("times", times, "s")
         approach = self._interpolate(self.approach, instants, side)
         return np.where(self._begun(instants, side), approach, min(float(self.approach[0]), 0.0))
 

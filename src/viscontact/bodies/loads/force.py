@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.loads import arguments
+from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.piecewise import PiecewiseHistory
 from viscontact.units.numbers import store
 
@@ -72,8 +72,8 @@ class ForceHistory(PiecewiseHistory):
         tilt_y: ArrayLike | None = None,
     ) -> None:
         # Written out, so that lists are accepted and arrays are stored.
-        instants = arguments.instants(times)
-        tail = arguments.tail(
+        instants = history_points.instants(times)
+        tail = history_points.tail(
             ForceHistory,
             instants.size,
             eccentricity_x=eccentricity_x,
@@ -81,7 +81,7 @@ class ForceHistory(PiecewiseHistory):
             tilt_x=tilt_x,
             tilt_y=tilt_y,
         )
-        forces = arguments.forces(ForceHistory, force, instants.size)
+        forces = history_points.forces(ForceHistory, force, instants.size)
         store(self, times=instants, force=forces, **tail)
 
     def force_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
@@ -110,7 +110,7 @@ class ForceHistory(PiecewiseHistory):
         >>> ForceHistory([0.0], [10.0]).force_at([0.0, 1.0], side="left").tolist()
         [0.0, 10.0]
         """
-        instants = arguments.numbers("times", times, "s")
+        instants = history_points.numbers("times", times, "s")
         force = self._interpolate(self.force, instants, side)
         counts = self._begun(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
         return np.where(counts, force, 0.0)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.loads import arguments
+from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.force import NEGLIGIBLE
 from viscontact.bodies.loads.history import Control, Cycle, LoadHistory
 from viscontact.bodies.loads.level import (
@@ -75,12 +75,12 @@ class HarmonicHistory(LoadHistory):
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
-        instants = arguments.numbers("times", times, "s")
+        instants = history_points.numbers("times", times, "s")
         turns = np.minimum(instants, self.end) / self.period
         # Whole cycles are subtracted first: sin(2 π n) is not 0 in floating point.
         angle = 2 * math.pi * (turns - np.floor(turns)) + self.phase
         level = self.mean + self.amplitude * np.sin(angle)
-        started = instants >= 0 if arguments.side_of_jump(side) == "right" else instants > 0
+        started = instants >= 0 if history_points.side_of_jump(side) == "right" else instants > 0
         if self.control == "force":
             counts = started & (level >= NEGLIGIBLE * self.largest_level)
             return np.where(counts, level, 0.0)
@@ -204,7 +204,7 @@ def _scalar_tail(
         "tilt_y": tilt_y,
     }
     # The checks of a history with one point; below, a list of one number is refused as well.
-    arguments.tail(HarmonicHistory, 1, **given)
+    history_points.tail(HarmonicHistory, 1, **given)
     return {name: None if value is None else _number(name, value) for name, value in given.items()}
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.loads.arguments import numbers
 from viscontact.bodies.loads.history import Control, LoadHistory, LoadPoint
+from viscontact.bodies.loads.history_points import numbers
 from viscontact.bodies.loads.program import LoadProgram
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite, store

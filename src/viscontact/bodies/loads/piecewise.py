@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.bodies.loads import arguments
+from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.history import Cycle, LoadHistory, LoadInstant, LoadPoint
 from viscontact.units.numbers import finite
 
@@ -54,7 +54,7 @@ class PiecewiseHistory(LoadHistory):
         instant = np.asarray(finite("time", time, "s"))
         level = float(self.level_at(instant, side=side))
         values: dict[str, Any] = {"force": None, self.control: level}
-        for name in arguments.TAIL:
+        for name in history_points.TAIL:
             of = getattr(self, name)
             values[name] = None if of is None else float(self._interpolate(of, instant, side))
         return LoadPoint(**values)
@@ -73,7 +73,7 @@ class PiecewiseHistory(LoadHistory):
         kinks = self.kinks
         before, after = self.level_at(kinks, side="left"), self.level_at(kinks)
         changed = before != after
-        for name in arguments.TAIL:
+        for name in history_points.TAIL:
             of = getattr(self, name)
             if of is not None:
                 left, right = (self._interpolate(of, kinks, side) for side in ("left", "right"))
@@ -86,7 +86,9 @@ class PiecewiseHistory(LoadHistory):
         level = self.level_at(times, side=side)
         if self.control == "force":
             return np.asarray(level != 0)
-        tilts = [of for of in (getattr(self, name) for name in arguments.TILTS) if of is not None]
+        tilts = [
+            of for of in (getattr(self, name) for name in history_points.TILTS) if of is not None
+        ]
         tilted = [self._interpolate(of, times, side) != 0 for of in tilts]
         return np.asarray(np.logical_or.reduce([level > 0, *tilted]))
 
@@ -134,7 +136,7 @@ class PiecewiseHistory(LoadHistory):
         """Values at `times`, held before the first and after the last point."""
         if isinstance(values, float):
             return np.full(times.shape, values)
-        reached = np.searchsorted(self.times, times, side=arguments.side_of_jump(side))
+        reached = np.searchsorted(self.times, times, side=history_points.side_of_jump(side))
         i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
         span = self.times[j] - self.times[i]
         part = np.divide(times - self.times[i], span, out=np.zeros(times.shape), where=span > 0)
@@ -144,7 +146,9 @@ class PiecewiseHistory(LoadHistory):
         return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
 
     def _begun(self, times: Floats, side: str) -> Bools:
-        return np.asarray(np.searchsorted(self.times, times, side=arguments.side_of_jump(side)) > 0)
+        return np.asarray(
+            np.searchsorted(self.times, times, side=history_points.side_of_jump(side)) > 0
+        )
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.loads import arguments
+from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.motion import Motion, checked_rolling, refuse_long_path
 from viscontact.units.numbers import store
 
@@ -69,14 +69,14 @@ class Travel(Motion):
         *,
         rolling: bool | None = None,
     ) -> None:
-        instants = arguments.instants(times)
+        instants = history_points.instants(times)
         for i in np.flatnonzero(np.diff(instants) == 0)[:1]:
             raise ValueError(
                 f"times must increase, got {instants[i]} s twice: the position cannot jump; give "
                 "the time that the body takes for the distance"
             )
         along_x, along_y = (
-            arguments.values(Travel, name, given, instants.size)
+            history_points.values(Travel, name, given, instants.size)
             for name, given in (("x", x), ("y", y))
         )
         store(self, times=instants, x=along_x, y=along_y, rolling=checked_rolling(rolling))

@@ -13,8 +13,8 @@ from viscontact.bodies.laws import (
     TabulatedCreep,
     TabulatedRelaxation,
 )
-from viscontact.bodies.laws.arguments import compressibility
 from viscontact.bodies.laws.interconversion.series import relaxation_from_creep
+from viscontact.bodies.laws.parameter_checks import compressibility
 from viscontact.bodies.materials.compliance import (
     ContactCompliance,
     LawCompliance,

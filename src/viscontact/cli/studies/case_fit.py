@@ -9,8 +9,8 @@ from typing import Any
 
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.cli.material.fit_report import DeferredFigure, draw_fit, write_section
-from viscontact.cli.studies.arguments import bounds, by_key, case_of, settings_of
 from viscontact.cli.studies.execution import Records, performed, write_report
+from viscontact.cli.studies.typed_options import bounds, by_key, case_of, settings_of
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.studies.calibration.fit_case import fit_case
 from viscontact.studies.calibration.result import CaseFit

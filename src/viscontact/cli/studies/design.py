@@ -6,15 +6,15 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from viscontact.cli.studies.arguments import (
+from viscontact.cli.studies.execution import Records, conclude, performed
+from viscontact.cli.studies.profiles import execute_profile_design
+from viscontact.cli.studies.typed_options import (
     bounds,
     by_key,
     instant,
     scenarios_of,
     shared_arguments,
 )
-from viscontact.cli.studies.execution import Records, conclude, performed
-from viscontact.cli.studies.profiles import execute_profile_design
 from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
 from viscontact.studies.design.design import design

@@ -10,7 +10,7 @@ from typing import Any, Protocol, TypeVar
 
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.case import CaseError
-from viscontact.cli.studies.arguments import as_typed
+from viscontact.cli.studies.typed_options import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.studies.design.conclusions import InfeasibleError

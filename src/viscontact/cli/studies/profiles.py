@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.cli.studies.arguments import instant, quantity, scenarios_of, shared_arguments
 from viscontact.cli.studies.execution import Records, conclude, performed
+from viscontact.cli.studies.typed_options import instant, quantity, scenarios_of, shared_arguments
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.studies.design.profiles.design_profile import design_profile
 from viscontact.studies.design.profiles.drawing import write_dxf

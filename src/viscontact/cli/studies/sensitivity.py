@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from viscontact.cli.studies.arguments import bounds, by_key, instant, shared_arguments
 from viscontact.cli.studies.execution import OF_ALL, Records, conclude, performed
+from viscontact.cli.studies.typed_options import bounds, by_key, instant, shared_arguments
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.studies.sensitivity.result import SensitivityResult
 from viscontact.studies.sensitivity.sensitivity import sensitivity

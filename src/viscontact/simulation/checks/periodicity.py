@@ -12,7 +12,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.loads.arguments import TAIL
+from viscontact.bodies.loads.history_points import TAIL
 from viscontact.units.formatting import format_quantity
 
 #: Reason why a line contact has no approach (Johnson 1985, Contact Mechanics, section 2.3).

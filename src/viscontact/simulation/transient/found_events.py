@@ -17,7 +17,7 @@ from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
-from viscontact.simulation.checks.arguments import check_mixed
+from viscontact.simulation.checks.problem_checks import check_mixed
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.mesh_choice import choose_mesh
 from viscontact.simulation.transient.event_search import EventSearch

@@ -15,7 +15,9 @@ from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
-from viscontact.simulation.checks.arguments import (
+from viscontact.simulation.checks.motion import check_motion, check_path
+from viscontact.simulation.checks.periodicity import check_endless, check_period
+from viscontact.simulation.checks.problem_checks import (
     check_balance,
     check_creep,
     check_jumps,
@@ -25,8 +27,6 @@ from viscontact.simulation.checks.arguments import (
     check_touch,
     points_under_load,
 )
-from viscontact.simulation.checks.motion import check_motion, check_path
-from viscontact.simulation.checks.periodicity import check_endless, check_period
 from viscontact.simulation.meshing.mesh_choice import Mesh, choose_mesh
 from viscontact.simulation.meshing.path_extent import grid_over_path
 from viscontact.simulation.transient.moving_body import PeriodicBody, cells_seen

@@ -15,7 +15,7 @@ from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.problem.arguments import contact_problem
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.simulation.transient.found_events import carried_out

@@ -13,8 +13,8 @@ from typing import Any, Self
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import MixedHistory
-from viscontact.mechanics.problem.arguments import contact_problem
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.analysis import plain_case
 from viscontact.runs.command_error import CommandError, refuse

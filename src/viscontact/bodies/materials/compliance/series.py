@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.laws.arguments import check_series
 from viscontact.bodies.laws.interconversion.series import (
     RelaxationTerms,
     SeriesTerms,
@@ -18,6 +17,7 @@ from viscontact.bodies.laws.interconversion.series import (
     relaxation_from_creep,
     relaxation_function,
 )
+from viscontact.bodies.laws.parameter_checks import check_series
 from viscontact.bodies.materials.compliance.base import ContactCompliance
 from viscontact.bodies.materials.compliance.sum import SummedCompliance
 from viscontact.units.numbers import check_fields, non_negative, store

@@ -10,7 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, Roller, Sphere
 from viscontact.bodies.loads import LoadHistory, LoadPoint, MixedHistory
-from viscontact.bodies.loads.arguments import TAIL
+from viscontact.bodies.loads.history_points import TAIL
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.checks.load_support import LoadSupport
 from viscontact.units.formatting import format_quantity
