@@ -1,4 +1,4 @@
-"""Result of a study that is shown on a page of HTML."""
+"""Result of a study that is shown on a page of HTML, and the error of one without a result."""
 
 from __future__ import annotations
 
@@ -7,6 +7,10 @@ from os import PathLike
 from typing import Any
 
 from viscontact.units.display import write_study_report
+
+
+class InfeasibleError(ValueError):
+    """A study has no result: none of its runs keeps what is requested."""
 
 
 class StudyResult(ABC):

@@ -1,1 +1,1 @@
-"""Commands of studies: `design`, `sensitivity` and `fit --case`."""
+"""Commands of studies: their options as arguments, their execution, and what they print."""

@@ -17,10 +17,6 @@ from viscontact.units.formatting import format_quantity
 AT_BOUND, BESIDE = 0.01, 0.02
 
 
-class InfeasibleError(ValueError):
-    """No trial of a design keeps all constraints."""
-
-
 def why_infeasible(trials: Trials) -> str:
     """Reason why no trial is feasible, with the closest one."""
     names = " or the ".join(goal.scalar for goal in trials.goals)

@@ -18,12 +18,7 @@ from viscontact.studies.case_values import (
     texts,
 )
 from viscontact.studies.cells import coarse_cells
-from viscontact.studies.design.conclusions import (
-    InfeasibleError,
-    notes_on,
-    notes_on_trade_off,
-    why_infeasible,
-)
+from viscontact.studies.design.conclusions import notes_on, notes_on_trade_off, why_infeasible
 from viscontact.studies.design.evaluated_trials import Searched, Trials, searched
 from viscontact.studies.design.goals import Goal, constraints_of, goals_of
 from viscontact.studies.design.objectives import Objective
@@ -38,6 +33,7 @@ from viscontact.studies.journal import journal_of
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
 from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
+from viscontact.studies.study_result import InfeasibleError
 from viscontact.units.numbers import whole
 
 #: Most runs of a search, where none are given.
