@@ -14,7 +14,7 @@ from viscontact.results.margins import margins
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import field_times
 from viscontact.results.variables import SCALARS, error_name
-from viscontact.units.formatting import format_quantity
+from viscontact.units.formatting import column_heading, format_quantity
 
 
 def write_history(
@@ -62,8 +62,7 @@ def _header(ds: xr.Dataset) -> Iterator[str]:
     yield f"{axis.name} [{axis.unit}]"
     for name in (*_scalars(ds), *_errors(ds)):
         units = SCALARS[name].units if name in SCALARS else str(ds[name].attrs["units"])
-        unit = {"m2": "m^2"}.get(units, units)
-        yield name if unit == "1" else f"{name} [{unit}]"
+        yield column_heading(name, units)
 
 
 def _scalars(ds: xr.Dataset) -> list[str]:

@@ -101,6 +101,16 @@ def _unit_of_hours(time: float, digits: int, usual: ReadableUnit) -> ReadableUni
     return min(units, key=needed)
 
 
+def column_heading(name: str, unit: str) -> str:
+    """Heading of a column of numbers in an SI unit, which is read back as a quantity."""
+    return name if unit == "1" else f"{name} [{typed_unit(unit)}]"
+
+
+def typed_unit(unit: str) -> str:
+    """SI unit of results as it is typed behind a number."""
+    return "m^2" if unit == "m2" else unit
+
+
 def quoted(text: str, most: int = 60) -> str:
     """Return a text in quotation marks, shortened to a number of characters."""
     return repr(text if len(text) <= most else f"{text[: most - 3]}...")

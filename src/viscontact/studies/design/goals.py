@@ -11,7 +11,7 @@ import xarray as xr
 
 from viscontact.results.variables import SCALARS
 from viscontact.studies.scalars import At, Value, known_scalar, magnitude
-from viscontact.units.formatting import format_quantity
+from viscontact.units.formatting import format_quantity, typed_unit
 from viscontact.units.parsing import parse_any_quantity
 
 #: Scalars that are to be least, or largest.
@@ -20,8 +20,6 @@ Names = str | Sequence[str] | None
 MOST_GOALS = 3
 
 _CONSTRAINT = re.compile(r"\s*(\w+)\s*(<=|>=)\s*(.+?)\s*")
-#: Units of the results in the words of quantities.
-_AS_READ = {"m2": "m^2"}
 
 
 @dataclass(frozen=True)
@@ -121,6 +119,6 @@ def _constraint(text: str) -> Constraint:
         bound, given = parse_any_quantity(quantity)
     except ValueError as error:
         raise ValueError(f"constraints: {text}: {error}") from None
-    if given != _AS_READ.get(unit, unit):
+    if given != typed_unit(unit):
         raise ValueError(f"constraints: {text}: must have a unit of [{unit}], got {quantity!r}")
     return Constraint(scalar, sign == "<=", bound)

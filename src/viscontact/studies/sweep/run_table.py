@@ -11,6 +11,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats, Numbers
 from viscontact.results.variables import SCALARS, Place, error_name, shown_in
 from viscontact.studies.sweep.joint_layout import JointLayout, Progress
+from viscontact.units.formatting import column_heading
 
 #: Scalars of the table.
 LISTED = shown_in(Place.TABLE | Place.KEY)
@@ -47,23 +48,18 @@ def _spread(layout: JointLayout, coordinate: Any) -> Numbers:
 def _header(layout: JointLayout, names: list[str]) -> Iterator[str]:
     yield from ("run", "name")
     for key in layout.axes.keys:
-        yield _with_unit(key, layout.axes.coords[key].attrs.get("units", "1"))
+        yield column_heading(key, layout.axes.coords[key].attrs.get("units", "1"))
     yield "state"
     for name in names:
         for column in (name, f"largest {name}"):
-            yield _with_unit(column, SCALARS[name].units)
+            yield column_heading(column, SCALARS[name].units)
             if error_name(name) in layout.columns:
-                yield _with_unit(f"error of {column}", SCALARS[name].units)
+                yield column_heading(f"error of {column}", SCALARS[name].units)
     if layout.has_changed:
         yield "changed"
     if layout.has_verdicts:
         yield from ("verdict", "decided_by")
     yield "message"
-
-
-def _with_unit(name: str, units: str) -> str:
-    unit = {"m2": "m^2"}.get(units, units)
-    return name if unit == "1" else f"{name} [{unit}]"
 
 
 def _scalars(layout: JointLayout, names: list[str], values: Floats) -> Iterator[float | str]:
