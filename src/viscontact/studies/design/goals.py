@@ -96,7 +96,7 @@ def constraints_of(texts: Sequence[str]) -> tuple[Constraint, ...]:
     """Read constraints, as ``contact_length<=18mm``; ValueError names the fault."""
     if isinstance(texts, str):
         raise ValueError(f"constraints: must be a list, as [{texts!r}]")
-    found = tuple(map(_constraint, texts))
+    found = tuple(given_constraint("constraints", text) for text in texts)
     for upper in found:
         for lower in found:
             same = upper.scalar == lower.scalar and upper.upper and not lower.upper
@@ -105,20 +105,21 @@ def constraints_of(texts: Sequence[str]) -> tuple[Constraint, ...]:
     return found
 
 
-def _constraint(text: str) -> Constraint:
+def given_constraint(argument: str, text: str) -> Constraint:
+    """Bound of a scalar, as ``contact_length<=18mm``; ValueError begins with the argument."""
     match = _CONSTRAINT.fullmatch(text)
     if match is None:
         raise ValueError(
-            f"constraints: write SCALAR<=VALUE or SCALAR>=VALUE, as 'contact_length<=18mm', got "
+            f"{argument}: write SCALAR<=VALUE or SCALAR>=VALUE, as 'contact_length<=18mm', got "
             f"{text!r}"
         )
     name, sign, quantity = match.groups()
-    scalar = known_scalar("constraints", name)
+    scalar = known_scalar(argument, name)
     unit = SCALARS[scalar].units
     try:
         bound, given = parse_any_quantity(quantity)
     except ValueError as error:
-        raise ValueError(f"constraints: {text}: {error}") from None
+        raise ValueError(f"{argument}: {text}: {error}") from None
     if given != typed_unit(unit):
-        raise ValueError(f"constraints: {text}: must have a unit of [{unit}], got {quantity!r}")
+        raise ValueError(f"{argument}: {text}: must have a unit of [{unit}], got {quantity!r}")
     return Constraint(scalar, sign == "<=", bound)
