@@ -224,7 +224,7 @@ def test_a_bad_case_among_five_fails_alone_and_is_repeated_when_it_is_corrected(
     assert [ends[f"run{n}"].outcome == "done" for n in range(5)] == [n != 3 for n in range(5)]
     failure = json.loads((case.parent / "run3" / FAILURE_NAME).read_text(encoding="utf-8"))
     assert (failure["outcome"], failure["code"]) == ("stopped", 1)
-    assert failure["message"] == list(ends["run3"].said)
+    assert failure["message"] == list(ends["run3"].lines)
     assert "edge of the grid" in failure["message"][0]
     again = replace(jobs[0], request=replace(jobs[0].request, output=case.parent / "run3"))
     corrected = Task(again.request, case.parent / "run3", "another command")
@@ -240,7 +240,7 @@ def test_task_resumes_what_a_killed_attempt_of_the_same_command_has_left(
     # Another command is refused as at the command line; the same one finds its own result.
     outcome = perform(Task(request, case.parent / "a", "two"))
     assert (outcome.word, outcome.code) == ("refused", 1)
-    assert "holds a result already" in outcome.said[0]
+    assert "holds a result already" in outcome.lines[0]
     before = (case.parent / "a" / RESULT_NAME).stat().st_mtime_ns
     (case.parent / "a" / ".attempt").write_text("one", encoding="utf-8")
     assert perform(Task(request, case.parent / "a", "one")).word == "done"
@@ -259,7 +259,7 @@ def test_task_whose_case_has_been_edited_is_refused(case: Path) -> None:
     task = Task(request, case.parent / "a", "", digests=digests)
     outcome = perform(task)
     assert (outcome.word, outcome.code) == ("refused", 1)
-    assert outcome.said[0].startswith(f"{case}: has changed since the first run began: time; ")
+    assert outcome.lines[0].startswith(f"{case}: has changed since the first run began: time; ")
     case.write_text(CASE.replace("force: 4 N", "force: 5 N"), encoding="utf-8")
     assert perform(task).word == "done"  # the value of the run is another one in any case
 
@@ -295,7 +295,7 @@ def test_sweep_whose_directory_is_removed_is_not_begun_again_without_its_manifes
         request = RunRequest(case, settings=("time.steps=3",), resume=resume)
         outcome = perform(Task(request, sweep / "a", "one"))
         assert (outcome.word, outcome.code) == ("refused", 1)
-        assert "removed has been removed meanwhile" in outcome.said[0]
+        assert "removed has been removed meanwhile" in outcome.lines[0]
     assert not sweep.exists()
 
 

@@ -25,9 +25,9 @@ def show(
     """Print the history of a run as a table."""
     with quick_imports():
         from viscontact.cli.results.history_table import print_history
-        from viscontact.cli.results.stored import opened_history
+        from viscontact.cli.results.stored import checked_history
 
-    with opened_history(directory) as found:
+    with checked_history(directory) as found:
         print_history(found, directory, everything=everything, errors=errors)
 
 
@@ -50,11 +50,11 @@ def export(
 ) -> None:
     """Write the history of a run as CSV or XLSX, in SI units."""
     from viscontact.cli.results.history_file import write_table
-    from viscontact.cli.results.stored import opened
+    from viscontact.cli.results.stored import checked_result
 
     if output is not None and output.suffix.lower() in (".nc", ".xls", ".ods"):
         refuse(f"{output}: name a CSV or an XLSX file, e.g. -o history.csv or -o history.xlsx")
-    with opened(directory) as ds:
+    with checked_result(directory) as ds:
         write_table(ds, output, point or ())
 
 

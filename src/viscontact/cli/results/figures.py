@@ -10,7 +10,7 @@ from typing import Any
 import xarray as xr
 
 from viscontact.cli.results.compared_runs import compared_runs, note_changed, note_missing
-from viscontact.cli.results.stored import early_end, opened
+from viscontact.cli.results.stored import checked_result, early_end
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.drawing.choice import FigureChoice, require_one_axis
@@ -44,7 +44,7 @@ def draw(
     if entry.of == "sweep":
         save(plot, file, draw_it, _sweep(figure, directory), **given)
         return file
-    with opened(directory) as ds:
+    with checked_result(directory) as ds:
         _require_within(choice, ds, directory)
         _note(early_end(ds), choice.drawn_instead(ds))
         if entry.is_animation:
@@ -85,7 +85,7 @@ def draw_comparison(
     file = output or Path(f"compare-{figure}.png")
     _require_suffix(plot, file, plot.FIGURE_SUFFIXES)
     with ExitStack() as stack:
-        runs = [stack.enter_context(opened(directory)) for directory in directories]
+        runs = [stack.enter_context(checked_result(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
         if len(labelled) < len(runs):
             refuse("compare needs different runs, got one of them twice")

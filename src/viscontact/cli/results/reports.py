@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from viscontact.cli.results.stored import early_end, opened
+from viscontact.cli.results.stored import checked_result, early_end
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME
 from viscontact.studies.sweep.filed_sweep import filed_attributes
@@ -30,7 +30,7 @@ def write_report(directory: Path, output: Path | None) -> Path:
             write = getattr(package, f"write_sweep_{kind}")
             write(runs, page, title=directory.resolve().name)
             return page
-        with opened(directory) as ds:
+        with checked_result(directory) as ds:
             if ended := early_end(ds):
                 say(ended)
             getattr(package, f"write_{kind}")(ds, page, label=_run_label(directory.resolve()))

@@ -26,7 +26,7 @@ _Result = TypeVar("_Result", bound=Result)
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[xr.Dataset]:
+def checked_result(path: Path) -> Iterator[xr.Dataset]:
     """Open the result of a run, or refuse it with a message."""
     from viscontact.results.netcdf import open_results  # xarray takes half a second to import
 
@@ -35,7 +35,7 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
 
 
 @contextmanager
-def opened_history(path: Path) -> Iterator[StoredResult]:
+def checked_history(path: Path) -> Iterator[StoredResult]:
     """Open the result of a run without xarray, or refuse it with the same messages."""
     with _open_checked(path, stored_result) as found:
         yield found

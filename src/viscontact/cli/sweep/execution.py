@@ -90,7 +90,7 @@ def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> N
     if not request.common.quiet:
         _print_table(runs)
     for each in runs:
-        for line in each.said if each.code else ():
+        for line in each.lines if each.code else ():
             say(request.options.as_typed(line, sweep.keys))
     failed = [each.job.name for each in runs if state_at_end(each) is State.FAILED]
     named = first_names(failed, _MOST_NAMES)

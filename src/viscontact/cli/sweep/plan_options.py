@@ -41,11 +41,6 @@ class PlanOptions:
     method: Method | None = None
 
     @property
-    def given(self) -> bool:
-        """True if any option is given."""
-        return self != PlanOptions()
-
-    @property
     def option(self) -> str:
         """Main option of the design, for messages."""
         return "--table" if self.table else "--vary" if self.sample is None else "--sample"

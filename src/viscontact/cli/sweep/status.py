@@ -40,8 +40,8 @@ def status_lines(directory: Path, status: SweepStatus) -> Iterator[str]:
         yield f"{min(status.part, _NEARLY):.0%} done{_time_left(status)}"
     for state, listed in status.listed.items():
         for each in listed:
-            said = shorten(each.state.message, _MESSAGE, placeholder=" ...")
-            yield "  ".join(filter(None, (f"  {state.value:8}{each.name}", _part(each), said)))
+            message = shorten(each.state.message, _MESSAGE, placeholder=" ...")
+            yield "  ".join(filter(None, (f"  {state.value:8}{each.name}", _part(each), message)))
         if (more := status.counts[state] - LISTED) > 0:
             yield f"  {state.value:8}... and {more} more"
     if status.changes:
@@ -80,7 +80,7 @@ def _watch_status(directory: Path) -> SweepStatus:
     from rich.text import Text
 
     is_terminal = sys.stdout.isatty()
-    said = ""
+    printed = ""
     with Live(console=Console(), auto_refresh=False, transient=False) as live:
         while True:
             began = clock.monotonic()
@@ -88,9 +88,9 @@ def _watch_status(directory: Path) -> SweepStatus:
             text = "\n".join(status_lines(directory, status))
             if is_terminal:
                 live.update(Text(text), refresh=True)
-            elif text != said:
+            elif text != printed:
                 print(text, flush=True)
-            said = text
+            printed = text
             if status.has_ended:
                 return status
             clock.sleep(max(_PAUSE, _SHARE * (clock.monotonic() - began)))

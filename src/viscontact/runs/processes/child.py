@@ -24,7 +24,7 @@ class Ended:
     job: Job
     outcome: str  # one word
     code: int  # 0 done, 1 stopped, 130 interrupted, also before it began
-    said: tuple[str, ...] = ()  # lines of its error output
+    lines: tuple[str, ...] = ()  # lines of its error output
     resumable: bool = False  # it stopped for a reason that can be corrected
 
 
@@ -36,13 +36,13 @@ class RunProcess:
         command = [sys.executable, "-P", "-m", "viscontact.cli.child_run"]
         environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
         with ExitStack() as opened:
-            self.said = opened.enter_context(tempfile.TemporaryFile())
+            self.error_output = opened.enter_context(tempfile.TemporaryFile())
             # The end of its input, also with this process, requests a stop.
             self.process = subprocess.Popen(
                 command,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
-                stderr=self.said,
+                stderr=self.error_output,
                 env=environment,
             )
             opened.callback(self.end_input)
@@ -107,8 +107,8 @@ class Child:
         return self._end_of(self._run.process.wait())
 
     def _end_of(self, code: int) -> Ended:
-        self._run.said.seek(0)
-        lines = tuple(self._run.said.read().decode("utf-8", errors="replace").splitlines())
+        self._run.error_output.seek(0)
+        lines = tuple(self._run.error_output.read().decode("utf-8", errors="replace").splitlines())
         self._run.close()
         if code == DONE:
             return Ended(self.job, "done", DONE)

@@ -206,12 +206,11 @@ def _search(
     names = [each.name or "as in the case" for each in of_case.scenarios]
     table = table_of(made, trials.space.keys, own, names, goals, limits)
     is_trade_off = len(goals) > 1
-    said = (
-        notes_on_trade_off(searches, before)
-        if is_trade_off
-        else notes_on(best, before, searches[0])
-    )
-    notes, number = (*known, *said), made.index(best)
+    if is_trade_off:
+        notes = (*known, *notes_on_trade_off(searches, before))
+    else:
+        notes = (*known, *notes_on(best, before, searches[0]))
+    number = made.index(best)
     about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
     about["sense"] = " ".join("least" if goal.least else "largest" for goal in goals)
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}

@@ -168,7 +168,7 @@ class _Driver:
             return Ended(job, "lost", STOPPED, (why,))
         if (error := future.exception()) is None:
             outcome = future.result()
-            return Ended(job, outcome.word, outcome.code, outcome.said)
+            return Ended(job, outcome.word, outcome.code, outcome.lines)
         word, reason = self._workers.failure(error)
         why = f"{job.directory}: {reason}"
         write_failure(job.directory, word, STOPPED, (why,))

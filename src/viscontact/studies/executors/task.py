@@ -74,7 +74,7 @@ class TaskEnd:
 
     word: str  # "done", "refused", "stopped", "killed", "interrupted" or "not begun"
     code: int  # 0 done, 1 stopped, 130 interrupted, also before it began
-    said: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
 
 
 class RecordedTask(Protocol):
@@ -111,7 +111,7 @@ def perform(task: RecordedTask, stops: StopRequests | None = None) -> TaskEnd:
     if is_locked(task.directory):
         return outcome  # another run has taken it over: its files are left alone
     if outcome.code == STOPPED:
-        write_failure(task.directory, outcome.word, outcome.code, outcome.said)
+        write_failure(task.directory, outcome.word, outcome.code, outcome.lines)
     with suppress(OSError):
         (task.directory / ATTEMPT_NAME).unlink(missing_ok=True)
     return outcome
@@ -195,7 +195,7 @@ def _waited_for(child: Child, stops: StopRequests) -> TaskEnd:
                 ended = child.ended()
             except KeyboardInterrupt:
                 child.ask_to_stop()
-    return TaskEnd(ended.outcome, ended.code, ended.said)
+    return TaskEnd(ended.outcome, ended.code, ended.lines)
 
 
 def _ignore(line: str) -> None:

@@ -233,9 +233,9 @@ def _evaluated(
     table, count = derivative_table(plan, scalars, outputs), scalars.joint.sizes["run"]
     if plan.samples is not None:
         table = table.merge(scatter_table(plan.samples, scalars, outputs))
-    said = (*notes, *_failures(scalars, count), *_unknown_errors(table), *warned)
-    about["notes"] = "\n".join(said)
-    return SensitivityResult(table.assign_attrs(about), said, count)
+    notes = (*notes, *_failures(scalars, count), *_unknown_errors(table), *warned)
+    about["notes"] = "\n".join(notes)
+    return SensitivityResult(table.assign_attrs(about), notes, count)
 
 
 @contextmanager

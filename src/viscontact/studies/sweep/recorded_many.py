@@ -67,7 +67,7 @@ def record_many(
         raise KeyboardInterrupt
     failed = [each for each in ended if each.code == STOPPED]
     if failed and not return_exceptions:
-        lines = [f"{each.job.name}: {'; '.join(each.said)}" for each in failed[:_MOST_NAMED]]
+        lines = [f"{each.job.name}: {'; '.join(each.lines)}" for each in failed[:_MOST_NAMED]]
         raise RuntimeError("\n".join((f"{len(failed)} of {len(jobs)} runs failed", *lines)))
 
 

@@ -68,8 +68,8 @@ def state_at_end(ended: Ended) -> State:
 def _failure(path: Path) -> RunState:
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
-        said = found["message"]
-        message = said if isinstance(said, str) else "; ".join(map(str, said))
+        given = found["message"]
+        message = given if isinstance(given, str) else "; ".join(map(str, given))
         stopped = found.get("code") == INTERRUPTED
     except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return RunState(State.FAILED, f"{path} cannot be read")

@@ -31,7 +31,7 @@ from viscontact.web.workspace.pictures import (
     PictureChoice,
     comparison_of,
     figure_of,
-    opened,
+    result_in,
 )
 from viscontact.web.workspace.problems import RequestError
 
@@ -144,7 +144,7 @@ async def data(calculator: AppCalculator, name: str, request: Request) -> dict[s
     run = calculator.queue.run(name)
 
     def read() -> dict[str, Any]:
-        with opened(run.directory) as ds:
+        with result_in(run.directory) as ds:
             return run_data(ds)
 
     return await calculator.do(read, request)
@@ -161,8 +161,8 @@ async def interactive(
 
     def write() -> str:
         with ExitStack() as stack:
-            ds = stack.enter_context(opened(run.directory))
-            beside = None if other is None else stack.enter_context(opened(other.directory))
+            ds = stack.enter_context(result_in(run.directory))
+            beside = None if other is None else stack.enter_context(result_in(other.directory))
             return json.dumps(run_figures(ds, look, beside), allow_nan=False)
 
     return Response(await calculator.do(write, request), media_type="application/json")
@@ -222,7 +222,7 @@ async def history(calculator: AppCalculator, name: str, request: Request) -> Res
 
     def write() -> str:
         text = io.StringIO()
-        with opened(run.directory) as ds:
+        with result_in(run.directory) as ds:
             write_history(ds, text)
         return text.getvalue()
 
@@ -245,7 +245,7 @@ async def report(
 def _report(run: ManagedRun, calculator: AppCalculator) -> bytes:
     """Report of a run, written again if the result has changed since."""
     kept, made_from = calculator.folder.report(run.name), run.directory / RESULT_NAME
-    with opened(run.directory) as ds, TemporaryDirectory() as elsewhere:
+    with result_in(run.directory) as ds, TemporaryDirectory() as elsewhere:
         # The times must be equal; "later" would fail after a clock is set back.
         written = made_from.stat().st_mtime_ns
         if kept.is_file() and kept.stat().st_mtime_ns == written:

@@ -157,9 +157,9 @@ class ManagedRun:
         ahead = 1 - self.course.part + (ERRORS_PART if self.entry.errors else 0.0)
         return each * ahead
 
-    def set_state(self, state: str, *said: str, resumable: bool = False) -> None:
+    def set_state(self, state: str, *lines: str, resumable: bool = False) -> None:
         """Change the state, here and in the folder."""
-        self.entry = replace(self.entry, state=state, said=said, resumable=resumable)
+        self.entry = replace(self.entry, state=state, said=lines, resumable=resumable)
         with suppress(OSError):  # a full disk; the state is kept in memory
             self._folder.keep(self.name, self.entry)
 
@@ -180,7 +180,7 @@ class ManagedRun:
         by_request = self._stop_state or "interrupted"
         states = {DONE: "done", INTERRUPTED: by_request}
         state = states.get(ended.code, "failed")
-        self.set_state(state, *ended.said, resumable=ended.resumable)
+        self.set_state(state, *ended.lines, resumable=ended.resumable)
 
     def _poll_lock(self) -> None:
         """Update a run of an earlier server, which ends when its lock is free."""

@@ -47,7 +47,7 @@ def figure_of(
     directory: Path, figures: Mapping[str, Callable[..., Figure]], choice: PictureChoice
 ) -> bytes:
     """Draw a figure of a run."""
-    with opened(directory) as ds:
+    with result_in(directory) as ds:
         return _draw(figures, ds, [ds], choice)
 
 
@@ -56,7 +56,7 @@ def comparison_of(
 ) -> bytes:
     """Draw a figure of several runs."""
     with ExitStack() as stack:
-        results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
+        results = {label: stack.enter_context(result_in(path)) for label, path in runs.items()}
         with _as_answer():
             require_one_axis(results)
         return _draw(figures, results, list(results.values()), choice)
@@ -87,7 +87,7 @@ def _opposite(colour: str) -> str:
     return "#" + "".join(f"{round(255 * part):02x}" for part in turned)
 
 
-def opened(directory: Path) -> xr.Dataset:
+def result_in(directory: Path) -> xr.Dataset:
     """Open the result of a run, or raise RequestError."""
     try:
         ds = open_results(directory)
