@@ -144,6 +144,8 @@ def run(
 
     Several runs:  viscontact run my.yaml --vary load.force=5kN,10kN,20kN -j 2 -o forces
     """
+    if resume and overwrite:
+        refuse("--resume continues runs and --overwrite starts them again: give one of them")
     common = RunRequest(cases[0], output, overwrite, resume, tuple(settings or ()), threads, quiet)
     several = (varied, zipped or None, table, sample, ranges, seed, method, array, task, scheduler)
     is_single = (

@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from viscontact.cli.terminal.interruption import watched_interruption
-from viscontact.cli.terminal.messages import refuse, say, stop
+from viscontact.cli.terminal.messages import say, stop
 from viscontact.cli.terminal.progress import shown_progress
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import Monitor, execute_run
@@ -15,8 +15,6 @@ from viscontact.runs.processes.request import RunRequest
 
 def execute(request: RunRequest) -> Path:
     """Run a case, write its result, and print a summary; return the run directory."""
-    if request.overwrite and request.resume:
-        refuse("--resume continues a run and --overwrite starts it again: give one of them")
     quiet = request.quiet
     with watched_interruption() as interruption:
         progress = partial(shown_progress, quiet=quiet)

@@ -43,8 +43,6 @@ def execute_several(request: ManyRequest) -> None:
 
 def execute_many(request: ManyRequest) -> None:
     """Run several cases, each into its directory."""
-    if request.common.overwrite and request.common.resume:
-        refuse("--resume continues runs and --overwrite starts them again: give one of them")
     quiet = request.common.quiet
     with watched_interruption() as interruption, ExitStack() as opened:
         with before_the_first_step():

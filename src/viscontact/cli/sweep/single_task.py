@@ -38,8 +38,6 @@ _OWN_GRID, _CELLS = {"grid", "grid.shape", "grid.size"}, f"grid.{KEY}"
 def execute_task(request: ManyRequest, number: int) -> None:
     """Compute the run with a number in a manifest, or the rest of it, with other settings."""
     common = request.common
-    if common.overwrite and common.resume:
-        refuse("--resume continues a run and --overwrite starts it again: give one of them")
     is_plain = request == ManyRequest(request.cases, request.common, task=number)
     if len(request.cases) > 1 or not is_plain or common.output is not None:
         refuse(
