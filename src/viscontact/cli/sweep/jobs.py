@@ -50,11 +50,11 @@ def checked_sweep(request: ManyRequest, *, elsewhere: bool) -> CheckedSweep:
     """Check all runs of a request; memory of this machine limits them, unless `elsewhere`."""
     memory = math.inf if elsewhere else None
     common, planned = request.common, request.planned()
-    earlier = recorded_runs(common.output)
-    kept = earlier if common.resume and any_begun(common.output, earlier) else []
+    place, earlier = common.output or Path(), recorded_runs(common.output)
+    kept = earlier if common.resume and any_begun(place, earlier) else []
     requests = with_common_cells(planned, request.options.option, common.settings, kept, memory)
     runs = sweep_runs(common.output, planned, requests)
-    recorded = RecordedSweep(common.output, runs, earlier)
+    recorded = RecordedSweep(place, runs, earlier)
     if not common.overwrite:
         recorded = recorded.continued(resume=common.resume)
         requests = recorded.requests(requests)

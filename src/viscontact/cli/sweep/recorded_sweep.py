@@ -28,15 +28,18 @@ from viscontact.studies.sweep.varied_runs import case_name
 
 @dataclass(frozen=True)
 class RecordedSweep:
-    """Runs of a command and those in the manifest of their directory."""
+    """Runs of a command and those in the manifest of their directory.
 
-    directory: Path | None  # None: next to the case files, without manifest
+    There are none for runs next to their case files, which have no manifest.
+    """
+
+    directory: Path
     runs: list[SweepRun]
     earlier: list[SweepRun]
 
     def continued(self, *, resume: bool) -> RecordedSweep:
         """Sweep with the directories and settings of equal earlier runs; refuse other ones."""
-        if self.directory is None or not self.earlier:
+        if not self.earlier:
             return self
         try:
             found = replace(self, runs=continued(self.directory, self.runs, self.earlier))
@@ -56,8 +59,6 @@ class RecordedSweep:
 
     def with_digests(self, *, mixed: bool) -> RecordedSweep:
         """Sweep with digests of its cases; refuse changed ones unless runs may be mixed."""
-        if self.directory is None:
-            return self
         try:
             return replace(self, runs=pinned(self.directory, self.runs, mixed=mixed))
         except ChangedCaseError as error:
@@ -68,7 +69,7 @@ class RecordedSweep:
 
     def requests(self, planned: Sequence[RunRequest]) -> list[RunRequest]:
         """Return the requests with the directories and settings of the runs."""
-        if self.directory is None:
+        if not self.runs:
             return list(planned)
         return [
             replace(each, output=self.directory / run.directory, settings=run.assignments)
@@ -77,8 +78,6 @@ class RecordedSweep:
 
     def write(self) -> None:
         """Write the manifest, unless it is there already."""
-        if self.directory is None:
-            return
         try:
             record(self.directory, self.runs, self.earlier)
         except OSError as error:
@@ -109,8 +108,6 @@ class RecordedSweep:
 
     def change_of_failed(self) -> list[str]:
         """Line with the command that changes only the first run that has failed; else empty."""
-        if self.directory is None:
-            return []
         for each in self.runs:
             place = self.directory / each.directory
             if (place / FAILURE_NAME).exists():
@@ -146,9 +143,9 @@ def recorded_runs(directory: Path | None) -> list[SweepRun]:
         refuse(str(error))
 
 
-def any_begun(directory: Path | None, earlier: Sequence[SweepRun]) -> bool:
+def any_begun(directory: Path, earlier: Sequence[SweepRun]) -> bool:
     """Test whether any run of a manifest has results."""
-    return directory is not None and any(has_begun(directory / run.directory) for run in earlier)
+    return any(has_begun(directory / run.directory) for run in earlier)
 
 
 def sweep_runs(

@@ -53,10 +53,6 @@ class ManyRequest:
                 found.append(PlannedRun(request, design, row))
         return found
 
-    def runs(self) -> list[RunRequest]:
-        """Return the requests of all runs."""
-        return [each.request for each in self.planned()]
-
     @property
     def resuming(self) -> str:
         """Command that resumes all of them, quoted for a shell."""

@@ -153,13 +153,13 @@ def simulate_many(
     recipes = checked_recipes(runs)
     require_executor(executor, client, workers)
     if directory is not None:
-        place, shown = Path(directory), report or _no_progress
+        place = Path(directory)
         with tasks_of(recipes, place, executor, client, workers) as tasks:
-            record_many(recipes, place, tasks, shown, return_exceptions=return_exceptions)
+            record_many(recipes, place, tasks, report, return_exceptions=return_exceptions)
         return open_many(place)
     count = None
     if executor is None and client is None:
-        count = _affordable(recipes, min(number_of_workers(workers), max(1, len(recipes))))
+        count = _affordable(recipes, workers)
     with chosen_workers(count, executor, client, in_processes=True) as chosen:
         assert chosen.executor is not None
         return _results(recipes, chosen.executor, report, return_exceptions)
@@ -177,17 +177,14 @@ def tasks_of(
         with RemoteTasks(chosen, directory, _REMEDY) as remote:
             yield remote
         return
-    count = _affordable(recipes, min(number_of_workers(workers), max(1, len(recipes))))
+    count = _affordable(recipes, workers)
     with LocalWorkers(count) as pool:
         yield LocalTasks(pool, count, f"{_REMEDY}, with fewer workers")
 
 
-def _no_progress(run: int, done: int, total: int) -> None:
-    """Show nothing."""
-
-
-def _affordable(recipes: Sequence[Recipe], wanted: int) -> int:
+def _affordable(recipes: Sequence[Recipe], workers: int | None) -> int:
     """Number of parallel runs that fit into the free memory, as far as is known."""
+    wanted = min(number_of_workers(workers), max(1, len(recipes)))
     needs, available = sorted(map(known_memory, recipes))[-wanted:], available_memory()
     count = max(1, fitting(needs, available))
     if count < len(needs):

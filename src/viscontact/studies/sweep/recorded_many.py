@@ -37,7 +37,7 @@ def record_many(
     recipes: Sequence[Recipe],
     directory: Path,
     workers: Workers,
-    progress: Progress,
+    progress: Progress | None,
     *,
     return_exceptions: bool,
     overwrite: bool = False,
@@ -140,7 +140,7 @@ def _job(run: SweepRun, recipe: Recipe, directory: Path, overwrite: bool) -> Job
 class _Reports:
     """Display that reports the end of each run."""
 
-    def __init__(self, places: Sequence[Path], progress: Progress) -> None:
+    def __init__(self, places: Sequence[Path], progress: Progress | None) -> None:
         self._numbers = {place: number for number, place in enumerate(places)}
         self._progress, self._ended = progress, 0
 
@@ -150,4 +150,5 @@ class _Reports:
     def end(self, ended: Ended) -> None:
         """Report the end of a run."""
         self._ended += 1
-        self._progress(self._numbers[ended.job.directory], self._ended, len(self._numbers))
+        if self._progress is not None:
+            self._progress(self._numbers[ended.job.directory], self._ended, len(self._numbers))
