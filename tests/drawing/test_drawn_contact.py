@@ -22,7 +22,7 @@ def adhering() -> xr.Dataset:
 
 def test_counted_area_includes_cells_in_tension() -> None:
     ds = adhering()
-    _, counted = area_panel(ds, None, "contact-area").curves
+    counted, _ = area_panel(ds, None, "contact-area").curves
     cell = float(ds.x[1] - ds.x[0]) * float(ds.y[1] - ds.y[0])
     np.testing.assert_allclose(counted.y, cell * ds.in_contact.sum(["x", "y"]))
     assert ((ds.pressure > 0).sum(["x", "y"]) < ds.in_contact.sum(["x", "y"])).all()

@@ -243,7 +243,7 @@ def test_compared_rims_are_those_of_the_instant_named(
 
 def test_counted_area_is_the_number_of_cells_times_their_own_area(results: xr.Dataset) -> None:
     axes = FIGURES["contact-area"](results).axes[0]
-    _, counted = axes.get_lines()
+    counted, _ = axes.get_lines()
     areas = np.asarray(counted.get_ydata()) * factor(axes.get_ylabel())
     growth = np.array([ellipse_growth(t) for t in ELLIPSE_TIMES])
     exact = np.pi * np.prod(ELLIPSE_AXES) * growth**2

@@ -96,7 +96,7 @@ def test_a_master_curve_of_oscillations_explains_which_markers_are_storage_and_l
         assert axes.get_title(loc="left") == "As measured: ● storage, □ loss"
     storage, loss = panel.lines[:2]
     assert (storage.get_marker(), loss.get_marker()) == ("o", "s")
-    assert loss.get_markerfacecolor() == "none"
+    assert loss.get_markerfacecolor() == "white"
 
 
 @pytest.mark.parametrize("given", ["approach", "force"])

@@ -141,7 +141,7 @@ def test_a_picture_has_three_hundred_dots_an_inch(sphere: xr.Dataset, tmp_path: 
 
 def test_counted_area_is_that_of_the_cells_in_contact(sphere: xr.Dataset) -> None:
     axes = FIGURES["contact-area"](sphere).axes[0]
-    smooth, counted = axes.get_lines()
+    counted, smooth = axes.get_lines()
     unit = {"mm²": 1e-6, "µm²": 1e-12}[re.search(r"\[(.*)\]", axes.get_ylabel())[1]]
     np.testing.assert_allclose(smooth.get_ydata(), sphere.contact_area / unit)
     cell = float(sphere.x[1] - sphere.x[0]) ** 2

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -24,6 +26,8 @@ from viscontact.units.formatting import ReadableUnit, format_number, readable_un
 _NAME = "contact_area"
 #: Least number of spots on a logarithmic axis.
 _MANY = 10
+#: Largest number of separate dots.
+_APART = 60
 
 
 def area_panel(results: xr.Dataset, times: ArrayLike | None, figure: str) -> Panel:
@@ -34,11 +38,14 @@ def area_panel(results: xr.Dataset, times: ArrayLike | None, figure: str) -> Pan
     shown = np.flatnonzero((stored >= first) & (stored <= last))
     counted = np.array([_area_of_cells(read(int(index))) for index in shown])
     area = run[_NAME].values
-    smooth = Curve(run["time"].values, area, "between the cells", error=stated_error(run, _NAME))
-    cells = Curve(stored[shown], counted, "cells counted", Ink("fit"), "points")
+    instants, error = run["time"].values, stated_error(run, _NAME)
+    smooth = Curve(instants, area, "between the cells", error=error, is_on_top=True)
+    dots = partial(Curve, look="points", is_fine=counted.size > _APART, is_on_top=True)
+    cells = dots(stored[shown], counted, "cells counted", Ink("fit"))
     y = Axis.of(SCALARS[_NAME].label, SCALARS[_NAME].units, area, counted)
     limits = limits_around([smooth, cells])
-    return Panel(along_run([run]), Axis(y.quantity, y.unit, limits), (smooth, cells))
+    # The line is above the dots, of which there may be many.
+    return Panel(along_run([run]), Axis(y.quantity, y.unit, limits), (cells, smooth))
 
 
 def _area_of_cells(snapshot: Snapshot) -> float:

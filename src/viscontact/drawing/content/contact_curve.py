@@ -117,8 +117,8 @@ def _edges(run: xr.Dataset, snapshot: Snapshot, curve: ContactCurve, ink: Ink) -
     edges = contact_edges(positions, values != 0, way)
     if edges is not None:
         leading, trailing = (np.array([edge]) for edge in edges)
-        yield Curve(leading, np.zeros(1), ink=ink, look="points")
-        yield Curve(trailing, np.zeros(1), ink=ink, look="hollow")
+        yield Curve(leading, np.zeros(1), ink=ink, look="leading", is_on_top=True)
+        yield Curve(trailing, np.zeros(1), ink=ink, look="trailing", is_on_top=True)
 
 
 def under_pressure(values: Floats) -> Floats:

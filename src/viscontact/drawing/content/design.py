@@ -16,7 +16,6 @@ from viscontact.drawing.content.panel import (
     Axis,
     Curve,
     Ink,
-    LineLook,
     MarkLook,
     Panel,
 )
@@ -68,7 +67,7 @@ def trade_off_panels(table: xr.Dataset) -> list[Panel]:
     for names in pairs:
         (x, along, error_x), (y, up, error) = (_scalar(table, name) for name in names)
         best, rows = [int(table.attrs["best"])], np.flatnonzero(front)[np.argsort(along[front])]
-        look: LineLook | MarkLook = "joined" if len(pairs) == 1 else "points"
+        look: MarkLook = "joined" if len(pairs) == 1 else "points"
         curves = [
             Curve(along[rows], up[rows], "not dominated", FIRST, look, error[rows], error_x[rows]),
             Curve(along[best], up[best], "compromise", TEXT, "square"),
@@ -96,7 +95,7 @@ def profile_panel(table: xr.Dataset) -> Panel:
         Axis.of("x", "m", x),
         Axis("Drop", readable_unit("m", deepest or 1e-6), limits),
         tuple(
-            Curve(x, drop, name, Ink(place=number))
+            Curve(x, drop, name, Ink(place=number), "bold" if name == "free" else "line")
             for number, (name, drop) in enumerate(
                 zip(table["profile"].values.tolist(), drops, strict=True)
             )

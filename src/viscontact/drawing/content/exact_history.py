@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,8 @@ from viscontact.units.formatting import ReadableUnit
 _NAME = "exact"
 # Steps of the reference between corners of the load, and points of its pressure.
 _STEPS, _PLACES = 60, 48
+#: Computed values beside a curve of theory.
+_computed = partial(Curve, has_spaced_markers=True, is_on_top=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,12 +61,14 @@ def exact_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
         exact, ink = theirs[within], Ink(place=number)
         curves = (
             Curve(instants, exact, label, FAINT),
-            Curve(instants, ours, ink=ink, look="white", symbol=number),
+            _computed(instants, ours, ink=ink, look="white", symbol=number),
         )
         note = "" if number else "markers: computed"
         panels.append(Panel(x, Axis.of(quantity, si, exact), curves, note=note))
         part = (ours - exact) / (np.abs(exact).max() or 1.0)
-        differences.append(Curve(instants, part, quantity.lower(), ink, "white", symbol=number))
+        differences.append(
+            _computed(instants, part, quantity.lower(), ink, "linked", symbol=number)
+        )
     of_largest = Axis("Difference", ReadableUnit("% of the largest", 0.01))
     zero = (Mark(0.0, "y", ink=TEXT),)
     note = f"computed less {label}"

@@ -71,6 +71,9 @@ def _over_time(
     """Panel of curves, of a single one with its value at time 0, which is not on the axis."""
     x, (first, end) = readable_unit("s", times), times[[0, -1]].tolist()
     at_once = [value for _, value in curves.values()]
+    # Its text is on the side of the level where the curve is not.
+    falls = [bool(values[-1] <= value) for values, value in curves.values()]
+    level = Mark(at_once[0], "y", "t = 0", "dashed", is_text_below=falls[0])
     return Panel(
         Axis("Time", x, (first, end), "log", first, in_clock_units=True),
         Axis.of(quantity, si, at_once, *(values for values, _ in curves.values())),
@@ -78,7 +81,7 @@ def _over_time(
             Curve(times, values, name, Ink(place=number))
             for number, (name, (values, _)) in enumerate(curves.items())
         ),
-        marks=(Mark(at_once[0], "y", "t = 0", "dashed"),) if len(curves) == 1 else (),
+        marks=(level,) if len(curves) == 1 else (),
     )
 
 

@@ -36,8 +36,8 @@ def motion_panel(results: xr.Dataset, speeds: ArrayLike | None, at: float) -> Pa
         edges = contact_edges(places, touched.values[number], 1.0)
         if edges is not None:
             leading, trailing = (np.array([edge]) for edge in edges)
-            curves.append(Curve(trailing, np.zeros(1), ink=ink, look="hollow"))
-            curves.append(Curve(leading, np.zeros(1), ink=ink, look="points"))
+            curves.append(Curve(trailing, np.zeros(1), ink=ink, look="trailing", is_on_top=True))
+            curves.append(Curve(leading, np.zeros(1), ink=ink, look="leading", is_on_top=True))
     return Panel(
         Axis.of(f"{along} from the axis, along the motion", "m", places),
         Axis.of("Pressure", "Pa", stored.values[chosen]),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from numpy.typing import ArrayLike
 
@@ -64,10 +64,22 @@ class Ink:
 FIRST, SECOND, FAINT, PALE, TEXT = Ink(), Ink(place=1), Ink("faint"), Ink("pale"), Ink("text")
 
 
-#: "beyond" continues a line where it is less certain; "joined" has markers.
-LineLook = Literal["line", "dashed", "beyond", "dotted", "joined"]
-#: Full markers, without or with a filling in white ("hollow", "white"), other ones, bars from 0.
-MarkLook = Literal["points", "hollow", "white", "cross", "square", "bars"]
+#: Lines: "thin" guides the eye between markers, "beyond" continues a line where it is less certain.
+LineLook = Literal["line", "bold", "thin", "dashed", "beyond", "dotted"]
+#: Markers: full, on a line ("joined") or not; without or with a filling in white ("hollow",
+#: "white"), on a thin line ("linked"); other ones; edges of a moving contact; bars from 0.
+MarkLook = Literal[
+    "joined",
+    "linked",
+    "points",
+    "hollow",
+    "white",
+    "cross",
+    "square",
+    "leading",
+    "trailing",
+    "bars",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,10 +91,18 @@ class Curve:
     name: str = ""  # in the legend
     ink: Ink = FIRST
     look: LineLook | MarkLook = "line"
-    #: Half widths: bands along a line, bars at points; NaN where unknown, inf on the mesh.
+    #: Half widths: bands along a line, bars at markers; NaN where unknown, inf on the mesh.
     error: Floats | None = None
     error_x: Floats | None = None
     symbol: int = 0  # of markers: different sources or quantities have different ones
+    is_fine: bool = False  # among many: small markers and thin lines
+    has_spaced_markers: bool = False  # has only markers that are apart from each other
+    is_on_top: bool = False  # above other curves and the border, which does not cut it
+
+    @property
+    def is_line(self) -> bool:
+        """True for a line without markers."""
+        return self.look in get_args(LineLook)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +125,7 @@ class Mark:
     text: str = ""
     look: Literal["line", "dashed", "dotted", "tick"] = "line"  # a tick is at the border only
     ink: Ink = FAINT
+    is_text_below: bool = False  # of a line at a place on the vertical axis
 
 
 @dataclass(frozen=True, eq=False)

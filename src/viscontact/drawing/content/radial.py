@@ -20,6 +20,8 @@ _NAME = "pressure-radial"
 _EXACT_POINTS = 160
 #: Room beyond the largest values on both axes, as a factor.
 _ROOM = 1.05
+#: Most markers of a curve; of more cells, every so many has one.
+_MARKERS = 26
 
 
 def radial_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
@@ -34,7 +36,7 @@ def radial_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
     for number, (snapshot, name, place) in enumerate(each):
         ink, (r, ours) = Ink("ordered", place), _near_x_axis(snapshot)
         if exact is None:  # something to guide the eye from marker to marker
-            curves.append(Curve(r, ours, ink=ink))
+            curves.append(Curve(r, ours, ink=ink, look="thin"))
         else:
             radius = float(exact.contact_radius(snapshot.time))
             curves.append(_exact_curve(exact, snapshot.time, label, ink))
@@ -42,8 +44,8 @@ def radial_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
             if inner.any():
                 theirs = np.asarray(exact.pressure(r[inner], snapshot.time))
                 part = (ours[inner] - theirs) / theirs.max()
-                differences.append(Curve(r[inner], part, "", ink, "white", symbol=number))
-        curves.append(Curve(r, ours, name, ink, "white", symbol=number))
+                differences.append(_markers(r[inner], part, "", ink, number))
+        curves.append(_markers(r, ours, name, ink, number))
     outer, top = (
         float(max(each.max(initial=0.0) for each in of))
         for of in ([curve.x for curve in curves], [curve.y for curve in curves])
@@ -57,6 +59,11 @@ def radial_panels(results: xr.Dataset, times: ArrayLike | None) -> list[Panel]:
     of_peak, zero = Axis("Difference", ReadableUnit("% of peak", 0.01)), Mark(0.0, "y", ink=TEXT)
     note = "cells at the edge left out"
     return [above, Panel(x, of_peak, tuple(differences), marks=(zero,), note=note)]
+
+
+def _markers(r: Floats, values: Floats, name: str, ink: Ink, number: int) -> Curve:
+    every = slice(None, None, max(1, -(-r.size // _MARKERS)))
+    return Curve(r[every], values[every], name, ink, "white", symbol=number)
 
 
 def _exact_curve(exact: LeeRadokContact, time: float, name: str, ink: Ink) -> Curve:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +25,8 @@ from viscontact.units.formatting import ReadableUnit, readable_unit
 from viscontact.units.temperatures import in_celsius
 
 _WIDE = 4.0  # ratio above which a column is drawn on a logarithmic axis
+#: Curves among many.
+_fine = partial(Curve, is_fine=True)
 _LABELS = {
     "compliance": "Creep compliance",
     "modulus": "Relaxation modulus",
@@ -74,12 +77,13 @@ def master_panels(
         later, ink = isotherm.points > 0, Ink("temperature", place)
         for name, values in isotherm.measured.items():
             shown, symbol = values[later], int(name == "loss")
-            sets.append(Curve(isotherm.points[later], shown, "", ink, "joined", symbol=symbol))
+            set_look: MarkLook = "linked" if symbol else "joined"
+            sets.append(_fine(isotherm.points[later], shown, "", ink, set_look, symbol=symbol))
             look: MarkLook = "hollow" if symbol else "points"
-            master.append(Curve(reduced[later], shown, "", ink, look, symbol=symbol))
+            master.append(_fine(reduced[later], shown, "", ink, look, symbol=symbol))
     if fit is not None:
         along = _geometric(curve.points)
-        master += [Curve(along, values, ink=TEXT) for values in fit.curve(along).values()]
+        master += [_fine(along, values, ink=TEXT) for values in fit.curve(along).values()]
     measured, y = curve.measured, _values_axis(curve.measured)
     marked = ": ● storage, □ loss" if len(measured) > 1 else ""
     title = f"Master curve at {in_celsius(curve.reference_temperature):.4g} °C"

@@ -12,7 +12,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import inks_of
-from viscontact.drawing.content.panel import Axis, Curve, Panel
+from viscontact.drawing.content.panel import Axis, Curve, LineLook, MarkLook, Panel
 from viscontact.drawing.content.stress_planes import stress_sections
 from viscontact.mechanics.halfspace.stress_lines import Progress, part_of
 from viscontact.results.run_axis import require_time
@@ -34,12 +34,14 @@ def von_mises_panels(
     ]
     instants = [each[0] for each in found]
     x = along_run(runs.values(), drawn=instants)
+    looks: list[LineLook | MarkLook]
+    looks = ["joined" if each.size <= _MARKED else "line" for each in instants]
     inks, note = inks_of(list(runs)), peak_note(runs.values(), np.concatenate(instants))
 
     def panel(row: int, quantity: str, si: str, title: str, note: str = "") -> Panel:
         curves = tuple(
-            Curve(each[0], each[row], name, ink, "joined" if each[0].size <= _MARKED else "line")
-            for name, each, ink in zip(runs, found, inks, strict=True)
+            Curve(each[0], each[row], name, ink, look, is_on_top=True)
+            for name, each, ink, look in zip(runs, found, inks, looks, strict=True)
         )
         values = np.concatenate([curve.y for curve in curves])
         y = Axis.of(quantity, si, values)

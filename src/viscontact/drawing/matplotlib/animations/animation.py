@@ -190,14 +190,15 @@ def _stage(
     """Draw the fixed parts; return a function that draws the rest at an instant."""
     curve, edges = _set_up_fields(sheet, scene)
     body: list[Artist] = []
-    draw_histories(sheet.histories, [history_panel({"": run}, name) for name in names])
+    panels = [history_panel({"": run}, name) for name in names]
+    draw_histories(sheet.histories, panels)
     time_unit = along_run([run]).unit
     markers = []
     for axes in sheet.histories:
         # Time as a bar behind the curve and a dot on it.
-        axes.axvline(0.0, color=style.BODY, linewidth=0.8, alpha=0.6, zorder=1)
-        axes.plot([], [], "o", color=style.BODY, markersize=4.5, clip_on=False, zorder=5)
-        markers.append(axes.get_lines()[-2:])
+        bar = axes.axvline(0.0, color=style.BODY, linewidth=0.8, alpha=0.6, zorder=1)
+        (dot,) = axes.plot([], [], "o", color=style.BODY, ms=4.5, clip_on=False, zorder=5)
+        markers.append((bar, dot))
     labels = dict(zip(scene.stored.tolist(), time_labels(scene.stored), strict=True))
     times = run["time"].values
 
@@ -216,10 +217,9 @@ def _stage(
             dot.set_data([float(scene.window.unit(edge))], [0.0])
         at = float(time_unit(snapshot.time))
         nearest = int(np.abs(times - snapshot.time).argmin())
-        for (bar, dot), axes in zip(markers, sheet.histories, strict=True):
+        for (bar, dot), panel in zip(markers, panels, strict=True):
             bar.set_xdata([at, at])
-            drawn = np.asarray(axes.get_lines()[0].get_ydata())
-            dot.set_data(np.array([at]), drawn[[nearest]])
+            dot.set_data([at], [float(panel.y.unit(panel.curves[0].y[nearest]))])
 
     return show
 

@@ -11,11 +11,9 @@ from viscontact.drawing.content.contact_area import area_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.error_band import band_key
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 _NAME = "contact-area"
-#: Largest number of separate dots.
-_APART = 60
 
 
 def contact_area(
@@ -64,13 +62,8 @@ def contact_area(
     if axes is None:
         wide = page_width(width, style.ONE_COLUMN)
         axes = style.new_figure(wide, min(3.4, 0.85 * wide)).add_subplot()
-    before = len(axes.get_lines())  # in axes of the user's
     bands = draw_panel(axes, panel)
-    smooth, dots = axes.get_lines()[before:]
-    smooth.set_zorder(3)  # above the dots, of which there may be many
-    dots.set_clip_on(False)  # the first and last dot are on the frame
-    dots.set_markersize(3.5 if panel.curves[1].x.size <= _APART else 2.0)
-    named = zip((smooth, dots), (curve.name for curve in panel.curves), strict=True)
+    named = zip(*named_keys(panel.curves), strict=True)
     handles, labels = zip(*named, *band_key(bands, style.LINE), strict=True)
     if shares_axes:
         style.add_legend(axes, handles, labels, loc="best")

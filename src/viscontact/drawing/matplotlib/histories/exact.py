@@ -9,11 +9,7 @@ from numpy.typing import ArrayLike
 from viscontact.drawing.content.exact_history import exact_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
-
-_MARKERS_AT_MOST = 26
-# Between markers, against the diagonal of the axes.
-_APART = 0.05
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 
 def exact(
@@ -65,14 +61,8 @@ def exact(
     panels = list(figure.subplots(rows, 4 // rows, sharex=True, squeeze=False).flat)
     for axes, panel in zip(panels, drawn, strict=True):
         draw_panel(axes, panel)
-    for axes in panels[:3]:
-        axes.get_lines()[1].set(markevery=_APART, clip_on=False, zorder=3)
-    parts = panels[3].get_lines()[:3]
-    every = max(1, -(-drawn[3].curves[0].x.size // _MARKERS_AT_MOST))
-    for part in parts:
-        part.set(markevery=every, clip_on=False, zorder=3, linestyle="-", linewidth=0.6)
-    panels[3].set_ylabel(drawn[3].y.label.replace(" [", "\n["))
-    handles = [panels[0].get_lines()[0], *parts]
-    labels = [drawn[0].curves[0].name, *(curve.name for curve in drawn[3].curves)]
-    style.add_legend_below(figure, handles, labels, columns=4)
+    *_, differences = drawn
+    panels[-1].set_ylabel(differences.y.label.replace(" [", "\n["))
+    keys = named_keys([*drawn[0].curves, *differences.curves])
+    style.add_legend_below(figure, *keys, columns=4)
     return figure

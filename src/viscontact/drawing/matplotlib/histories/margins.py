@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from viscontact.drawing.content.history import margin_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.results.run_axis import require_time
 
 
@@ -45,6 +45,5 @@ def margin_history(results: xr.Dataset, *, width: Width | None = None) -> Figure
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 2.6)
     axes = figure.subplots()
     draw_panel(axes, panel)
-    lines = axes.get_lines()[: len(panel.curves)]
-    style.add_legend_below(figure, lines, [curve.name for curve in panel.curves], columns=3)
+    style.add_legend_below(figure, *named_keys(panel.curves), columns=3)
     return figure

@@ -11,8 +11,7 @@ from viscontact.drawing.content.friction import friction_panel
 from viscontact.drawing.content.motion_profile import motion_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
-from viscontact.drawing.matplotlib.pressure.contact_curves import draw_with_edges
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.results.shown_scalars import has_friction
 
 
@@ -59,9 +58,10 @@ def friction(
     if axes is None:
         wide = page_width(width, style.ONE_COLUMN)
         axes = style.new_figure(wide, 0.7 * wide).subplots()
-    draw_panel(axes, friction_panel(results.sortby("speed")))
+    panel = friction_panel(results.sortby("speed"))
+    draw_panel(axes, panel)
     axes.tick_params(which="both", labelsize=style.TICK_SIZE, colors=style.INK)
-    handles, labels = axes.get_legend_handles_labels()
+    handles, labels = named_keys(panel.curves)
     if len(handles) > 1:
         style.add_legend(axes, handles, labels, loc="best")
     return style.figure_of(axes)
@@ -116,5 +116,6 @@ def motion_profile(
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS)
         axes = style.new_figure(wide, 0.45 * wide).subplots()
-    style.add_legend(axes, *draw_with_edges(axes, panel))
+    draw_panel(axes, panel)
+    style.add_legend(axes, *named_keys(panel.curves))
     return style.figure_of(axes)

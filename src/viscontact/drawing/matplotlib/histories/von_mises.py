@@ -12,7 +12,7 @@ from viscontact.drawing.content.compared_runs import runs_of
 from viscontact.drawing.content.von_mises import von_mises_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.mechanics.halfspace.stress_lines import Progress
 
 _NAME = "von-mises"
@@ -66,10 +66,8 @@ def von_mises_history(
     axes[-1].tick_params(labelbottom=True)
     for each, panel in zip(axes, panels, strict=True):
         draw_panel(each, panel)
-        for line in each.get_lines():
-            line.set(clip_on=False, zorder=3)
     if len(runs) > 1:
-        style.add_legend_below(figure, axes[0].get_lines(), list(runs), columns=2)
+        style.add_legend_below(figure, *named_keys(panels[0].curves), columns=2)
     figure.draw_without_rendering()
     style.arrange_headings(figure)
     return figure

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,28 +17,43 @@ from viscontact.drawing.matplotlib.layout.error_band import ErrorBand, draw_band
 from viscontact.drawing.matplotlib.layout.log_time import label_log_time, set_log_time
 from viscontact.drawing.matplotlib.layout.page import NARROW
 
+_WHITE: dict[str, Any] = {"marker": "o", "markersize": 3.6, "markerfacecolor": "white"}
+_WHITE["markeredgewidth"] = 0.9
+_EDGE: dict[str, Any] = {"marker": "o", "markersize": 4.0, "linestyle": "none"}
 #: Dashes and markers of a curve by its look.
 _LOOKS: Mapping[str, dict[str, Any]] = {
     "line": {},
+    "bold": {"linewidth": 2.0},
+    "thin": {"linewidth": style.THIN_LINE},
     "dashed": {"linestyle": "--", "linewidth": 1.0},
     "beyond": {"linestyle": (0, (3, 2)), "alpha": 0.7},
     "dotted": {"linestyle": ":", "linewidth": 1.0},
     "joined": {"marker": "o", "markersize": 3.5},
     "points": {"marker": "o", "markersize": 3.5, "linestyle": "none"},
-    "hollow": {"marker": "o", "markersize": 3.2, "linestyle": "none", "markerfacecolor": "none"},
-    "white": {
-        **{"marker": "o", "markersize": 3.6, "linestyle": "none", "markerfacecolor": "white"},
-        "markeredgewidth": 0.9,
+    "hollow": {
+        **{"marker": "o", "markersize": 3.2, "linestyle": "none", "markerfacecolor": "none"},
+        "markeredgewidth": 0.8,
     },
+    "white": _WHITE | {"linestyle": "none"},
+    "linked": _WHITE | {"linestyle": "-", "linewidth": style.THIN_LINE},
     "cross": {"marker": "x", "markersize": 3.5, "linestyle": "none"},
     "square": {
         **{"marker": "s", "markersize": 8.0, "linestyle": "none", "markerfacecolor": "none"},
         "zorder": 2.1,  # around a point with its error bars
     },
+    "leading": _EDGE,
+    "trailing": _EDGE | {"markerfacecolor": "white"},
 }
+#: Curves among many, with markers or without, and markers that are apart, against the diagonal.
+_FINE: Mapping[str, Any] = {"markersize": 2.6, "markeredgewidth": 0.7, "linewidth": 0.6}
+_FINE_LINE: Mapping[str, Any] = {"linewidth": 1.0}
+_APART = 0.05
+#: Curves that the border of a panel does not cut.
+_ON_TOP: Mapping[str, Any] = {"clip_on": False, "zorder": 3}
 #: Errors of bars.
 _CAPPED: Mapping[str, Any] = {"ecolor": style.INK, "elinewidth": 0.9, "capsize": 2.0}
-_MARKS = {"line": "-", "dashed": "--", "dotted": ":"}
+#: Dashes of marks, which lie behind the curves.
+_MARKS, _BEHIND = {"line": "-", "dashed": "--", "dotted": ":"}, 1.9
 
 
 def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
@@ -105,10 +120,22 @@ def legend_key(curve: Curve) -> Line2D:
     return Line2D([], [], **_look_of(curve))
 
 
+def named_keys(curves: Iterable[Curve]) -> tuple[list[Line2D], list[str]]:
+    """Keys and names of the curves that have a name, for a legend."""
+    named = [curve for curve in curves if curve.name]
+    return [legend_key(curve) for curve in named], [curve.name for curve in named]
+
+
 def _look_of(curve: Curve) -> dict[str, Any]:
-    look = style.look_of(curve.ink) | _LOOKS.get(curve.look, {})
+    look = style.look_of(curve.ink) | _LOOKS[curve.look]
     if curve.symbol:
         look["marker"] = style.MARKERS[curve.symbol % len(style.MARKERS)]
+    if curve.is_fine:
+        look |= _FINE_LINE if curve.is_line else _FINE
+    if curve.has_spaced_markers:
+        look["markevery"] = _APART
+    if curve.is_on_top:
+        look |= _ON_TOP
     return look
 
 
@@ -137,7 +164,7 @@ def _errors(axes: Axes, panel: Panel, curve: Curve) -> list[ErrorBand]:
     for error, axis, sideways in errors:
         if error is None:
             continue
-        if curve.look not in ("line", "dashed", "dotted"):
+        if not curve.is_line:
             bars = np.where(np.isfinite(error), axis.unit(error), 0.0)
             how: dict[str, Any] = {"xerr" if sideways else "yerr": bars}
             how |= _CAPPED if curve.look == "bars" else {"ecolor": colour, "elinewidth": 0.8}
@@ -160,7 +187,7 @@ def _branches(along: Floats) -> list[Any]:
 
 def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
     look: dict[str, Any] = {"linestyle": _MARKS.get(mark.look), "linewidth": style.THIN_LINE}
-    look["color"] = style.look_of(mark.ink)["color"]
+    look |= {"color": style.look_of(mark.ink)["color"], "zorder": _BEHIND}
     if mark.look == "tick":
         how: dict[str, Any] = {
             "marker": "|",
@@ -174,6 +201,23 @@ def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
         axes.axvline(float(panel.x.unit(mark.place)), **look)
     else:
         axes.axhline(float(panel.y.unit(mark.place)), **look)
+        if mark.text:
+            _add_text(axes, float(panel.y.unit(mark.place)), mark)
+
+
+def _add_text(axes: Axes, place: float, mark: Mark) -> None:
+    """Write what a level is at the right end of its line."""
+    axes.annotate(
+        mark.text,
+        (1.0, place),
+        xycoords=("axes fraction", "data"),
+        xytext=(-2, -3 if mark.is_text_below else 3),
+        textcoords="offset points",
+        ha="right",
+        va="top" if mark.is_text_below else "bottom",
+        fontsize=style.TICK_SIZE,
+        color=style.FAINT,
+    )
 
 
 def _say_not_drawn(axes: Axes, text: str) -> None:

@@ -12,7 +12,7 @@ from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.content.series_fit import fit_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.identification import Fit, IndentationFit
 
 #: Most records beside each other.
@@ -48,15 +48,10 @@ def fitted_series(fit: Fit, *, width: Width | None = None) -> Figure:
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 4.0)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     drawn = fit_panels(fit)
-    draw_panel(above, drawn[0])
-    draw_panel(below, drawn[1])
-    for line, curve in zip(above.get_lines(), drawn[0].curves, strict=False):
-        if curve.look == "hollow":
-            line.set_markeredgewidth(0.8)
-    for line in below.get_lines():
-        line.set_markersize(3.2)
+    for axes, panel in zip((above, below), drawn, strict=True):
+        draw_panel(axes, panel)
     if len(fit.measured) > 1:
-        style.add_legend(above, *above.get_legend_handles_labels(), loc="best")
+        style.add_legend(above, *named_keys(drawn[0].curves), loc="best")
     return figure
 
 
@@ -96,8 +91,9 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
         figure = style.new_figure(wide, 5.8)
         panels = figure.subplot_mosaic([["loop"], ["time"], ["rest"]], height_ratios=(3, 3, 1.2))
     loop, over_time, below = panels["loop"], panels["time"], panels["rest"]
-    draw_panel(loop, force_panel(fit))
-    style.add_legend(loop, loop.get_lines(), ["measured", "fitted"], loc="upper left")
+    panel = force_panel(fit)
+    draw_panel(loop, panel)
+    style.add_legend(loop, *named_keys(panel.curves), loc="upper left")
     _draw_course(over_time, below, course_of(fit))
     style.add_heading(loop, f"{type(fit.law).__name__}, residual {100 * fit.residual:.2g} % rms")
     figure.align_ylabels([over_time, below])
@@ -162,7 +158,8 @@ def _draw_record(record: xr.Dataset, above: Axes, below: Axes) -> None:
     """Draw one record: values above, residuals below."""
     quantity, si = (str(record[name].values[0]) for name in ("quantity", "units"))
     columns = [record[name].values for name in ("time", "measured", "fitted", "residual")]
-    _draw_course(above, below, course_panels(_LABELS[quantity], si, *columns))
-    style.add_legend(above, above.get_lines(), ["measured", "fitted"], loc="best")
+    course = course_panels(_LABELS[quantity], si, *columns)
+    _draw_course(above, below, course)
+    style.add_legend(above, *named_keys(course[0].curves), loc="best")
     root = 100 * np.sqrt(np.nanmean(record["residual"].values ** 2))
     style.add_heading(above, f"{record['name'].values[0]}, residual {root:.2g} % rms")

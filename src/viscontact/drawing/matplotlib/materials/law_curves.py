@@ -21,10 +21,9 @@ from viscontact.drawing.content.law_curves import (
     recorded_laws,
     run_times,
 )
-from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 _NAME = "creep"
 
@@ -168,29 +167,9 @@ def _draw_laws(laws: Mapping[str, Law], times: Floats, width: Width | None) -> F
     panels = list(figure.subplots(rows, columns, squeeze=False).flat)
     for axes, panel in zip(panels, drawn, strict=True):
         draw_panel(axes, panel)
-        if panel.marks:
-            _explain_mark(axes, panel)
     if len(laws) > 1:
-        style.add_legend_below(figure, panels[0].get_lines(), list(laws), columns=columns + 1)
+        style.add_legend_below(figure, *named_keys(drawn[0].curves), columns=columns + 1)
     return figure
-
-
-def _explain_mark(axes: Axes, panel: Panel) -> None:
-    """Write what a level is, on the side of it where the curve is not."""
-    (mark,), (curve,) = panel.marks, panel.curves
-    axes.get_lines()[-1].set(linewidth=0.8, linestyle=(0, (4, 3)))
-    rises = curve.y[-1] > mark.place
-    axes.annotate(
-        mark.text,
-        (1.0, float(panel.y.unit(mark.place))),
-        xycoords=("axes fraction", "data"),
-        xytext=(-2, 3 if rises else -3),
-        textcoords="offset points",
-        ha="right",
-        va="bottom" if rises else "top",
-        fontsize=style.TICK_SIZE,
-        color=style.FAINT,
-    )
 
 
 def material_curves(
@@ -248,7 +227,7 @@ def material_curves(
         draw_panel(axes, panel)
         if panel.y.scale == "log":
             _place_ticks(axes)
-    style.add_legend(panels[-1], *panels[-1].get_legend_handles_labels(), loc="best")
+    style.add_legend(panels[-1], *named_keys(drawn[-1].curves), loc="best")
     if title:
         figure.suptitle(title, fontsize=style.LABEL_SIZE, color=style.INK)
     return figure

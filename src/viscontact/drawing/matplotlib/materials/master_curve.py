@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -12,7 +11,7 @@ from matplotlib.figure import Figure
 from viscontact.drawing.content.series_fit import master_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.identification import Fit, MasterCurve, ShiftFit
 from viscontact.units.temperatures import in_celsius
 
@@ -60,16 +59,15 @@ def master_curve(
     is_wide = wide > NARROW
     figure = style.new_figure(wide, 5.4 if is_wide else 7.4)
     panels = figure.subplot_mosaic("AB;CC" if is_wide else "A;B;C")
-    sets, shifts, master = axes = [panels[name] for name in "ABC"]
-    for each, panel in zip(axes, master_panels(curve, fit, rules), strict=True):
+    _, shifts, master = axes = [panels[name] for name in "ABC"]
+    drawn = master_panels(curve, fit, rules)
+    for each, panel in zip(axes, drawn, strict=True):
         draw_panel(each, panel)
         if not is_wide and each is master:
             style.add_heading(each, panel.title.replace(", ", "\n", 1))
-    _refine(sets)
-    _refine(master)
     if not is_wide:
         shifts.margins(y=0.5)  # room for the legend
-    style.add_legend(shifts, *shifts.get_legend_handles_labels(), loc="best")
+    style.add_legend(shifts, *named_keys(drawn[1].curves), loc="best")
     celsius = in_celsius(curve.temperatures)
     norm = Normalize(celsius.min(), max(celsius.max(), celsius.min() + 1.0))
     bar = figure.colorbar(ScalarMappable(norm, style.TEMPERATURES), ax=axes, aspect=45)
@@ -77,11 +75,3 @@ def master_curve(
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, colors=style.INK)
     bar.outline.set_visible(False)
     return figure
-
-
-def _refine(axes: Axes) -> None:
-    """Make the many points small, and those of the loss hollow."""
-    for line in axes.get_lines():
-        line.set(markersize=2.6, linewidth=1.0 if line.get_marker() == "None" else 0.6)
-        if line.get_marker() == "s":
-            line.set(markerfacecolor="none", markeredgewidth=0.7)

@@ -8,7 +8,6 @@ from typing import Literal
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.compared_runs import Runs
@@ -21,7 +20,7 @@ from viscontact.drawing.content.contact_curve import (
 from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 
 def pressure_profile(
@@ -166,29 +165,17 @@ def _draw_curves(
     if axes is None:
         wide = page_width(width, style.TWO_COLUMNS * 0.8)
         axes = style.new_figure(wide, min(3.0, 0.75 * wide)).add_subplot()
-    named = draw_with_edges(axes, panels[0])
+    draw_panel(axes, panels[0])
     axes.set_ylim(bottom=0.0)
-    style.add_legend(axes, *named)
+    style.add_legend(axes, *named_keys(panels[0].curves))
     return style.figure_of(axes)
 
 
 def _draw_panels(panels: list[Panel], width: Width | None) -> Figure:
     figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(panels) + 0.4)
     shared = figure.subplots(len(panels), sharex=True, sharey=True, squeeze=False)[:, 0]
-    named = [draw_with_edges(axes, panel) for axes, panel in zip(shared, panels, strict=True)]
+    for axes, panel in zip(shared, panels, strict=True):
+        draw_panel(axes, panel)
     shared[0].set_ylim(bottom=0.0)  # once all curves have extended the common limits
-    style.add_legend_below(figure, *named[0])
+    style.add_legend_below(figure, *named_keys(panels[0].curves))
     return figure
-
-
-def draw_with_edges(axes: Axes, panel: Panel) -> tuple[list[Line2D], list[str]]:
-    """Draw a panel, with edges of the contact on its lower border; return what has a name."""
-    before = len(axes.get_lines())
-    draw_panel(axes, panel)
-    drawn = list(zip(axes.get_lines()[before:], panel.curves, strict=False))
-    for line, curve in drawn:
-        if curve.look != "line":
-            white = {"markerfacecolor": "white"} if curve.look == "hollow" else {}
-            line.set(markersize=4.0, zorder=3, clip_on=False, **white)
-    named = [(line, curve.name) for line, curve in drawn if curve.name]
-    return [line for line, _ in named], [name for _, name in named]

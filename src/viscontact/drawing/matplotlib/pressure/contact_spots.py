@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from viscontact.drawing.content.contact_area import spots_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 
 def contact_spots(
@@ -52,10 +52,8 @@ def contact_spots(
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.4)
     axes = figure.subplots()
     draw_panel(axes, panel)
-    for line in axes.get_lines():
-        line.set_markersize(3.2)
     if panel.y.scale == "linear":
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_ylim(0, None)
-    style.add_legend_below(figure, *axes.get_legend_handles_labels())
+    style.add_legend_below(figure, *named_keys(panel.curves))
     return figure

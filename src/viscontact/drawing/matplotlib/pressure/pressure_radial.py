@@ -12,9 +12,7 @@ from viscontact.drawing.content.panel import FAINT
 from viscontact.drawing.content.radial import radial_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel, legend_key
-
-_MARKERS_AT_MOST = 26
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 
 def pressure_radial(
@@ -69,20 +67,14 @@ def pressure_radial(
     panels = figure.subplots(len(drawn), sharex=True, height_ratios=ratios, squeeze=False)[:, 0]
     for axes, panel in zip(panels, drawn, strict=True):
         draw_panel(axes, panel)
-        for line, curve in zip(axes.get_lines(), panel.curves, strict=False):
-            line.set_markevery(max(1, -(-curve.x.size // _MARKERS_AT_MOST)))
-            line.set_zorder(2.1)  # above the line at zero
-            if curve.look == "line" and not curve.name:
-                line.set_linewidth(style.THIN_LINE)
     if has_difference:
         panels[1].set_ylabel(drawn[1].y.label.replace(" [", "\n["))
-    curves = drawn[0].curves
-    named = [(legend_key(curve), curve.name) for curve in curves if curve.look == "white"]
-    if has_difference:
-        for name, curve in (("computed", curves[1]), (curves[0].name, curves[0])):
-            named.append((legend_key(replace(curve, ink=FAINT, symbol=0)), name))
+    instants = [curve for curve in drawn[0].curves if not curve.is_line]
+    theory = [curve for curve in drawn[0].curves if curve.is_line and curve.name]
+    both = [replace(instants[0], name="computed"), theory[0]] if theory else []
+    keys = named_keys([*instants, *(replace(each, ink=FAINT, symbol=0) for each in both)])
     if wide > NARROW:
-        style.add_legend(panels[0], *zip(*named, strict=True))
+        style.add_legend(panels[0], *keys)
     else:
-        style.add_legend_below(figure, *zip(*named, strict=True))
+        style.add_legend_below(figure, *keys)
     return figure

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from viscontact.drawing.content.design import profile_panel, trade_off_panels, trial_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.drawing.matplotlib.sweeps.key_axis import label_key
 
 #: Panels of parameters in a row, and heights of a row, a trade-off and profiles [inch].
@@ -57,7 +56,7 @@ def trials(table: xr.Dataset, *, width: Width | None = None) -> Figure:
         label_key(axes, panel.x, int(across / columns / _LETTER))
         if number % columns:
             axes.set_ylabel("")
-    _explain(panels[0], 4)
+    style.add_legend_below(figure, *named_keys(drawn[0].curves), columns=4)
     return figure
 
 
@@ -94,9 +93,7 @@ def trade_off(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     panels = figure.subplots(1, len(drawn), squeeze=False)[0]
     for panel, axes in zip(drawn, panels, strict=True):
         draw_panel(axes, panel)
-        for line in axes.get_lines():
-            line.set_linewidth(0.8)
-    _explain(panels[0], 3)
+    style.add_legend_below(figure, *named_keys(drawn[0].curves), columns=3)
     return figure
 
 
@@ -126,16 +123,8 @@ def profiles(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     """
     figure = style.new_figure(page_width(width, style.TWO_COLUMNS), _PROFILES)
     axes = figure.subplots()
-    draw_panel(axes, profile_panel(table))
-    for number, line in enumerate(axes.get_lines()):
-        line.set(color=f"C{number}", linestyle="-")
-        line.set_linewidth(2.0 if line.get_label() == "free" else 1.0)
+    panel = profile_panel(table)
+    draw_panel(axes, panel)
     axes.invert_yaxis()
-    _explain(axes, 4)
+    style.add_legend_below(figure, *named_keys(panel.curves), columns=4)
     return figure
-
-
-def _explain(axes: Axes, columns: int) -> None:
-    """Add the legend of a panel below its figure."""
-    handles, labels = axes.get_legend_handles_labels()
-    style.add_legend_below(style.figure_of(axes), handles, labels, columns=columns)
