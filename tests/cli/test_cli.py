@@ -523,6 +523,7 @@ def test_check_warns_of_a_grid_that_the_contact_will_overrun(
     assert "fewer than 10 cells across" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_contact_far_from_the_origin_is_checked_and_run_on_a_grid_around_it(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -645,6 +646,7 @@ def test_show_prints_the_loss_per_cycle_and_an_inexact_memory(
     assert "the law was converted numerically; error: below 0.01 % (estimated)" in printed
 
 
+@pytest.mark.slow
 def test_approach_control_is_shown_and_drawn_like_any_run(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -813,6 +815,7 @@ def test_demo_runs_the_shipped_case_to_pictures(folder: Path) -> None:
     assert copied == Path("viscontact-demo/case.yaml").read_bytes()
 
 
+@pytest.mark.slow
 def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = execution.execute
 
@@ -949,6 +952,7 @@ def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
     assert all("time" in json.loads(line) for line in lines)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device here")
 @pytest.mark.parametrize(
     ("reader", "buffered"),

@@ -30,6 +30,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_fit_prints_draws_and_writes_the_section(capsys: pytest.CaptureFixture[str]) -> None:
     files = ("-o", "fit.png", "--yaml", "found.yaml", "--report", "fit.html")
     assert main([*COMMAND, *MODULUS, "--contact-point", "-9 um:9 um", *files]) == 0

@@ -137,6 +137,7 @@ def test_an_option_that_does_not_fit_is_refused_in_one_line(
     assert not Path("found").exists()
 
 
+@pytest.mark.slow
 def test_a_design_that_is_not_feasible_ends_with_the_closest_trial(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -53,6 +53,7 @@ def test_the_section_printed_and_written_is_the_law_of_the_data(relaxation, tmp_
     assert figure.stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_several_temperatures_give_shift_factors_and_the_law_at_any_of_them(sets, tmp_path, capsys):
     out = tmp_path / "m.yaml"
     command = ["fit", str(sets), "--poisson-ratio", "0.3", "--yaml", str(out)]

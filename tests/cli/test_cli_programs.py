@@ -22,6 +22,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_killed_run_is_resumed_to_the_same_bits(folder):
     assert main(["run", "case.yaml", "-q", "-o", "whole", "--set", ERRORS]) == 0
     kill(9, "-o", "part", "--set", ERRORS)

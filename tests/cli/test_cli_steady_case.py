@@ -151,6 +151,7 @@ def test_what_belongs_to_runs_over_time_is_refused(
     assert message in " ".join(capsys.readouterr().err.split())
 
 
+@pytest.mark.slow
 def test_tables_and_sweeps(
     folder: Path, finished: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -65,6 +65,7 @@ def test_result_is_that_of_steady(finished: Path) -> None:
         assert json.loads(ds.attrs["case"])["indenter_material"]["type"] == "Layered"
 
 
+@pytest.mark.slow
 def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
     folder: Path, finished: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

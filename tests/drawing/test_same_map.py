@@ -128,6 +128,7 @@ def test_outline_is_the_same() -> None:
     assert distance.max() < 3e-6  # a tenth of a pixel is 1 µm
 
 
+@pytest.mark.slow
 def test_tension_is_drawn_in_colours_that_diverge_from_zero() -> None:
     ds = ellipse()
     touched = ds.pressure > 0

@@ -35,6 +35,7 @@ def run_as_a_user(name: str, folder: Path) -> xr.Dataset:
         return ds.load()
 
 
+@pytest.mark.slow
 def test_sphere_that_is_let_go_approached_as_lee_and_radok_say(tmp_path: Path) -> None:
     ds = run_as_a_user("sphere-load-unload", tmp_path)
     # Lee & Radok (1960): while the contact grows, delta^(3/2) = (3/4) R^(-1/2) int J(t-t') dW.
@@ -69,6 +70,7 @@ def test_probe_feels_and_loses_the_gel_as_ting_says(tmp_path: Path) -> None:
     assert float(ds.approach[-1]) == -4e-7
 
 
+@pytest.mark.slow
 def test_loss_of_an_oscillating_punch_follows_from_its_complex_compliance(tmp_path: Path) -> None:
     ds = run_as_a_user("punch-harmonic", tmp_path)
     # w = J F/(2 a) for a punch of any outline whose 1/(2 a) is w/(J F) at once: of the cells'
@@ -86,6 +88,7 @@ def test_loss_of_an_oscillating_punch_follows_from_its_complex_compliance(tmp_pa
     assert amplitude == pytest.approx(10.0 * abs(complex_J) * per_compliance, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_roller_that_is_held_approaches_as_an_elastic_one_of_its_compliance(
     tmp_path: Path,
 ) -> None:

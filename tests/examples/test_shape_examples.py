@@ -56,6 +56,7 @@ def test_logarithmic_roller_comes_to_press_evenly_as_its_polymer_creeps(tmp_path
     assert spread[0.0] > 2 * spread[1000.0]
 
 
+@pytest.mark.slow
 def test_depth_of_a_held_pyramid_grows_with_the_root_of_the_compliance(tmp_path: Path) -> None:
     """Galin's scaling F = c h²/J holds at every instant of a contact that only grows (Lee & Radok
     1960): h²/J stays. Phi = 1/(2 G) + (1 - exp(-t/10 s))/(2 G_d).

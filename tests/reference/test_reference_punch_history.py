@@ -27,6 +27,7 @@ def test_punch_under_a_staircase_follows_superposition():
     assert contact.pressure(1e-3, 4.0) == pytest.approx(p.pressure(1e-3), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_punch_oscillates_under_a_force_by_its_complex_compliance():
     omega, cycles, n = 2 * math.pi / 1.3, 9, 60
     t = np.linspace(0, cycles * 1.3, cycles * n + 1)

@@ -58,6 +58,7 @@ def kinds(data: dict[str, Any], kind: str) -> list[dict[str, Any]]:
     return [each for each in data["blocks"] if each["kind"] == kind]
 
 
+@pytest.mark.slow
 def test_command_writes_the_chapters_and_figures_of_the_page(
     ds: xr.Dataset, given: dict[str, Any], tmp_path: Path
 ) -> None:

@@ -343,6 +343,7 @@ def test_a_measured_surface_is_drawn_from_the_fields() -> None:
     assert "Not drawn: the surface is measured" in text
 
 
+@pytest.mark.slow
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
     times = np.linspace(0.0, 300.0, 60)
     ds = _described(roller(times=(0.0, 300.0), shape=(512, 256)))

@@ -392,6 +392,7 @@ def test_panel_of_a_peak_that_depends_on_the_mesh_says_so_and_has_no_band(
     assert len(bands(panel(both, "Peak"))) == 1
 
 
+@pytest.mark.slow
 def test_peak_that_depends_on_the_mesh_has_no_curve(
     singular: xr.Dataset, ds: xr.Dataset, bare: xr.Dataset
 ) -> None:

@@ -271,6 +271,7 @@ def test_report_has_a_chapter_of_verdicts(directory: Path) -> None:
     assert "Allowable values" not in without
 
 
+@pytest.mark.slow
 def test_table_of_a_sweep_has_the_worst_verdict_of_each_run(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

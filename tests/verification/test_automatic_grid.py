@@ -202,6 +202,7 @@ def peak_error_on_relaxing_ball(ratio, duration, tolerance):
     return worst / largest, run.mesh
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "duration", "tolerance"),
     [

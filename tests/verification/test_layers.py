@@ -229,6 +229,7 @@ def test_a_run_of_several_terms_continues_to_the_same_bits():
     assert [state.approach for state in resumed] == [state.approach for state in steps]
 
 
+@pytest.mark.slow
 def test_a_run_of_several_terms_enlarges_its_grid():
     # It starts on a part of the automatic grid.
     load, times = vc.ramp(3.0, 1.0), vc.uniform_times(1.0, 20)
@@ -328,6 +329,7 @@ def test_a_layer_that_does_not_yield_at_once_is_carried_by_the_ball():
     assert (np.diff(ds.approach.values) > 0).all()
 
 
+@pytest.mark.slow
 def test_a_coating_on_a_creeping_body_has_times_of_its_creep_and_bars_of_its_steps():
     # The uppermost layer does not creep; the default instants and error bars are those of the base.
     body = vc.Layered([vc.Layer(0.2e-3, vc.Material(vc.Elastic(10 * SHEAR), 0.35))], RUBBER)

@@ -118,6 +118,7 @@ def test_error_bars_compare_at_equal_times_after_the_events():
     assert ds.contact_area_error[-1] == 0
 
 
+@pytest.mark.slow
 def test_bars_where_contact_is_lost_hold_and_are_not_wide():
     material, grid = vc.Material(LAWS["zener"], 0.5), vc.Grid((39, 39), (1.8e-3, 1.8e-3))
     ds = vc.simulate(BALL, material, PROGRAM, grid, vc.uniform_times(0.5, 48), fields="none")

@@ -127,6 +127,7 @@ def test_measured_relaxation_is_what_a_sphere_relaxes_by(steps):
     assert order(1 / np.array(steps), errors) == pytest.approx(2.0, abs=0.4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", [14.3, pytest.param(24.3, marks=pytest.mark.slow)])
 def test_ting_on_a_table(cells):
     """Ting (1966) for the series; the table, 12 rows a decade, is a memory of sums of all steps."""

@@ -120,6 +120,7 @@ def test_steady_swing_is_the_complex_compliance(softness, name, period, control,
     assert states[-1].loss_per_cycle == pytest.approx(loss, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "cycles"),
     [

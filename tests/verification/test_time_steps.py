@@ -151,6 +151,7 @@ def test_adaptive_steps_need_at_most_half_of_the_uniform_ones(name, history, tol
     assert uniform.error(truth) > 2 * adaptive.error(truth)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "history", "tolerance"),
     [

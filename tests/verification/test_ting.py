@@ -112,6 +112,7 @@ def test_time_error_of_the_force_falls_with_the_square_of_the_step():
     assert order(1 / steps, errors) == pytest.approx(2.0, abs=0.2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "sampled", "cells"),
     [

@@ -121,6 +121,7 @@ def test_an_indentation_remains_and_work_is_lost(shrinking):
     assert final.work == pytest.approx(lost, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_slow_contact_is_largest_after_the_peak_of_the_force():
     """Lee & Radok (1960) hold while a grows, whatever the force does: a³ = (3 R/4) int J dW.
 

@@ -156,6 +156,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {name: folder / name for name in results}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("figure", "places", "said"),
     [

@@ -252,6 +252,7 @@ def test_counted_area_is_the_number_of_cells_times_their_own_area(results: xr.Da
     np.testing.assert_allclose(counted.get_xdata(), ELLIPSE_TIMES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("times", "named"), [(None, 5.0), ([2.2], 2.0)])
 def test_indenter_is_drawn_with_the_box_of_the_contact_of_the_instant_named(
     results: xr.Dataset, transposed: bool, times: list[float] | None, named: float

@@ -44,6 +44,7 @@ def legend(results: xr.Dataset) -> list[str]:
     return [text.get_text() for text in key.get_texts()]
 
 
+@pytest.mark.slow
 def test_elastic_sphere_is_compared_with_hertz_under_any_load() -> None:
     load = vc.triangle(FORCE, 100.0, 100.0)
     force = load.force_at(TIMES)

@@ -125,6 +125,7 @@ def test_foot_of_the_pressure_surface_is_the_rim_of_an_ellipse_on_unequal_cells(
     assert foot.shape[0] > 100
 
 
+@pytest.mark.slow
 def test_of_very_many_cells_the_largest_pressure_is_drawn(caught: Caught):
     results = roller(shape=(640, 32))
     single = int(np.flatnonzero(results.pressure[0, :, 16].values > 0)[157])

@@ -328,6 +328,7 @@ def test_lease_that_was_taken_over_is_lost_and_stays_the_successors(tmp_path: Pa
     assert names(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_lease_that_lapsed_is_taken_again_unless_another_process_did(tmp_path: Path) -> None:
     with holder(tmp_path) as process:
         before = current_lease(tmp_path)
@@ -516,6 +517,7 @@ def suspended_and_taken_over(runner: Runner, directory: Path, delay: float, at: 
     return not has_ended
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("delay", "at"),
     [

@@ -272,6 +272,7 @@ def test_file_that_may_not_grow_any_more_ends_the_writing_in_order(room: int, pa
     assert faults_of(path, 300, None, times=times) == []
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="kills its own children")
 def test_result_is_whole_and_readable_whenever_its_writer_is_killed(path: Path) -> None:
     run = script("killed_writer.py", str(path), "8", "20240607")

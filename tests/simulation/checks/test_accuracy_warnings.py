@@ -116,6 +116,7 @@ def test_an_even_longer_step_causes_a_warning_too():
     assert step_warnings_of([0.0, 10.0])
 
 
+@pytest.mark.slow
 def test_steps_as_short_as_the_law_wants_cause_no_warning():
     assert not step_warnings_of(np.concatenate([vc.uniform_times(10.0, 500), [1000.0]]))
 

@@ -53,6 +53,7 @@ def test_contact_point_and_machine_stiffness_are_recovered(tmp_path: Path) -> No
     assert found.residual < 1e-3
 
 
+@pytest.mark.slow
 @IGNORED  # the contact point and the modulus are similar
 def test_force_is_fitted_where_the_approach_is_prescribed(tmp_path: Path) -> None:
     force = np.linspace(0.0, 0.1, 6)

@@ -135,6 +135,7 @@ def test_a_design_goes_on_where_it_was_interrupted(ball: Path, tmp_path: Path) -
     xr.testing.assert_identical(whole, again)
 
 
+@pytest.mark.slow
 def test_several_workers_are_used_and_give_the_same_result(
     ball: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

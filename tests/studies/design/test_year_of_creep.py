@@ -70,6 +70,7 @@ def test_without_creep_or_a_held_load_there_is_no_year_of_it(tmp_path: Path) -> 
         assert designed(tmp_path, text).over_a_year() == {}
 
 
+@pytest.mark.slow
 def test_a_contact_that_outgrows_the_grid_within_a_year_is_named(tmp_path: Path) -> None:
     small = BALL.replace("size: [2.6 mm, 2.6 mm]", "size: [0.79 mm, 0.79 mm]")
     found = designed(tmp_path, small)

@@ -210,6 +210,7 @@ def test_runs_whose_workers_are_killed_at_random_end_in_the_bits_of_runs_alone(c
         assert left == {"case.yaml", "progress.jsonl", "result.nc"}
 
 
+@pytest.mark.slow
 def test_a_bad_case_among_five_fails_alone_and_is_repeated_when_it_is_corrected(case: Path) -> None:
     # At the small grid the contact comes to the rim.
     size = ["3 mm"] * 5

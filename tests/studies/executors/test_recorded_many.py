@@ -212,6 +212,7 @@ def test_runs_of_a_case_are_recorded_as_at_the_command_line(tmp_path: Path) -> N
     assert names == {"case.yaml", "progress.jsonl", "result.nc"}
 
 
+@pytest.mark.slow
 def test_further_runs_of_a_case_are_added_on_the_same_cells(tmp_path: Path) -> None:
     case = tmp_path / "case.yaml"
     case.write_text(AUTOMATIC, encoding="utf-8")

@@ -119,6 +119,7 @@ def test_runs_without_a_common_choice_keep_their_cells(roller: Path, line: str, 
     assert added(sweep(roller, text=text)) == {()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     ["", *(pytest.param(t, marks=pytest.mark.slow) for t in ("grid:", "grid: {tolerance: 1%}"))],

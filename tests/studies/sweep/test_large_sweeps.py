@@ -43,6 +43,7 @@ def repeated(run: Path, folder: Path, count: int) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.gettrace() is not None, reason="a tracer allocates memory")
 def test_memory_of_collecting_does_not_grow_with_the_scalars(
     run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

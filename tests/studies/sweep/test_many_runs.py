@@ -71,6 +71,7 @@ def command(heading: str = "") -> list[str]:
     return shlex.split(re.findall(r"```(?:sh)?\nviscontact (.*)\n```", part)[0])
 
 
+@pytest.mark.slow
 def test_runs_at_once_end_in_the_bits_of_runs_alone(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
