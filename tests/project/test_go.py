@@ -275,8 +275,10 @@ def test_the_lock_covers_every_dependency_and_the_build_backend() -> None:
 def test_ci_ends_with_the_readme_test_command() -> None:
     lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").strip().splitlines()
     assert lines[-1] == "./go test"
-    assert "./go lint" in lines
-    assert any(line.startswith("./go docs") for line in lines)
+    # Beside the manual, and its failure is one of the whole.
+    lint = next(k for k, line in enumerate(lines) if line.startswith("./go lint &"))
+    wait = lines.index("wait $!")
+    assert any(line.startswith("./go docs") for line in lines[lint:wait])
 
 
 def test_the_extras_are_those_promised() -> None:

@@ -64,16 +64,17 @@ def memory(kind: str, cells: int, **environment: str) -> tuple[float, float, flo
     return taken, announced, freed
 
 
+measured = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measures with glibc")
+
+
 @pytest.mark.slow
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measures with glibc")
+@measured
 @pytest.mark.parametrize(
     ("kind", "cells", "most"),
     [
         ("spring", 1024, 216),
-        ("spring", 3072, 216),
         ("series", 1024, 280),
         ("symmetric", 1024, None),
-        ("symmetric", 3072, None),
         ("half", 2048, None),
         ("sum", 1024, None),
         ("layers", 1024, None),
@@ -89,9 +90,20 @@ def test_announced_memory_is_what_a_run_takes(kind: str, cells: int, most: int |
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measures with glibc")
-@pytest.mark.parametrize("kind", ["spring", "series", "symmetric", "sum", "layers"])
-def test_announced_memory_is_enough_with_freed_arrays(kind: str) -> None:
-    """All are kept or none: measured 0.94 to 1.07 of what is announced, or 0.84 to 0.93."""
-    taken, announced, freed = memory(kind, 1024)
+@measured
+@pytest.mark.parametrize(
+    ("kind", "cells"),
+    [
+        *((kind, 1024) for kind in ("spring", "series", "symmetric", "sum", "layers")),
+        *((kind, 3072) for kind in ("spring", "symmetric")),
+    ],
+)
+def test_announced_memory_is_enough_with_freed_arrays(kind: str, cells: int) -> None:
+    """All are kept or none: measured 0.94 to 1.07 of what is announced, or 0.84 to 0.93.
+
+    Of 3072² cells they are 6 or 7 %.
+    """
+    taken, announced, freed = memory(kind, cells)
     assert 0.9 * (announced - freed) < taken < 1.1 * announced
+    if (kind, cells) == ("spring", 3072):
+        assert taken < 216 * cells**2 + 2e7
