@@ -563,7 +563,7 @@ sys.exit(main())
     ("name", "module"),
     [
         ("SIGINT", "typer"),
-        ("SIGTERM", "numpy"),
+        pytest.param("SIGTERM", "numpy", marks=pytest.mark.slow),
         ("SIGHUP", "exit"),
         *(
             pytest.param(name, module, marks=pytest.mark.slow)

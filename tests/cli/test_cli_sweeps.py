@@ -278,6 +278,7 @@ def test_response_of_a_single_run_is_refused(
     assert "--time: does not apply" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_run_that_fails_is_listed_and_the_others_are_collected(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -161,6 +161,7 @@ def test_a_law_that_is_no_series_is_approximated():
     assert ds.attrs["memory_error"] < 1e-5
 
 
+@pytest.mark.slow
 def test_rolling_bodies_may_be_exchanged_and_a_sliding_one_is_relaxed():
     stiff = vc.Material(vc.CreepSeries(2e-3, [3e-3], [1.0]), poisson_ratio=0.5)
     one = coefficient(0.1, indenter_material=stiff, rolling=True)

@@ -92,6 +92,7 @@ def test_curved_load_of_a_users_class_is_followed_between_few_requested_times():
     assert np.abs(over_time(states, "approach")[1:] / exact[1:] - 1).max() < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [

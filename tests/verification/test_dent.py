@@ -75,6 +75,7 @@ def test_error_of_the_surface_falls_with_the_cell_size():
     assert order(1 / cells, errors) == pytest.approx(1.5, abs=0.4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["maxwell", *(pytest.param(n, marks=pytest.mark.slow) for n in ("zener", "burgers"))]
 )

@@ -58,6 +58,7 @@ def test_recursion_and_sum_over_all_steps_agree_to_rounding(law, history, planne
             memory.accept(np.array([value, 1.0]))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # the same in both
 @pytest.mark.parametrize(
     ("name", "steps"),

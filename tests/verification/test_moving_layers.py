@@ -30,6 +30,7 @@ def travelled(material, mate=None):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "body",
     [

@@ -224,6 +224,7 @@ def test_staircase_of_eccentric_forces_tilts_by_superposition():
         assert found == pytest.approx(exact * getattr(unit, name), rel=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [[50, 100], pytest.param([25, 50, 100], marks=pytest.mark.slow)])
 def test_stairs_of_approach_relax(steps):
     """The inverse: F = sum of dw_i M(t - t_i) 2 a. Measured at 100 steps a stair: 1.5e-5."""

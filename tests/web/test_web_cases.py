@@ -326,6 +326,7 @@ def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path:
     client.delete("/api/files/dma.xlsx")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("missing", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_spectrum_of_a_measured_surface_is_drawn_below_its_shape(
     missing: bool, client: TestClient

@@ -69,6 +69,7 @@ def test_a_run_is_computed_by_the_process_that_waits_and_gives_the_same_numbers(
         assert ours.drop_attrs().identical(typed.drop_attrs())
 
 
+@pytest.mark.slow
 def test_a_process_that_was_killed_while_it_waited_is_replaced(client: TestClient) -> None:
     waiting = spare()
     waiting.kill()

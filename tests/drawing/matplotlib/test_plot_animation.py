@@ -109,6 +109,7 @@ def test_a_gif_has_the_requested_length_and_a_frame_for_each_instant(
     assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
 
 
+@pytest.mark.slow
 def test_an_mp4_has_the_requested_frames(sphere: xr.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "film.mp4"
     save_animation(animation(sphere, seconds=1.0, fps=5.0, width=0.12), path)
@@ -208,6 +209,7 @@ def test_the_command_refuses_in_one_line(
     assert "\n" not in said
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_film_into_the_run(
     run: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

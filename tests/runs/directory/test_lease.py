@@ -159,6 +159,7 @@ def test_other_process_is_kept_out_and_named_until_the_end(tmp_path: Path) -> No
     assert names(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_lease_is_renewed_while_its_holder_computes(tmp_path: Path) -> None:
     with Lease(tmp_path, SHORT) as held:
         first = current_lease(tmp_path)

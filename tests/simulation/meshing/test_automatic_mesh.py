@@ -59,8 +59,11 @@ CASES = {
 }
 
 
-#: Those whose contact another one has too: in the middle, at a sharp end.
-ALIKE = {"sphere", "sphere, force aside", "cone", "sharp roller", "crowned roller at its end"}
+#: Those whose contact another one has too: in the middle, at a sharp end, at two ends in turn.
+ALIKE = {
+    *("sphere", "sphere, force aside", "cone", "sharp roller", "crowned roller at its end"),
+    "walking load",
+}
 
 
 @pytest.mark.parametrize(

@@ -196,6 +196,7 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew(
     assert len(said) == len(lines)
 
 
+@pytest.mark.slow
 def test_contact_beyond_the_automatic_extent_is_followed(tmp_path: Path) -> None:
     """Of a long measured load only the largest and the farthest rows are looked at beforehand."""
     write_swing(tmp_path / "load.csv")
@@ -249,7 +250,7 @@ def test_recorded_result_is_the_one_that_is_returned(
     ("pause", "fields"),  # checkpoints after every step, after the first only
     [
         (0.0, SOME),
-        (1e9, "all"),
+        pytest.param(1e9, "all", marks=pytest.mark.slow),
         pytest.param(0.0, "all", marks=pytest.mark.slow),
         pytest.param(1e9, SOME, marks=pytest.mark.slow),
     ],

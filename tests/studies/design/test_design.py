@@ -43,6 +43,7 @@ def test_the_largest_force_within_a_contact_width_follows_hertz(ball: Path) -> N
     assert found.runs <= 60
 
 
+@pytest.mark.slow
 def test_the_worst_scenario_decides(ball: Path) -> None:
     found = vc.design(
         ball,

@@ -300,6 +300,7 @@ def test_sweep_whose_directory_is_removed_is_not_begun_again_without_its_manifes
     assert not sweep.exists()
 
 
+@pytest.mark.slow
 def test_long_run_is_a_process_of_its_own_and_ends_in_the_same_bits(
     case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

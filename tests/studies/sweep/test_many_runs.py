@@ -99,6 +99,7 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
     assert times == {name: Path(name, "result.nc").stat().st_mtime_ns for name in times}
 
 
+@pytest.mark.slow
 def test_varied_values_have_directories_of_their_own_and_the_rim_stops_only_one(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

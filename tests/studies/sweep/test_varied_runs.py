@@ -53,6 +53,7 @@ def test_runs_are_those_of_the_command_line(case: Path) -> None:
                 np.testing.assert_array_equal(run()[name], ds[name], strict=True)
 
 
+@pytest.mark.slow
 def test_many_are_simulated_in_order(case: Path) -> None:
     """Hertz (1882): the approach grows with F**(2/3)."""
     one, two = vc.simulate_many(vc.vary("ball.yaml", FORCES), workers=2)
