@@ -57,12 +57,12 @@ def checked_jobs(
                 problems.setdefault(typed, []).append(planned[number])
     if problems:
         refuse(*problem_lines(problems, planned))
-    found = [jobs[number] for number in range(len(runs))]
+    checked = [jobs[number] for number in range(len(runs))]
     try:
-        refuse_shared_directories([job.directory for job in found])
+        refuse_shared_directories([job.directory for job in checked])
     except ValueError as error:
         refuse(str(error))
-    return _with_names(found)
+    return _with_names(checked)
 
 
 def _to_prepare(planned: Sequence[PlannedRun]) -> set[int]:

@@ -42,7 +42,7 @@ class RecordedSweep:
         if not self.earlier:
             return self
         try:
-            found = replace(self, runs=continued(self.directory, self.runs, self.earlier))
+            sweep = replace(self, runs=continued(self.directory, self.runs, self.earlier))
         except OtherSweepError as error:
             if resume:
                 refuse(
@@ -52,10 +52,10 @@ class RecordedSweep:
                     *replace(self, runs=self.earlier).change_of_failed(),
                 )
             self._refuse_another(is_added=error.is_left_out)
-        is_new = found.runs != self.earlier
+        is_new = sweep.runs != self.earlier
         if is_new and not resume and any_begun(self.directory, self.earlier):
             self._refuse_another(is_added=True)
-        return found
+        return sweep
 
     def with_digests(self, *, mixed: bool) -> RecordedSweep:
         """Sweep with digests of its cases; refuse changed ones unless runs may be mixed."""
@@ -156,12 +156,12 @@ def sweep_runs(
         return []
     place = directory.resolve()
     paths = {each.case: case_name(each.case, place) for each in requests}
-    found = []
+    runs = []
     for number, (plan, each) in enumerate(zip(planned, requests, strict=True)):
         own = directory.name if each.output is None else each.output.name
         name = (plan.design.name(plan.row) if len(paths) == 1 else "") or own
         pairs = (text.partition("=") for text in each.settings)
         settings = {key.strip(): value.strip() for key, _, value in pairs}
         keys, kind = plan.design.keys, plan.design.kind
-        found.append(SweepRun(number, name, own, settings, keys, paths[each.case], kind))
-    return found
+        runs.append(SweepRun(number, name, own, settings, keys, paths[each.case], kind))
+    return runs

@@ -43,15 +43,15 @@ class ManyRequest:
         """Return each combination of a case and a row of its design."""
         if self.common.output is None and self.options.option != "--vary":
             refuse(f"{self.options.option}: name a directory for the runs, with -o DIR")
-        found = []
+        planned = []
         for case in self.cases:
             design = self.options.design(case, self.common.settings)
             for row in range(len(design.rows)):
                 settings = (*self.common.settings, *design.settings(row))
                 output = self._output(case, design.name(row))
                 request = replace(self.common, case=case, output=output, settings=settings)
-                found.append(PlannedRun(request, design, row))
-        return found
+                planned.append(PlannedRun(request, design, row))
+        return planned
 
     @property
     def resuming(self) -> str:

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from viscontact.bodies.grid import Grid
 from viscontact.case import Case, CaseError
-from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.studies.case_values import case_with
 from viscontact.studies.cells import coarser, covering, grid_setting, shape_setting
@@ -174,9 +173,10 @@ def _derivative(
 
 def _recorded_grid(path: Path, settings: Mapping[str, str], directory: Path | None) -> Grid | None:
     """Grid of the runs that a directory holds; None without any."""
-    if directory is None or not (directory / MANIFEST_NAME).exists():
+    runs = [] if directory is None else recorded_runs(directory)
+    if not runs:
         return None
-    first = recorded_runs(directory)[0].settings
+    first = runs[0].settings
     kept = {key: value for key, value in first.items() if key.partition(".")[0] == "grid"}
     grid = case_with(path, {**settings, **kept}).grid
     return grid if isinstance(grid, Grid) else None

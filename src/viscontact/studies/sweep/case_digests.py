@@ -16,7 +16,7 @@ from viscontact.studies.sweep.manifest import SweepRun
 def with_digests(directory: Path, runs: Iterable[SweepRun]) -> list[SweepRun]:
     """Return the runs of a sweep with the digests of their cases; none for one without a case."""
     # A case that cannot be read, which its run will report, has no digests.
-    of_case, found = cache(digests_of), []
+    of_case, pinned = cache(digests_of), []
     for run in runs:
         digests: Digests = {}
         if run.case:
@@ -24,8 +24,8 @@ def with_digests(directory: Path, runs: Iterable[SweepRun]) -> list[SweepRun]:
                 digests = of_case(case_path(directory, run))(run.settings)
             except (CaseError, OSError):
                 digests = {}
-        found.append(replace(run, digests=digests))
-    return found
+        pinned.append(replace(run, digests=digests))
+    return pinned
 
 
 def changed_since(directory: Path, run: SweepRun) -> list[str]:

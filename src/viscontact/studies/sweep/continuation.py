@@ -98,8 +98,8 @@ def pinned(directory: Path, runs: Sequence[SweepRun], *, mixed: bool = False) ->
 
     ChangedCaseError for a run with results of another case, unless results may be `mixed`.
     """
-    found = with_digests(directory, runs)
-    for before, now in zip(runs, found, strict=True):
+    current = with_digests(directory, runs)
+    for before, now in zip(runs, current, strict=True):
         is_same = mixed or not before.digests or before.digests == now.digests
         if is_same or not has_begun(directory / before.directory):
             continue
@@ -108,7 +108,7 @@ def pinned(directory: Path, runs: Sequence[SweepRun], *, mixed: bool = False) ->
                 f"holds runs of the case {Path(before.case).name} before it changed: "
                 f"{', '.join(parts)}"
             )
-    return found
+    return current
 
 
 def record(directory: Path, runs: Sequence[SweepRun], earlier: Sequence[SweepRun]) -> None:

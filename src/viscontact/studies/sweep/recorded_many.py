@@ -82,20 +82,20 @@ def _write_runs(
     names = {case: case_name(case, place) for case in cases}
     runs = [_sweep_run(n, recipe, names, earlier) for n, recipe in enumerate(recipes)]
     try:
-        found = continued(directory, runs, earlier)
+        recorded = continued(directory, runs, earlier)
     except OtherSweepError as error:
         raise ValueError(f"{directory}: holds other runs: {error}; choose another one") from None
-    refuse_shared_directories([directory / each.directory for each in found])
-    for run, recipe in zip(found, recipes, strict=True):
+    refuse_shared_directories([directory / each.directory for each in recorded])
+    for run, recipe in zip(recorded, recipes, strict=True):
         _refuse_other_results(run, recipe, directory)
     try:
-        found = pinned(directory, found)
+        recorded = pinned(directory, recorded)
     except ChangedCaseError as error:
         raise ValueError(
             f"{directory}: {error}; choose another directory, or undo the change"
         ) from None
-    record(directory, found, earlier)
-    return found
+    record(directory, recorded, earlier)
+    return recorded
 
 
 def _sweep_run(
