@@ -7,6 +7,7 @@ import xarray as xr
 
 from synthetic_results import ellipse
 from viscontact.drawing.content.contact_area import area_panel
+from viscontact.drawing.content.contact_curve import contact_panels, pressure_curve
 from viscontact.drawing.content.history import drawn_scalars, response_names
 from viscontact.drawing.content.map import maps_over
 from viscontact.results.contact_spots import contact_spots
@@ -32,6 +33,23 @@ def test_outline_lies_around_the_cells_in_tension() -> None:
     for pulled, pressed in zip(maps_over(adhering()).maps, maps_over(ellipse()).maps, strict=True):
         [outline], [expected] = pulled.outline, pressed.outline
         np.testing.assert_array_equal(outline, expected)
+
+
+def test_map_and_curves_show_contact_without_pressure() -> None:
+    # Between pressure and tension a cell in contact may have none.
+    ds = adhering()
+    ds["pressure"][-1] = ds.pressure[-1].where(ds.pressure[-1] >= 0, 0.0)
+    maps = maps_over(ds)
+    (x, y), shown = maps.inside, np.isfinite(maps.cells(len(maps.maps) - 1, most=10**6))
+    touched = maps.snapshots[-1].in_contact
+    np.testing.assert_array_equal(shown, touched[x, y])
+    curve = pressure_curve(ds, "x", None, "pressure-profile")
+    (panel,) = contact_panels(ds, curve, [float(ds.time[-1])])
+    positions, on_line = maps.snapshots[-1].contact_section("x")
+    drawn = panel.curves[0].x[np.isfinite(panel.curves[0].y)]
+    cell = positions[1] - positions[0]
+    ends = positions[on_line][[0, -1]] + [-cell, cell]
+    np.testing.assert_allclose(drawn[[0, -1]], ends)
 
 
 def test_window_and_nominal_area_include_cells_in_tension() -> None:

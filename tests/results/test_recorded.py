@@ -105,6 +105,13 @@ def test_leading_edge_is_the_one_in_the_direction_of_motion() -> None:
     assert contact_edges(at, np.array([False, True, True, False]), -0.1) == (0.5, 2.5)
 
 
+@pytest.mark.parametrize("touched", [[True, True, False, False], [False, False, True, True]])
+def test_edges_at_the_border_of_the_grid_are_those_of_its_last_cells(touched: list[bool]) -> None:
+    at = np.array([0.0, 1.0, 2.0, 3.0])
+    low, high = (-0.5, 1.5) if touched[0] else (1.5, 3.5)
+    assert contact_edges(at, np.array(touched), 0.1) == (high, low)
+
+
 def test_place_has_the_unit_of_its_axis() -> None:
     assert TIME.place(2.0) == "t = 2 s"
     assert SPEED.place(0.5) == "500 mm/s"

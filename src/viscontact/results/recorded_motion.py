@@ -56,6 +56,8 @@ def contact_edges(positions: Floats, touched: Bools, way: float) -> tuple[float,
     if way == 0 or inside.size == 0:
         return None
     first, last = inside[[0, -1]]
-    low = float(positions[max(first - 1, 0)] + positions[first]) / 2
-    high = float(positions[last] + positions[min(last + 1, len(positions) - 1)]) / 2
+    # The border of the grid is half a cell beyond the last centre.
+    before, after = (2 * at[0] - at[1] for at in (positions[:2], positions[:-3:-1]))
+    wide = np.concatenate([[before], positions, [after]])
+    low, high = (float(wide[at] + wide[at + 1]) / 2 for at in (first, last + 1))
     return (high, low) if way > 0 else (low, high)

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.compared_runs import Runs, runs_of
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import inks_of
@@ -21,6 +21,9 @@ from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.units.formatting import readable_unit
 
+#: Positions [m], on a periodic grid slightly beyond the border, a quantity [SI], and contact.
+ContactLine = tuple[Floats, Floats, Bools]
+
 
 @dataclass(frozen=True)
 class ContactCurve:
@@ -30,31 +33,28 @@ class ContactCurve:
     label: str
     units: str  # SI
     along: Literal["x", "y"]
-    #: Positions [m], on a periodic grid slightly beyond the border, and the quantity [SI].
-    values: Callable[[Snapshot], tuple[Floats, Floats]]
+    line: Callable[[Snapshot], ContactLine]
     largest: Callable[[Snapshot], float]  # which its unit is chosen for
     note: str  # of runs whose peak pressure depends on the mesh
-    marks_edges: bool = (
-        False  # with a mark at the leading and the trailing edge of a moving contact
-    )
+    marks_edges: bool = False  # the leading and the trailing one of a moving contact
 
 
 def cut_at_ends(
-    snapshot: Snapshot, along: Literal["x", "y"], at: float | None, curve: tuple[Floats, Floats]
-) -> tuple[Floats, Floats]:
-    """The curve along an axis, falling to zero where the body ends, not at the next centre."""
+    snapshot: Snapshot, along: Literal["x", "y"], at: float | None, line: ContactLine
+) -> ContactLine:
+    """Line along an axis, falling to zero where the body ends, not at the next centre."""
     # The end is that on the row of cells next to `at` [m] on the other axis, by default the middle.
-    positions, values = curve
+    positions, values, touched = line
     if snapshot.body_end is None:
-        return curve
+        return line
     axis = 0 if along == "x" else 1
     across = (snapshot.y, snapshot.x)[axis]
     row = int(np.abs(across - (snapshot.middle[1 - axis] if at is None else at)).argmin())
     ends = (snapshot.body_end.along_x, snapshot.body_end.along_y.T)[axis][:, row]
     places, found = [], []
     for before in np.flatnonzero(np.isfinite(ends)):
-        inner, outer = (before, before + 1) if values[before] > 0 else (before + 1, before)
-        if values[inner] > 0 and values[outer] == 0:
+        inner, outer = (before, before + 1) if touched[before] else (before + 1, before)
+        if touched[inner] and not touched[outer]:
             end = positions[inner] + ends[before] * (positions[outer] - positions[inner])
             # From the left, the value precedes the zero.
             places.append((before + 1, end, end))
@@ -62,7 +62,8 @@ def cut_at_ends(
     for (index, *ends_at), pair in reversed(list(zip(places, found, strict=True))):
         positions = np.insert(positions, [index, index], ends_at)
         values = np.insert(values, [index, index], pair)
-    return positions, values
+        touched = np.insert(touched, [index, index], np.array(pair) != 0)
+    return positions, values, touched
 
 
 def contact_panels(results: Runs, curve: ContactCurve, times: ArrayLike | None) -> list[Panel]:
@@ -105,27 +106,22 @@ def _at_instants(run: xr.Dataset, curve: ContactCurve, times: ArrayLike | None) 
 
 
 def _curve(snapshot: Snapshot, curve: ContactCurve, name: str, ink: Ink) -> Curve:
-    positions, values = curve.values(snapshot)
-    return Curve(positions, under_pressure(values), name, ink)
+    positions, values, touched = curve.line(snapshot)
+    # The zeros next to the contact belong to the curve.
+    near = touched | np.append(touched[1:], False) | np.append(False, touched[:-1])
+    return Curve(positions, np.where(near, values, np.nan), name, ink)
 
 
 def _edges(run: xr.Dataset, snapshot: Snapshot, curve: ContactCurve, ink: Ink) -> Iterator[Curve]:
     """Yield the leading and the trailing edge of a moving contact; none at rest."""
     direction = direction_at(run, snapshot.time)
     way = 0.0 if direction is None else direction["xy".index(curve.along)]
-    positions, values = curve.values(snapshot)
-    edges = contact_edges(positions, values != 0, way)
+    positions, _, touched = curve.line(snapshot)
+    edges = contact_edges(positions, touched, way)
     if edges is not None:
         leading, trailing = (np.array([edge]) for edge in edges)
         yield Curve(leading, np.zeros(1), ink=ink, look="leading", is_on_top=True)
         yield Curve(trailing, np.zeros(1), ink=ink, look="trailing", is_on_top=True)
-
-
-def under_pressure(values: Floats) -> Floats:
-    """Values with NaN where they are zero, but for the zeros next to others."""
-    pressed = values != 0
-    near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])
-    return np.where(near, values, np.nan)
 
 
 def _note(runs: Iterable[xr.Dataset], times: ArrayLike, curve: ContactCurve) -> str:
@@ -164,10 +160,11 @@ def pressure_curve(
     first = next(iter(runs_of(results, figure).values()))
     way = along or motion_axis(first) or across_period(first) or "x"
 
-    def section(snapshot: Snapshot) -> tuple[Floats, Floats]:
+    def section(snapshot: Snapshot) -> ContactLine:
         # On a periodic grid continued by a cell.
         shown = snapshot.with_border(1) if any(snapshot.periodic) else snapshot
-        return cut_at_ends(shown, way, at, shown.section(way, at))
+        (positions, values), (_, touched) = shown.section(way, at), shown.contact_section(way, at)
+        return cut_at_ends(shown, way, at, (positions, values, touched))
 
     return ContactCurve(
         *(figure, "Pressure", "Pa", way, section),
@@ -177,18 +174,20 @@ def pressure_curve(
     )
 
 
-def _line_load(snapshot: Snapshot) -> tuple[Floats, Floats]:
-    x, load = snapshot.line_load()
+def _line_load(snapshot: Snapshot) -> ContactLine:
+    (x, load), touched = snapshot.line_load(), np.asarray(snapshot.in_contact.any(axis=1))
     cell, _ = snapshot.cell_size
     if snapshot.periodic[0]:
-        return np.concatenate([x[:1] - cell, x, x[-1:] + cell]), np.pad(load, 1, mode="wrap")
-    touched = np.flatnonzero(snapshot.in_contact.any(axis=1))
-    if not touched.size:
-        return x, load
+        beyond = np.concatenate([x[:1] - cell, x, x[-1:] + cell])
+        return beyond, np.pad(load, 1, mode="wrap"), np.pad(touched, 1, mode="wrap")
+    inside = np.flatnonzero(touched)
+    if not inside.size:
+        return x, load, touched
     # The contact ends within half a cell of the border of its last cells.
-    rows = slice(int(touched[0]), int(touched[-1]) + 1)
-    ends = x[touched[0]] - cell / 2, x[touched[-1]] + cell / 2
-    return np.concatenate([ends[:1], x[rows], ends[1:]]), np.pad(load[rows], 1)
+    rows = slice(int(inside[0]), int(inside[-1]) + 1)
+    ends = x[inside[0]] - cell / 2, x[inside[-1]] + cell / 2
+    positions = np.concatenate([ends[:1], x[rows], ends[1:]])
+    return positions, np.pad(load[rows], 1), np.pad(touched[rows], 1)
 
 
 LINE_LOAD = ContactCurve(

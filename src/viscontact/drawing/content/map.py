@@ -145,11 +145,12 @@ class Maps:
         return x, y
 
     def cells(self, index: int, most: int) -> Floats:
-        """Pressure of the averaged cells within the window [Pa]; NaN where there is none."""
-        joined = self.snapshots[index].pressure[self.inside]
+        """Pressure of the averaged cells within the window [Pa]; NaN without contact."""
+        shown = self.snapshots[index]
+        joined, share = shown.pressure[self.inside], shown.in_contact[self.inside].astype(float)
         for axis, stride in enumerate(self.strides(most)):
-            joined = _averaged(joined, stride, axis)
-        return np.where(joined != 0, joined, np.nan)
+            joined, share = (_averaged(each, stride, axis) for each in (joined, share))
+        return np.where(share > 0, joined, np.nan)
 
     @cached_property
     def through(self) -> tuple[tuple[float, float], ...]:
