@@ -41,16 +41,6 @@ def cluster_tasks(
 @contextmanager
 def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
     """Connect to a scheduler by its address or file; `local` starts `count` workers here."""
-    with _client(scheduler, count) as client:
-        if scheduler != "local":
-            if not quiet and not client.scheduler_info()["workers"]:
-                say(f"--scheduler {scheduler}: waiting for its first worker")
-            client.wait_for_workers(1)
-        yield client
-
-
-@contextmanager
-def _client(scheduler: str, count: int) -> Iterator[Any]:
     address = "" if scheduler == "local" else _address(scheduler)
     try:
         distributed: Any = import_module("distributed")
@@ -61,23 +51,27 @@ def _client(scheduler: str, count: int) -> Iterator[Any]:
     with ExitStack() as opened:
         try:
             if scheduler == "local":
-                # Without a limit of memory: the runs at once were chosen to fit.
-                options: dict[str, Any] = {
-                    "n_workers": count,
-                    "threads_per_worker": 1,
-                    "memory_limit": 0,
-                    "dashboard_address": _ANY_PORT,
-                }
                 # Ctrl-C reaches them at the terminal, too; this process tells them.
                 with signals_blocked([signal.SIGINT]):
-                    cluster = distributed.LocalCluster(**options)
+                    # Without a limit of memory: the runs at once were chosen to fit.
+                    cluster = distributed.LocalCluster(
+                        n_workers=count,
+                        threads_per_worker=1,
+                        memory_limit=0,
+                        dashboard_address=_ANY_PORT,
+                    )
                 client = distributed.Client(opened.enter_context(cluster))
             else:
                 client = distributed.Client(address, timeout=_PATIENCE)
         except (OSError, TimeoutError, ValueError) as error:
             at = "" if address == scheduler else f" at {address}"
             refuse(f"--scheduler {scheduler}: no scheduler answers{at}: {error}")
-        yield opened.enter_context(client)
+        opened.enter_context(client)
+        if scheduler != "local":
+            if not quiet and not client.scheduler_info()["workers"]:
+                say(f"--scheduler {scheduler}: waiting for its first worker")
+            client.wait_for_workers(1)
+        yield client
 
 
 def _address(scheduler: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from viscontact.case import CaseError
@@ -61,9 +61,9 @@ def _setting(
             name = case_name(case, requests[0].output.parent.resolve())
             if (recorded := recorded_cells(earlier, name)) is not None:
                 return recorded
-        begun = [found for each in requests if each.resume and (found := _begun_with(each))]
-        if begun:
-            return begun[0].settings
+        begun = [_begun_with(each) for each in requests if each.resume]
+        if begun_with := [cells for cells in begun if cells is not None]:
+            return begun_with[0]
         cells = common_cells(case, design, settings, requests[0].threads, memory)
     except (CaseError, CommandError):
         return ()  # reported when the runs are checked
@@ -77,18 +77,11 @@ def _setting(
     return cells.settings
 
 
-@dataclass(frozen=True)
-class _Begun:
-    """Setting of the common cells of a run that has begun; none if it has cells of its own."""
-
-    settings: tuple[str, ...]
-
-
-def _begun_with(request: RunRequest) -> _Begun | None:
-    """Cells that a run began with; None if it has not begun."""
+def _begun_with(request: RunRequest) -> tuple[str, ...] | None:
+    """Setting of the common cells of a run, none if it has its own; None if it has not begun."""
     recorded = (request.output or Path()) / CASE_NAME
     if not recorded.is_file():
         return None
     grid = read_document(recorded).data.get("grid")
     cell = grid.get(KEY) if isinstance(grid, dict) else None
-    return _Begun(cell_setting(*cell) if isinstance(cell, list) else ())
+    return cell_setting(*cell) if isinstance(cell, list) else ()

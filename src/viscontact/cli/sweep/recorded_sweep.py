@@ -14,7 +14,6 @@ from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.studies.sweep import continuation
 from viscontact.studies.sweep.common_cells import KEY
 from viscontact.studies.sweep.continuation import (
-    ChangedCaseError,
     OtherSweepError,
     continued,
     has_begun,
@@ -61,7 +60,7 @@ class RecordedSweep:
         """Sweep with digests of its cases; refuse changed ones unless runs may be mixed."""
         try:
             return replace(self, runs=pinned(self.directory, self.runs, mixed=mixed))
-        except ChangedCaseError as error:
+        except ValueError as error:
             refuse(
                 f"{self.directory}: {error}; choose another directory with -o DIR, or continue "
                 "with the changed case by --resume"

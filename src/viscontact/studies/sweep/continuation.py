@@ -27,10 +27,6 @@ class OtherSweepError(ValueError):
         self.is_left_out = is_left_out
 
 
-class ChangedCaseError(ValueError):
-    """Run with results of its case before that was changed."""
-
-
 def recorded_runs(directory: Path) -> list[SweepRun]:
     """Runs in the manifest of a directory, if any; ValueError names the line that is damaged."""
     path = directory / MANIFEST_NAME
@@ -96,7 +92,7 @@ def refuse_shared_directories(places: Sequence[Path]) -> None:
 def pinned(directory: Path, runs: Sequence[SweepRun], *, mixed: bool = False) -> list[SweepRun]:
     """Return the runs with the digests of their cases now.
 
-    ChangedCaseError for a run with results of another case, unless results may be `mixed`.
+    ValueError for a run with results of another case, unless results may be `mixed`.
     """
     current = with_digests(directory, runs)
     for before, now in zip(runs, current, strict=True):
@@ -104,7 +100,7 @@ def pinned(directory: Path, runs: Sequence[SweepRun], *, mixed: bool = False) ->
         if is_same or not has_begun(directory / before.directory):
             continue
         if parts := changed_since(directory, before):
-            raise ChangedCaseError(
+            raise ValueError(
                 f"holds runs of the case {Path(before.case).name} before it changed: "
                 f"{', '.join(parts)}"
             )

@@ -18,11 +18,8 @@ def comparable(key: str, text: str) -> Hashable:
         value = parse_value(text)
     except SourceError:
         return text.strip()
-    return value if _last_part(key) == "file" and isinstance(value, str) else _comparable(value)
-
-
-def _last_part(key: str) -> str:
-    return key.rpartition(".")[2]
+    is_file = key.rpartition(".")[2] == "file" and isinstance(value, str)
+    return value if is_file else _comparable(value)
 
 
 def _comparable(value: Any) -> Hashable:

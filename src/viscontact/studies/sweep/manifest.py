@@ -56,10 +56,9 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
     with replacing(path) as file:
         for each in runs:
             found = {**vars(each), "settings": dict(each.settings), "digests": dict(each.digests)}
-            for name in ("changed", "digests"):
-                if not found[name]:
-                    del found[name]
-            text = json.dumps(found, ensure_ascii=False)
+            optional = ("changed", "digests")
+            line = {name: value for name, value in found.items() if value or name not in optional}
+            text = json.dumps(line, ensure_ascii=False)
             # A name that is not UTF-8 is escaped as JSON does it.
             file.write(text.encode("utf-8", "backslashreplace") + b"\n")
     return path

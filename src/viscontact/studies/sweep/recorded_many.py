@@ -14,7 +14,6 @@ from viscontact.studies.executors.driver import Active, Workers, case_task, driv
 from viscontact.studies.executors.simulation_task import SimulationTask, change_of_results
 from viscontact.studies.executors.task import RecordedTask
 from viscontact.studies.sweep.continuation import (
-    ChangedCaseError,
     OtherSweepError,
     continued,
     pinned,
@@ -90,7 +89,7 @@ def _write_runs(
         _refuse_other_results(run, recipe, directory)
     try:
         recorded = pinned(directory, recorded)
-    except ChangedCaseError as error:
+    except ValueError as error:
         raise ValueError(
             f"{directory}: {error}; choose another directory, or undo the change"
         ) from None
