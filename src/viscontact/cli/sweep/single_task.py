@@ -156,8 +156,8 @@ def changed_run(
                 f"--set {key}: differs between the runs of this sweep; correct the value where "
                 "the runs are given, and repeat that command with --resume"
             )
-    before = {key: run.settings.get(key) for key in given}
-    if all(value is not None and _equal(key, value, given[key]) for key, value in before.items()):
+    before = {key: comparable(key, text) for key, text in run.settings.items() if key in given}
+    if before == {key: comparable(key, text) for key, text in given.items()}:
         return run
     if not overwrite and has_begun(directory):
         refuse(
@@ -180,7 +180,3 @@ def write_changed(manifest: Path, run: SweepRun) -> None:
             write_manifest(manifest.parent, runs)
     except (DirectoryInUse, OSError, ValueError) as error:
         refuse(f"{manifest}: cannot be changed: {error}")
-
-
-def _equal(key: str, one: str, other: str) -> bool:
-    return comparable(key, one) == comparable(key, other)

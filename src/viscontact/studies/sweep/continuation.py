@@ -56,7 +56,9 @@ def continued(
     """
     # There may be more runs than before. Settings that were set for a run alone are kept.
     by_place = {each.directory: each for each in earlier}
-    by_values = {_values(each): each for each in earlier} if _has_new(runs, by_place) else {}
+    # Values are compared only where a directory is not in the manifest.
+    has_new = any(each.directory not in by_place for each in runs)
+    by_values = {_values(each): each for each in earlier} if has_new else {}
     found, kept = [], set()
     for run in runs:
         before = by_place.get(run.directory) or by_values.get(_values(run))
@@ -112,11 +114,6 @@ def record(directory: Path, runs: Sequence[SweepRun], earlier: Sequence[SweepRun
     digests = [[each.digests for each in some] for some in (runs, earlier)]
     if list(runs) != list(earlier) or digests[0] != digests[1]:
         write_manifest(directory, runs)
-
-
-def _has_new(runs: Sequence[SweepRun], by_place: dict[str, SweepRun]) -> bool:
-    """Test whether any directory is not in the manifest, so that values have to be compared."""
-    return bool(by_place) and any(each.directory not in by_place for each in runs)
 
 
 def _values(run: SweepRun) -> Hashable:
