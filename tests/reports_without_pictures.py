@@ -17,12 +17,17 @@ def _left_out(draw: Callable[[], Figure], about: str) -> Element:
     return element("div", image, class_="scroll")
 
 
+def _framed(draw: Callable[[], Figure], about: str) -> Element:
+    return element("figure", _left_out(draw, about), class_="single")
+
+
 @contextmanager
 def pictures_left_out() -> Iterator[None]:
     """Draw no still pictures in a block."""
     with pytest.MonkeyPatch.context() as patched:
-        for module in ("drawings", "still_figures", "measured"):
+        for module in ("drawings", "measured"):
             patched.setattr(f"viscontact.report.{module}.drawn", _left_out)
+        patched.setattr("viscontact.report.still_figures.framed", _framed)
         yield
 
 

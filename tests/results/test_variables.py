@@ -23,7 +23,7 @@ from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState
 from viscontact.plot import history
-from viscontact.report.drawings import drawn
+from viscontact.report.drawings import drawn, framed
 from viscontact.report.page import report_page
 from viscontact.report.run_data import run_data
 from viscontact.results import variables
@@ -181,8 +181,9 @@ def test_older_result_is_shown_without_the_new_scalar(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     # Still pictures are drawn, too, but not written; of the others, no pixels are counted here.
-    for module in ("drawings", "still_figures", "measured"):
+    for module in ("drawings", "measured"):
         monkeypatch.setattr(f"viscontact.report.{module}.drawn", drawn)
+    monkeypatch.setattr("viscontact.report.still_figures.framed", framed)
     monkeypatch.setattr("viscontact.report.drawings.as_svg", lambda figure: b"<svg/>")
     monkeypatch.setattr("viscontact.drawing.matplotlib.layout.saving._DOTS_PER_INCH", 30)
     files = [str(tmp_path / name) for name in ("result.nc", "newer.nc")]

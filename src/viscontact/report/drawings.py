@@ -23,6 +23,7 @@ from viscontact.drawing.svg.curves import law_drawings
 from viscontact.drawing.svg.html import element
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
+from viscontact.report.page_elements import remark, width_of
 from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
 from viscontact.results.run_axis import law_times
 from viscontact.results.stored_contact import cells_in_contact
@@ -137,14 +138,19 @@ def _curves(ds: xr.Dataset, part: str) -> Figure:
 
 def drawn(draw: Callable[[], Figure], about: str) -> Element:
     """An image that needs nothing from outside, or why there is none."""
+    return framed(draw, about)[0]
+
+
+def framed(draw: Callable[[], Figure], about: str) -> Element:
+    """Figure of a page with an image, which stays narrow in one column, or why there is none."""
     try:
         figure = draw()
     except (ValueError, AttributeError) as error:
-        return element("p", f"Not drawn: {error}.", class_="faint")
+        return element("figure", remark(f"Not drawn: {error}."), class_="single")
     width, height = (f"{96 * inches:.0f}" for inches in figure.get_size_inches())
     source = f"data:image/svg+xml;base64,{base64.b64encode(as_svg(figure)).decode('ascii')}"
     image = element("img", src=source, alt=about, width=width, height=height)
-    return element("div", image, class_="scroll")
+    return element("figure", element("div", image, class_="scroll"), **width_of(figure))
 
 
 def is_left_out(described: Any) -> bool:

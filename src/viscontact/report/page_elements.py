@@ -22,9 +22,12 @@ def drawn_figure(drawn: Figure, caption: str, about: str = "") -> Element:
     drawing = base64.b64encode(as_svg(drawn)).decode()
     image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt=about or caption)
     frame = element("div", image, class_="scroll")
-    is_narrow = drawn.get_figwidth() <= style.ONE_COLUMN
-    width = {"class": "single"} if is_narrow else {}
-    return element("figure", frame, element("figcaption", caption), **width)
+    return element("figure", frame, element("figcaption", caption), **width_of(drawn))
+
+
+def width_of(drawn: Figure) -> dict[str, str]:
+    """Class of a figure that stays narrow, one column wide."""
+    return {"class": "single"} if drawn.get_figwidth() <= style.ONE_COLUMN else {}
 
 
 def remark(*content: str | Element) -> Element:

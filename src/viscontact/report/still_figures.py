@@ -15,13 +15,10 @@ from viscontact.drawing.content.usefulness import is_of_use
 from viscontact.drawing.figures import TABLE, Chapter
 from viscontact.drawing.matplotlib.histories.history import history_with_load
 from viscontact.drawing.matplotlib.histories.hysteresis import loops
-from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.svg.html import element
-from viscontact.report.drawings import drawn
+from viscontact.report.drawings import framed
 from viscontact.results.run_axis import run_axis
 
-#: Pixels of an inch.
-_PIXELS = 96
 #: Functions that differ from those of the command line.
 _OWN: dict[str, Callable[..., Figure]] = {"history": history_with_load, "hysteresis": loops}
 
@@ -43,7 +40,4 @@ def still_figures(
         if number or beside_interactive:
             yield element("h3", entry.heading)
         draw = _OWN.get(entry.name) or getattr(matplotlib, entry.drawn_by)
-        drawing = drawn(partial(draw, ds, **how), entry.heading)
-        widths = [float(image.get("width", 0)) for image in drawing.iter("img")]
-        is_narrow = all(width <= round(_PIXELS * style.ONE_COLUMN) for width in widths)
-        yield element("figure", drawing, **({"class": "single"} if is_narrow else {}))
+        yield framed(partial(draw, ds, **how), entry.heading)

@@ -8,7 +8,7 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
-from viscontact.results.stored_result import opened
+from viscontact.results.stored_result import open_replaceable
 
 
 def save(ds: xr.Dataset, path: str | Path) -> None:
@@ -63,4 +63,4 @@ def open_results(path: str | Path) -> xr.Dataset:
     ...         stored.force.dims
     ('time',)
     """
-    return opened(path, partial(xr.open_dataset, engine="netcdf4"))
+    return open_replaceable(path, partial(xr.open_dataset, engine="netcdf4"))

@@ -94,10 +94,10 @@ Result: TypeAlias = Union["xr.Dataset", StoredResult]
 
 def stored_result(path: str | Path) -> StoredResult:
     """Open the result in a run directory or a file; errors are those of `open_results`."""
-    return opened(path, StoredResult)
+    return open_replaceable(path, StoredResult)
 
 
-def opened(path: str | Path, open_file: Callable[[Path], _Opened]) -> _Opened:
+def open_replaceable(path: str | Path, open_file: Callable[[Path], _Opened]) -> _Opened:
     """Open the result in a run directory or a file, which a run may replace meanwhile.
 
     FileNotFoundError if there is none, ValueError if it cannot be read.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import fill
 
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis as Scale
+from matplotlib.axis import XAxis, YAxis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from viscontact.drawing.content.panel import Axis
@@ -29,7 +29,7 @@ def label_key(axes: Axes, key: Axis, letters: int) -> None:
         axes.set_xticklabels(key.texts[::every], rotation=30, ha="right")
 
 
-def place_log_ticks(axis: Scale) -> None:
+def place_log_ticks(axis: XAxis | YAxis) -> None:
     """Place plain numbers at the ticks of a logarithmic axis."""
     low, high = axis.get_data_interval()
     subs = (1.0, 2.0, 5.0) if high < _FEW_DECADES * low else (1.0,)
