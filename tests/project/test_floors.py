@@ -39,8 +39,11 @@ FACES = ("laws", "indenters", "loads", "surfaces", "plot", "figures", "notebook"
 # The front door loads names of all floors when they are first used. The displays of objects in
 # notebooks are drawn on a high floor, so the mixin that objects derive from asks there for them.
 AT_THE_FRONT_DOOR = {"units/display.py", "web", "cli"}
-# Files that import from a lower room inside a function, because few runs need it and it takes long.
-DEFERRED = {"runs/directory/recorder.py": "results"}  # xarray and pandas: a third of a run's start
+# Files that import from a room inside a function, because few runs need it and it takes long.
+DEFERRED = {
+    "runs/directory/recorder.py": "results",  # xarray and pandas: a third of a run's start
+    "runs/over_time.py": "runs",  # forecasts: a tenth of the start of `simulate`
+}
 # Exact solutions: what computes a result must not reach them, by however many imports.
 COMPUTES = ("simulation", "accuracy", "steady_motion", "runs")
 # Other packages, and the rooms, or parts of one, from which on they may be imported.

@@ -6,8 +6,7 @@ import pytest
 import viscontact as vc
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.runs.run_memory import curve_memory
-from viscontact.runs.steady_forecast import steady_forecast
+from viscontact.runs.steady_forecast import curve_memory, steady_forecast
 from viscontact.simulation.steady_motion.preparation import SteadySetup, prepare
 from viscontact.simulation.steady_motion.problem import steady_problem
 

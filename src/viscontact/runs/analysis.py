@@ -6,7 +6,7 @@ import json
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, Self, TypeVar
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
@@ -16,9 +16,11 @@ from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.descriptions import describe
 from viscontact.results.run_axis import RunAxis
-from viscontact.runs.forecast import Forecast
 from viscontact.simulation.accuracy.coarser_results import History
 from viscontact.simulation.accuracy.error_bars import ErrorBars
+
+if TYPE_CHECKING:
+    from viscontact.runs.forecast import Forecast
 
 
 class States(Protocol):

@@ -14,8 +14,7 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.run_axis import SPEED
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
-from viscontact.runs.run_memory import curve_memory
-from viscontact.runs.steady_forecast import curve_seconds, steady_forecast
+from viscontact.runs.steady_forecast import curve_memory, curve_seconds, steady_forecast
 from viscontact.simulation.accuracy.coarser_results import History
 from viscontact.simulation.accuracy.error_bars import ErrorBars
 from viscontact.simulation.steady_motion.curve import SteadyCurve

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
@@ -13,7 +13,6 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.run_axis import TIME
 from viscontact.runs.analysis import Analysis
-from viscontact.runs.forecast import Forecast, forecast, run_seconds
 from viscontact.runs.grid_error import grid_error_rows
 from viscontact.runs.progress_made import progress_made
 from viscontact.runs.run_memory import run_memory
@@ -23,6 +22,10 @@ from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.provenance import describe_problem, run_attributes
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
+
+# Forecasts import what a simulation in Python does without.
+if TYPE_CHECKING:
+    from viscontact.runs.forecast import Forecast
 
 
 class OverTime(Analysis[RunSetup, March]):
@@ -63,10 +66,14 @@ class OverTime(Analysis[RunSetup, March]):
     @property
     def seconds(self) -> float:
         """Predicted time of the run on this machine [s]."""
+        from viscontact.runs.forecast import run_seconds
+
         return run_seconds(self.setup, errors=self.errors)
 
     def forecast(self) -> Forecast:
         """Return the forecast of the run."""
+        from viscontact.runs.forecast import forecast
+
         return forecast(self.setup, errors=self.errors)
 
     def states(self, saved: RestartData | None = None) -> March:

@@ -8,7 +8,6 @@ from itertools import accumulate
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.boltzmann_sum import BLOCK_STEPS
-from viscontact.simulation.steady_motion.preparation import SteadySetup
 from viscontact.simulation.transient.setup import RunSetup
 
 #: Memory of the program [bytes]. It takes 120 to 190 MB, since the buffers of the linear algebra
@@ -29,12 +28,8 @@ FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 #: Further arrays under a moving body, and of a sum over all steps.
 ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 
-#: Arrays of a run over speed, and of a state on the grid of all speeds.
-ARRAYS_OF_CURVE, ARRAYS_OF_STATE = 60.0, 4.0
-
 #: Fields that take as much memory as the tables and operators of a further term of layers.
-#: In steady motion, which keeps no history, arrays.
-FIELDS_OF_TERM, ARRAYS_OF_MOVING_TERM = 7, 6.0
+FIELDS_OF_TERM = 7
 
 #: Memory of the time and the scalars of a step [bytes], measured.
 BYTES_PER_STEP = 2000.0
@@ -52,15 +47,6 @@ def run_memory(run: RunSetup) -> float:
             further += ARRAYS_OF_SUM
     fields += FIELDS_OF_TERM * len(run.other_terms)
     return needed_memory(run.grid, fields, mirrored=run.mirrored, further=further) + kept
-
-
-def curve_memory(run: SteadySetup) -> float:
-    """Memory of a checked run over speed [bytes]; its fields are written as they are found."""
-    terms = len(run.problem.contact.surface.terms)
-    largest = max(grid.shape[0] * grid.shape[1] for grid in run.grids)
-    each = ARRAYS_OF_CURVE + ARRAYS_OF_MOVING_TERM * (terms - 1)
-    kept = ARRAYS_OF_STATE * run.grid.shape[0] * run.grid.shape[1]
-    return PROGRAM + 8.0 * (largest * each + kept)
 
 
 def needed_memory(

@@ -7,7 +7,7 @@ from collections import Counter
 from viscontact.bodies.grid import Grid
 from viscontact.runs.forecast import Forecast, convolution_time
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.run_memory import curve_memory
+from viscontact.runs.run_memory import PROGRAM
 from viscontact.simulation.checks.half_space_theory import warnings_of_covers
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.simulation.steady_motion.curve import geometry_of, run_warnings
@@ -17,6 +17,10 @@ from viscontact.units.formatting import format_quantity
 #: Time at a speed in times of a plain convolution on its grid, with that of the coarser contact,
 #: and the overhead of a speed [s]; measured on balls and rollers at a tolerance of 1e-6.
 AT_A_SPEED, SPEED_OVERHEAD = 150.0, 0.05
+
+#: Arrays of a run over speed, of each further term of layers, and of a state on the grid of all
+#: speeds.
+ARRAYS_OF_CURVE, ARRAYS_OF_TERM, ARRAYS_OF_STATE = 60.0, 6.0, 4.0
 
 
 def steady_forecast(run: SteadySetup, *, errors: bool) -> Forecast:
@@ -41,6 +45,15 @@ def steady_forecast(run: SteadySetup, *, errors: bool) -> Forecast:
         ),
         warnings=run_warnings(run) | _cover_warnings(run, found, grid, speed),
     )
+
+
+def curve_memory(run: SteadySetup) -> float:
+    """Memory of a checked run over speed [bytes]; its fields are written as they are found."""
+    terms = len(run.problem.contact.surface.terms)
+    largest = max(grid.shape[0] * grid.shape[1] for grid in run.grids)
+    each = ARRAYS_OF_CURVE + ARRAYS_OF_TERM * (terms - 1)
+    kept = ARRAYS_OF_STATE * run.grid.shape[0] * run.grid.shape[1]
+    return PROGRAM + 8.0 * (largest * each + kept)
 
 
 def curve_seconds(run: SteadySetup, *, errors: bool) -> float:
