@@ -13,10 +13,10 @@ from viscontact.drawing.content.design import profile_panel, trial_panels
 from viscontact.drawing.content.friction import limit_speeds
 from viscontact.drawing.content.history import limits_around
 from viscontact.drawing.content.law_curves import creep_panels, material_panels
-from viscontact.drawing.content.look import PRESSURE, shades
+from viscontact.drawing.content.look import DARK, LIGHT, PRESSURE, Look, shades
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import in_order
-from viscontact.drawing.content.panel import Axis, Curve, Panel
+from viscontact.drawing.content.panel import Axis, Curve, Ink, Panel
 from viscontact.drawing.content.pressure_relief import thinned
 from viscontact.drawing.content.relief import relief
 from viscontact.drawing.content.scale import pressure_scale, round_step
@@ -185,3 +185,12 @@ def test_known_range_of_a_material_is_shaded_over_time_and_over_frequency() -> N
     narrow = material_panels(Maxwell(1e9, 1e9), (0.1, 0.2), None, ())
     assert [panel.y.scale for panel in narrow] == ["linear", "linear", "log"]
     assert material_panels(Elastic(1e6), (0.1, 1.0), None, ())[1].shaded is None
+
+
+@pytest.mark.parametrize("look", [LIGHT, DARK])
+def test_runs_have_distinct_colours_that_differ_from_the_page(look: Look) -> None:
+    colours = [look.colour(Ink(place=number)) for number in range(7)]
+    assert len({*colours, look.card}) == 8
+    assert look.colour(Ink(place=7)) == colours[0]
+    instants = [look.colour(Ink("ordered", place)) for place in (0.0, 0.5, 1.0)]
+    assert instants == look.instants(3)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import viscontact as vc
 from synthetic_sweeps import hertz_sweep, listed
+from viscontact.drawing.content.look import RED
 from viscontact.plot import response
 from viscontact.results.largest_values import compared_scalars, largest_values
 from viscontact.results.sweep_axes import varied_keys
@@ -25,7 +26,7 @@ def panel(figure: Figure, label: str) -> Axes:
 def test_curves_are_the_largest_values_over_time() -> None:
     axes = panel(response(hertz_sweep(load__force=FORCES, indenter__radius=RADII)), "Approach")
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("Load force [kN]", "Approach [mm]")
-    curves = [line for line in axes.lines if line.get_linestyle() == "-"]
+    curves = [line for line in axes.lines if line.get_linestyle() != "None"]
     for radius, line in zip(sorted(RADII[0]), curves, strict=True):
         np.testing.assert_allclose(line.get_xdata(), [1, 2, 8])
         expected = 1e-3 * (np.array(FORCES[0]) ** 2 / radius) ** (1 / 3)
@@ -40,7 +41,7 @@ def test_curve_is_in_the_order_of_the_values_and_breaks_at_a_run_without_a_resul
     ds["state"][3] = "failed"
     ds["approach"][3] = np.nan
     figure = response(ds)
-    curve, _, cross = panel(figure, "Approach").lines
+    curve, cross = panel(figure, "Approach").lines
     assert curve.get_xdata().tolist() == [1, 2, 4, 8]
     assert np.isnan(curve.get_ydata()).tolist() == [False, True, False, False]
     assert (cross.get_marker(), cross.get_xdata().tolist()) == ("x", [2])
@@ -62,6 +63,17 @@ def test_varied_force_and_equal_values_have_no_panel() -> None:
     ds["contact_area"][:] = 1e-6
     assert compared_scalars(ds) == ["approach", "peak_pressure"]
     assert compared_scalars(hertz_sweep(indenter__radius=RADII))[0] == "approach"
+
+
+def test_allowable_value_is_a_line_and_what_exceeds_it_is_red() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    # Peaks of 10, 12.6 and 20 MPa with errors of a tenth: 18 MPa is the least of the last one.
+    ds.attrs["allowable"] = '{"peak_pressure": {"limit": 17.9e6}}'
+    axes = panel(response(ds), "Peak")
+    _, beyond, level = axes.lines
+    assert (beyond.get_xdata().tolist(), beyond.get_color()) == ([8.0], RED)
+    np.testing.assert_allclose(level.get_ydata(), 17.9)
+    assert [text.get_text() for text in axes.texts] == ["allowable 17.9 MPa"]
 
 
 def test_large_grid_of_numbers_is_a_map() -> None:

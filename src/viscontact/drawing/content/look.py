@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.drawing.content.panel import Ink
 from viscontact.results.formatting import format_with_error, format_with_error_in
 from viscontact.units.formatting import ReadableUnit, format_number, without_trailing_zeros
 from viscontact.units.systems import AUTOMATIC, unit_in
@@ -23,6 +24,8 @@ INSTANTS = (
 #: Several runs: Okabe and Ito's palette without its yellow, which is too pale on white:
 #: distinguishable with any common kind of colour blindness.
 RUNS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000")
+#: What exceeds its limit.
+RED = "#b00020"
 #: Blue and orange that colour-blind readers distinguish, on white and on black.
 BLUE, ORANGE = "#2f80c3", "#d9661f"
 
@@ -68,6 +71,17 @@ class Look:
         unit = self.unit(si, value)
         number = without_trailing_zeros(format_number(value / unit.factor))
         return f"{number} {unit.symbol}".rstrip()
+
+    def colour(self, ink: Ink) -> str:
+        """Colour of a curve."""
+        if ink.kind == "ordered":
+            return shades(INSTANTS, 1, self.early + (self.late - self.early) * ink.place)[0]
+        if ink.kind == "run":
+            runs = (self.blue, self.warm, *RUNS[2:-1], self.ink)
+            return runs[int(ink.place) % len(runs)]
+        if ink.kind == "beyond":
+            return RED
+        return {"fit": self.warm, "faint": self.faint, "pale": self.faint}.get(ink.kind, self.ink)
 
     def instants(self, count: int) -> list[str]:
         """Colours of instants, from early to late."""

@@ -55,8 +55,9 @@ class Ink:
 
     # "run" is one of several different things, by its number from 0; "ordered" one of a sequence,
     # by its place from 0 (first) to 1 (last); "fit" what was fitted to measured points; "pale"
-    # what is set aside; "temperature" one of several, by its place from 0 (cold) to 1 (warm).
-    kind: Literal["run", "ordered", "fit", "faint", "pale", "text", "temperature"] = "run"
+    # what is set aside; "temperature" one of several, by its place from 0 (cold) to 1 (warm);
+    # "beyond" what exceeds its limit.
+    kind: Literal["run", "ordered", "fit", "faint", "pale", "text", "temperature", "beyond"] = "run"
     place: float = 0
 
 
@@ -94,6 +95,7 @@ class Curve:
     #: Half widths: bands along a line, bars at markers; NaN where unknown, inf on the mesh.
     error: Floats | None = None
     error_x: Floats | None = None
+    texts: tuple[str, ...] = ()  # of the points, below a pointer
     symbol: int = 0  # of markers: different sources or quantities have different ones
     is_fine: bool = False  # among many: small markers and thin lines
     has_spaced_markers: bool = False  # has only markers that are apart from each other
@@ -123,7 +125,8 @@ class Mark:
     place: float
     axis: Literal["x", "y"] = "x"
     text: str = ""
-    look: Literal["line", "dashed", "dotted", "tick"] = "line"  # a tick is at the border only
+    #: Ticks and crosses are at the border only.
+    look: Literal["line", "dashed", "dotted", "tick", "cross"] = "line"
     ink: Ink = FAINT
     is_text_below: bool = False  # of a line at a place on the vertical axis
 

@@ -61,10 +61,9 @@ def _draw_fit(panel: Panel, look: Look, name: str, **layout: Any) -> go.Figure:
 
 def _traces(panel: Panel, look: Look) -> list[Part]:
     """Points of what was measured, and lines of what was fitted."""
-    colours = {"run": look.blue, "fit": look.warm, "faint": look.faint}
     traces = []
     for curve in panel.curves:
-        colour = colours[curve.ink.kind]
+        colour = look.colour(curve.ink)
         trace: Part = {
             **{"x": numbers(panel.x.unit(curve.x)), "y": numbers(panel.y.unit(curve.y))},
             "hovertemplate": f"%{{y:.4g}} {panel.y.unit.symbol}<extra></extra>",

@@ -52,6 +52,11 @@ _APART = 0.05
 _ON_TOP: Mapping[str, Any] = {"clip_on": False, "zorder": 3}
 #: Errors of bars.
 _CAPPED: Mapping[str, Any] = {"ecolor": style.INK, "elinewidth": 0.9, "capsize": 2.0}
+#: Heights and markers of marks at the border.
+_AT_BORDER: Mapping[str, tuple[float, dict[str, Any]]] = {
+    "tick": (0.0, {"marker": "|", "markersize": 9, "clip_on": False}),
+    "cross": (0.02, {"marker": "x", "markersize": 4}),
+}
 #: Dashes of marks, which lie behind the curves.
 _MARKS, _BEHIND = {"line": "-", "dashed": "--", "dotted": ":"}, 1.9
 
@@ -188,15 +193,10 @@ def _branches(along: Floats) -> list[Any]:
 def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
     look: dict[str, Any] = {"linestyle": _MARKS.get(mark.look), "linewidth": style.THIN_LINE}
     look |= {"color": style.look_of(mark.ink)["color"], "zorder": _BEHIND}
-    if mark.look == "tick":
-        how: dict[str, Any] = {
-            "marker": "|",
-            "markersize": 9,
-            "linestyle": "none",
-            "clip_on": False,
-        }
+    if mark.look in _AT_BORDER:
+        height, how = _AT_BORDER[mark.look]
         at, border = float(panel.x.unit(mark.place)), axes.get_xaxis_transform()
-        axes.plot([at], [0.0], color=look["color"], transform=border, **how)
+        axes.plot([at], [height], color=look["color"], transform=border, linestyle="none", **how)
     elif mark.axis == "x":
         axes.axvline(float(panel.x.unit(mark.place)), **look)
     else:

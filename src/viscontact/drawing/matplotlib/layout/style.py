@@ -18,7 +18,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from viscontact.drawing.content.look import INSTANTS, LIGHT, RUNS, shades
+from viscontact.drawing.content.look import INSTANTS, LIGHT, RED, RUNS, shades
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import Ink
 
@@ -169,7 +169,7 @@ def look_of(ink: Ink) -> dict[str, Any]:
         return line | {"color": TEMPERATURES(ink.place)}
     if ink.kind == "pale":
         return line | {"color": FAINT, "alpha": 0.6}
-    return line | {"color": {"fit": BODY, "faint": FAINT, "text": INK}[ink.kind]}
+    return line | {"color": {"fit": BODY, "faint": FAINT, "text": INK, "beyond": RED}[ink.kind]}
 
 
 def styles_of(names: Sequence[str]) -> list[dict[str, Any]]:
