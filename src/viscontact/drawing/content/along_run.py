@@ -9,10 +9,12 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Axis, Units
 from viscontact.results.run_axis import require_time, run_axis
 from viscontact.results.shown_scalars import is_shown
-from viscontact.results.variables import error_name
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Relative change of a constant load, and share of the time from which on it is held: the rest is
@@ -49,6 +51,16 @@ def along_run(
         ("time" if over.is_history else "log") if is_log else "linear",
         first=first,
         has_choice=is_log or is_spread,
+    )
+
+
+def texts_along(run: xr.Dataset, name: str, look: Look = LIGHT) -> tuple[str, ...]:
+    """Instants or speeds of a run, and the values of a scalar there with their errors."""
+    axis, si = run_axis(run), SCALARS[name].units
+    columns = axis.values(run), run[name].values, errors_of(run, name)
+    return tuple(
+        f"{axis.place(place)}: {look.text(value, error, si)}"
+        for place, value, error in zip(*(column.tolist() for column in columns), strict=True)
     )
 
 

@@ -93,7 +93,7 @@ def profile_panel(table: xr.Dataset) -> Panel:
     limits = (-0.05 * deepest, deepest) if deepest > 0 else None
     return Panel(
         Axis.of("x", "m", x),
-        Axis("Drop", readable_unit("m", deepest or 1e-6), limits),
+        Axis("Drop", readable_unit("m", deepest or 1e-6), limits, is_reversed=True),
         tuple(
             Curve(x, drop, name, Ink(place=number), "bold" if name == "free" else "line")
             for number, (name, drop) in enumerate(

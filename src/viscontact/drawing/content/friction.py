@@ -10,6 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Indenter, Paraboloid, Roller, Sphere
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.bodies.materials.material import Material
+from viscontact.drawing.content.along_run import texts_along
 from viscontact.drawing.content.panel import FAINT, FIRST, SECOND, Axis, Curve, Ink, Panel, Units
 from viscontact.results.recorded_case import case_of, recorded_object
 from viscontact.results.stated_errors import errors_of
@@ -47,9 +48,9 @@ def friction_panel(
 
 def _curve(run: xr.Dataset, ink: Ink) -> Curve:
     title = str(run.attrs.get("title") or f"along {run.attrs.get('along', '')}".strip())
-    return Curve(
-        run["speed"].values, run[NAME].values, title, ink, "joined", error=errors_of(run, NAME)
-    )
+    values, texts = run[NAME].values, texts_along(run, NAME)
+    error = errors_of(run, NAME)
+    return Curve(run["speed"].values, values, title, ink, "joined", error=error, texts=texts)
 
 
 def limit_speeds(results: xr.Dataset) -> Floats:

@@ -37,6 +37,7 @@ class Axis:
     in_clock_units: bool = False  # hours and days are marked on a logarithmic scale of times
     has_choice: bool = False  # a reader may choose between a linear and a logarithmic scale
     texts: tuple[str, ...] = ()  # at 0, 1, 2, ... in place of numbers
+    is_reversed: bool = False  # with the largest value at the origin
 
     @classmethod
     def of(cls, quantity: str, si: str, *values: ArrayLike, units: Units = readable_unit) -> Axis:

@@ -41,7 +41,7 @@ def _bars(table: xr.Dataset, output: str) -> Panel:
     number, names = ReadableUnit("", 1.0), tuple(key_label(str(key)) for key in one["input"].values)
     return Panel(
         Axis("Elasticity: % per %", number),
-        Axis("", number, texts=names or ("",)),  # no number if there is no bar
+        Axis("", number, texts=names or ("",), is_reversed=True),  # no number if there is no bar
         tuple(
             Curve(values[of], places[of], ink=ink, look="bars", error_x=errors[of])
             for of, ink in ((falls, SECOND), (~falls, FIRST))

@@ -13,7 +13,6 @@ from viscontact.drawing.content.friction import friction_panel
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Curve, Panel
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
-from viscontact.results.run_axis import SPEED
 from viscontact.results.shown_scalars import has_friction
 from viscontact.units.formatting import format_compact
 
@@ -66,12 +65,7 @@ def _curve(panel: Panel, curve: Curve, line: Part) -> Part:
         **{"x": numbers(panel.x.unit(curve.x)), "y": numbers(curve.y), "name": curve.name},
         **{"mode": "lines+markers", "line": line, "marker": {"color": line["color"], "size": 6}},
         "error_y": bars | {"color": line["color"], "thickness": 1.2, "width": 3},
-        "text": [
-            f"{SPEED.place(speed)}: {LIGHT.text(value, error, '1')}"
-            for speed, value, error in zip(
-                curve.x.tolist(), curve.y.tolist(), errors.tolist(), strict=True
-            )
-        ],
+        "text": curve.texts,
         "hovertemplate": "%{text}<extra></extra>",
     }
 

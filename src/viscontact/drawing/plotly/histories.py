@@ -5,12 +5,10 @@ from __future__ import annotations
 import plotly.graph_objects as go
 import xarray as xr
 
+from viscontact.drawing.content.along_run import texts_along
 from viscontact.drawing.content.history import history_panel, load_names, response_names
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.plotly.panel_over_run import panel_over_run
-from viscontact.results.run_axis import run_axis
-from viscontact.results.stated_errors import errors_of
-from viscontact.results.variables import SCALARS
 
 
 def history(
@@ -18,13 +16,7 @@ def history(
 ) -> go.Figure:
     """Draw a scalar over time or speed with its error band, and the same of a reference dashed."""
     panel = history_panel({"": ds}, name, look.unit, reference)
-    axis, units = run_axis(ds), SCALARS[name].units
-    values, errors = ds[name].values.tolist(), errors_of(ds, name).tolist()
-    hover = [
-        f"{axis.place(place)}: {look.text(value, error, units)}"
-        for place, value, error in zip(axis.values(ds).tolist(), values, errors, strict=True)
-    ]
-    return panel_over_run(panel, look, f"history-{name}", hover)
+    return panel_over_run(panel, look, f"history-{name}", texts_along(ds, name, look))
 
 
 def histories(

@@ -5,11 +5,10 @@ from __future__ import annotations
 import plotly.graph_objects as go
 import xarray as xr
 
+from viscontact.drawing.content.along_run import texts_along
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.loop import Loop, cycle_panel, loops_of
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
-from viscontact.results.stated_errors import drawn_values, errors_of
-from viscontact.units.formatting import format_quantity
 
 
 def loops(
@@ -24,7 +23,7 @@ def loops(
 
 def _draw(ds: xr.Dataset, loop: Loop, look: Look, reference: xr.Dataset | None) -> go.Figure:
     """Draw a loop: earlier and later cycles thin, the last whole one bold."""
-    panel, hover = cycle_panel(ds, loop, look.unit, reference), _hover(ds, loop, look)
+    panel, hover = cycle_panel(ds, loop, look.unit, reference), texts_along(ds, loop.value, look)
     across, up = panel.x, panel.y
     thin, bold = {"color": look.line, "width": 1}, {"color": look.blue, "width": 2.2}
     template = f"{across.quantity} %{{x:.4g}} {across.unit.symbol}, %{{text}}<extra></extra>"
@@ -44,14 +43,3 @@ def _draw(ds: xr.Dataset, loop: Loop, look: Look, reference: xr.Dataset | None) 
     return drawn(
         traces, look, meta, xaxis={"title": {"text": across.label}}, yaxis={"zeroline": True}
     )
-
-
-def _hover(ds: xr.Dataset, loop: Loop, look: Look) -> list[str]:
-    """Instant and value of each point."""
-    values, errors = drawn_values(ds, loop.value), errors_of(ds, loop.value)
-    return [
-        f"t = {format_quantity(float(time), 's')}: {look.text(value, error, 'N')}"
-        for time, value, error in zip(
-            ds["time"].values, values.tolist(), errors.tolist(), strict=True
-        )
-    ]

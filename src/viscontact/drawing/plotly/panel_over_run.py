@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import plotly.graph_objects as go
 
@@ -15,7 +17,7 @@ from viscontact.drawing.plotly.run_scale import part_along, places_along
 LINEAR, LOGARITHMIC = "linear", "log"
 
 
-def panel_over_run(panel: Panel, look: Look, name: str, hover: list[str]) -> go.Figure:
+def panel_over_run(panel: Panel, look: Look, name: str, hover: Sequence[str]) -> go.Figure:
     """Draw a panel over time or speed, with a text at each point of its first curve."""
     shown = _frame(panel, look, log=panel.x.scale != "linear")
     both = [_frame(panel, look, log=log) for log in (False, True)] if panel.x.has_choice else ()
@@ -54,7 +56,7 @@ def _frame(panel: Panel, look: Look, *, log: bool) -> Part:
     }
 
 
-def _styles(panel: Panel, look: Look, hover: list[str]) -> list[Part]:
+def _styles(panel: Panel, look: Look, hover: Sequence[str]) -> list[Part]:
     """Curves and band without their positions: the reference first, the result on top."""
     shade = {"mode": "lines", "fill": "toself", "fillcolor": look.band, "line": {"width": 0}}
     curve, *others = panel.curves

@@ -93,15 +93,7 @@ def draw_panel(axes: Axes, panel: Panel) -> list[ErrorBand]:
     bands = [band for curve in panel.curves for band in _errors(axes, panel, curve)]
     for mark in panel.marks:
         _draw_mark(axes, panel, mark)
-    axes.set_ylabel(panel.y.label)
-    if panel.y.limits is not None:
-        axes.set_ylim(*panel.y.unit(panel.y.limits))
-    if panel.y.texts:
-        axes.set_yticks(range(len(panel.y.texts)), panel.y.texts)
-    elif panel.y.scale == "log":
-        axes.set_yscale("log")
-    else:
-        axes.ticklabel_format(axis="y", useOffset=False)
+    _scale_up(axes, panel.y)
     scale_along(axes, panel.x)
     if panel.in_place:
         _say_not_drawn(axes, panel.in_place)
@@ -144,6 +136,21 @@ def _look_of(curve: Curve) -> dict[str, Any]:
     return look
 
 
+def _scale_up(axes: Axes, axis: Axis) -> None:
+    """Scale and label the vertical axis of a panel."""
+    axes.set_ylabel(axis.label)
+    if axis.limits is not None:
+        axes.set_ylim(*axis.unit(axis.limits))
+    if axis.texts:
+        axes.set_yticks(range(len(axis.texts)), axis.texts)
+    elif axis.scale == "log":
+        axes.set_yscale("log")
+    else:
+        axes.ticklabel_format(axis="y", useOffset=False)
+    if axis.is_reversed:
+        axes.yaxis.set_inverted(True)
+
+
 def scale_along(axes: Axes, axis: Axis) -> None:
     """Scale and label the horizontal axis of a panel."""
     label = axis.label
@@ -157,6 +164,8 @@ def scale_along(axes: Axes, axis: Axis) -> None:
         axes.set_xscale("log")
     if axis.limits is not None and (axis.scale == "time" or axis.in_clock_units):
         label = label_log_time(axes, axis.unit, float(axis.unit(axis.first)), end)
+    if axis.is_reversed:
+        axes.xaxis.set_inverted(True)
     if axes.xaxis.get_tick_params()["labelbottom"]:
         axes.set_xlabel(label)
 

@@ -125,6 +125,5 @@ def profiles(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     axes = figure.subplots()
     panel = profile_panel(table)
     draw_panel(axes, panel)
-    axes.invert_yaxis()
     style.add_legend_below(figure, *named_keys(panel.curves), columns=4)
     return figure

@@ -45,7 +45,6 @@ def tornado(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     panels = figure.subplots(len(drawn), 1, squeeze=False, height_ratios=heights)[:, 0]
     for panel, axes in zip(drawn, panels, strict=True):
         draw_panel(axes, panel)
-        axes.invert_yaxis()
     for axes in panels[:-1]:
         axes.set_xlabel("")
     return figure
