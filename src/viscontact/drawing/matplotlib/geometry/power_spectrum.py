@@ -29,6 +29,7 @@ def draw_power_spectrum(surface: Surface, *, width: Width | None = None) -> Figu
 
     Examples
     --------
+    >>> import numpy as np
     >>> heights = 1e-8 * np.random.default_rng(0).standard_normal((32, 32))
     >>> figure = draw_power_spectrum(Surface(heights, 1e-6))
     >>> figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
