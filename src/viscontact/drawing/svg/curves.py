@@ -11,7 +11,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
-from viscontact.bodies.loads import HarmonicHistory, LoadHistory
+from viscontact.bodies.loads import LoadHistory
+from viscontact.drawing.content.load_course import whole_load_panel
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
 from viscontact.drawing.svg.svg_panel import Stroke, panel
@@ -19,12 +20,6 @@ from viscontact.drawing.svg.svg_panel import Stroke, panel
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.
 _AROUND = 100.0
-#: Number of cycles of a harmonic load that are drawn, and of straight pieces of a curved load.
-_MOST_CYCLES, _MOST_PIECES = 5, 240
-#: The level after the last point of a history is drawn over this fraction of its time.
-_HELD = 0.25
-#: The drawing begins earlier by this fraction of its length.
-_BEFORE = 0.05
 #: Beyond this ratio of last to first compliance its axis is logarithmic.
 _DECADES = 20.0
 #: Number of rows of a long table that are drawn as points.
@@ -62,36 +57,13 @@ def law_span(law: Law) -> tuple[float, float]:
 
 def load_drawings(load: LoadHistory) -> list[Element]:
     """Draw force or approach over time."""
-    times, levels, end = _course(load)
-    low, high = float(levels.min(initial=0.0)), float(levels.max(initial=0.0))
-    if low == high:
-        high = 1.0
-    x = linear("time", "s", -_BEFORE * end, end)
+    drawn = whole_load_panel(load)
+    (curve,), name = drawn.curves, drawn.y.quantity.lower()
+    x = linear("time", "s", *(drawn.x.limits or (0.0, 1.0)))
     if load.kinks[-1] == 0:  # the drawing's end means nothing
         x = AxisScale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
-    name = "share of the largest load" if load.control == "mixed" else load.control
-    y = linear(name, load.unit, low - 0.04 * (high - low), high + 0.06 * (high - low), 3)
-    return [panel(f"{name} over time", x, y, [Stroke(times, levels)], aside=_side_text(load))]
-
-
-def _side_text(load: LoadHistory) -> str:
-    if isinstance(load, HarmonicHistory) and load.cycles > _MOST_CYCLES:
-        return f"{_MOST_CYCLES} of {load.cycles} cycles"
-    return "then held"
-
-
-def _course(load: LoadHistory) -> tuple[Floats, Floats, float]:
-    """Points of a history, both of a jump, and where the drawing ends [s]."""
-    kinks = load.kinks
-    curved_until = float(kinks[-1])
-    end = curved_until * (1 + _HELD) or 1.0
-    if isinstance(load, HarmonicHistory):
-        curved_until = end = min(load.cycles, _MOST_CYCLES) * load.period
-    pieces = min(math.ceil(curved_until / load.longest_step), _MOST_PIECES)
-    curve = np.linspace(0.0, curved_until, pieces + 1)
-    instants = np.unique(np.concatenate([[-_BEFORE * end, end], kinks[kinks <= end], curve]))
-    both = [load.level_at(instants, side=side) for side in ("left", "right")]
-    return np.repeat(instants, 2), np.stack(both, axis=1).ravel(), end
+    y = linear(name, load.unit, *(drawn.y.limits or (0.0, 1.0)), 3)
+    return [panel(f"{name} over time", x, y, [Stroke(curve.x, curve.y)], aside=drawn.note)]
 
 
 def _curve(

@@ -5,12 +5,10 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
+from viscontact.drawing.content.load_course import load_panel
 from viscontact.drawing.matplotlib.layout import style
-from viscontact.units.formatting import readable_unit
-
-_POINTS = 1200
+from viscontact.drawing.matplotlib.layout.panels import draw_panel
 
 
 def draw_load(load: LoadHistory, end: float) -> Figure:
@@ -42,30 +40,6 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
     """
     if not (np.isfinite(end) and end > 0):
         raise ValueError(f"end must be an instant after 0 s, got {end!r}")
-    times, levels = _curve(load, end)
-    unit, time_unit = readable_unit(load.unit, levels), readable_unit("s", times)
     figure = style.new_figure(style.ONE_COLUMN, 2.7)
-    axes = figure.subplots()
-    axes.plot(time_unit(times), unit(levels), color=style.LINE, linewidth=style.LINE_WIDTH)
-    axes.axhline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
-    axes.set(xlabel=time_unit.label("Time"), ylabel=unit.label(_quantity(load)))
-    margin = 0.02 * end
-    axes.set_xlim(*time_unit([-margin, end + margin]))
-    style.dress(axes)
+    draw_panel(figure.subplots(), load_panel(load, end))
     return figure
-
-
-def _quantity(load: LoadHistory) -> str:
-    """Quantity and unit of the curve."""
-    if load.control == "mixed":
-        return "Share of the largest load"
-    return load.control.capitalize()
-
-
-def _curve(load: LoadHistory, end: float) -> tuple[Floats, Floats]:
-    """Times and levels of the curve, with both sides of every jump."""
-    kinks = load.kinks[(load.kinks > 0) & (load.kinks < end)]
-    instants = np.unique(np.concatenate([np.linspace(0.0, end, _POINTS), kinks]))
-    both = [load.level_at(instants, side=side) for side in ("left", "right")]
-    both[0][0] = 0.0  # zero load before the beginning
-    return np.repeat(instants, 2), np.column_stack(both).ravel()
