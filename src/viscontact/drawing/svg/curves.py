@@ -15,7 +15,7 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.drawing.content.load_course import whole_load_panel
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import Stroke, panel
+from viscontact.drawing.svg.svg_panel import SvgCurve, panel
 
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.
@@ -63,7 +63,7 @@ def load_drawings(load: LoadHistory) -> list[Element]:
     if load.kinks[-1] == 0:  # the drawing's end means nothing
         x = AxisScale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
     y = linear(name, load.unit, *(drawn.y.limits or (0.0, 1.0)), 3)
-    return [panel(f"{name} over time", x, y, [Stroke(curve.x, curve.y)], aside=drawn.note)]
+    return [panel(f"{name} over time", x, y, [SvgCurve(curve.x, curve.y)], aside=drawn.note)]
 
 
 def _curve(
@@ -77,10 +77,10 @@ def _curve(
     times = np.geomspace(*span, _POINTS)
     values = of(times)
     good = values[np.isfinite(values)]
-    marks = [Stroke(times, values)]
+    marks = [SvgCurve(times, values)]
     if rows is not None:
         some = slice(None, None, math.ceil(len(rows[0]) / _MOST_DOTS))
-        marks.append(Stroke(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
+        marks.append(SvgCurve(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
     x = logarithmic("time", "s", *span, each_with_unit=True)
     return panel(quantity, x, _positive_axis(quantity.split()[-1], unit, good), marks, aside=aside)
 

@@ -12,7 +12,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.look import BLUE, ORANGE
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import Stroke, panel
+from viscontact.drawing.svg.svg_panel import SvgCurve, panel
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.results.argument_table import in_plain_words
 from viscontact.results.formatting import format_percent
@@ -87,7 +87,7 @@ def indentation_fit_overview(fit: IndentationFit) -> Overview:
         (f"misses the {other} by", f"{format_percent(fit.residual)} of the largest (rms)"),
     ]
     times, some = fit.record.times, _thin_slice(fit.record.times.size)
-    marks = [Stroke(times[some], fit.measured[some], "dots", ORANGE), Stroke(times, fit.fitted)]
+    marks = [SvgCurve(times[some], fit.measured[some], "dots", ORANGE), SvgCurve(times, fit.fitted)]
     both = np.concatenate([fit.measured, fit.fitted])
     drawn = panel(f"{other} over time", _axis("time", "s", times), _axis(other, unit, both), marks)
     return Overview("Fit of an indentation", rows, [drawn])
@@ -161,9 +161,9 @@ def _scatter(
         some = _thin_slice(at.size, max(4, _DOTS // len(sets)))
         # Neighbouring sets differ.
         colour = BLUE if index % 2 else ORANGE
-        marks.append(Stroke(at[some], values[some], "dots", colour))
+        marks.append(SvgCurve(at[some], values[some], "dots", colour))
     if curve is not None:
-        marks.append(Stroke(*curve))
+        marks.append(SvgCurve(*curve))
     values = np.concatenate([each for _, each in sets])
     return panel(name, x, _positive_axis(name, values), marks)
 
@@ -177,7 +177,7 @@ def _positive_axis(name: str, values: Floats) -> AxisScale:
 
 def _lines(head: str, x: Floats, along: tuple[str, str], y: Floats, unit: str) -> Element:
     some = _thin_slice(x.size, 2 * _POINTS)
-    marks = [Stroke(x[some], y[some], colour=ORANGE)]
+    marks = [SvgCurve(x[some], y[some], colour=ORANGE)]
     return panel(head, _axis(*along, x), _axis(head.split()[0], unit, y), marks)
 
 

@@ -12,7 +12,7 @@ from viscontact.backend.arrays import Integers
 from viscontact.drawing.content.look import ORANGE
 from viscontact.drawing.content.map import Map, Maps
 from viscontact.drawing.content.scale import ColourScale
-from viscontact.drawing.svg.svg_panel import ColouredCells, Stroke, map_panel
+from viscontact.drawing.svg.svg_panel import ColouredCells, SvgCurve, map_panel
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import format_compact
 
@@ -46,14 +46,14 @@ def _bands(maps: Maps, scale: ColourScale) -> Integers:
     return np.where(np.isfinite(cells), np.clip(bands, 0, len(scale.levels) - 2), -1)
 
 
-def _marks(maps: Maps, shown: Map) -> Iterator[Stroke]:
+def _marks(maps: Maps, shown: Map) -> Iterator[SvgCurve]:
     """Yield the outline, where it does not cover the pressure, and the moving body."""
     stretch = maps.window.stretch
     for curve in [] if maps.many_spots else shown.outline:
         x, y = curve[:: math.ceil(len(curve) / _POINTS)].T
-        yield Stroke(x, y, "rim")
+        yield SvgCurve(x, y, "rim")
     if shown.body is not None:
         (x, y), arrow = shown.body.axis, shown.body.arrow(stretch, _ARROW * np.ptp(maps.window.x))
-        yield Stroke([x], [y], "dots", ORANGE)
+        yield SvgCurve([x], [y], "dots", ORANGE)
         if arrow is not None:
-            yield Stroke([x, x + arrow[0]], [y, y + arrow[1] / stretch], colour=ORANGE)
+            yield SvgCurve([x, x + arrow[0]], [y, y + arrow[1] / stretch], colour=ORANGE)

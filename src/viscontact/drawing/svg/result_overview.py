@@ -14,7 +14,7 @@ from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.pressure_map import map_drawing
 from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import Stroke, panel
+from viscontact.drawing.svg.svg_panel import SvgCurve, panel
 from viscontact.results.formatting import format_scalar
 from viscontact.results.run_axis import RunAxis, in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
@@ -77,9 +77,9 @@ def _course(ds: xr.Dataset) -> Element:
     """Contact area over time or speed."""
     drawn = history_panel({"": ds}, "contact_area")
     (curve,) = drawn.curves
-    marks = [Stroke(curve.x, curve.y)]
+    marks = [SvgCurve(curve.x, curve.y)]
     if curve.error is not None and np.isfinite(curve.error).all():
-        marks += [Stroke(curve.x, curve.y + s * curve.error, dashed=True) for s in (-1.0, 1.0)]
+        marks += [SvgCurve(curve.x, curve.y + s * curve.error, dashed=True) for s in (-1.0, 1.0)]
     y = linear("area", "m2", *(drawn.y.limits or (0.0, 1.0)), 3)
     return panel("contact area", _along(drawn.x, run_axis(ds)), y, marks)
 
@@ -114,9 +114,9 @@ def _section(ds: xr.Dataset) -> list[Element]:
     half = min(max(half, float(position[-1]) / 50), float(position[-1]))
     x = linear("xy"[axis], "m", -half, half)
     y = linear("pressure", "Pa", 0.0, 1.1 * max(float(line.max()) for line in lines), 3)
-    marks = [Stroke(position, lines[-1])]
+    marks = [SvgCurve(position, lines[-1])]
     aside = ""
     if len(lines) > 1 and ds.sizes[over] > 1:
-        marks.insert(0, Stroke(position, lines[0], colour=ORANGE, dashed=True))
+        marks.insert(0, SvgCurve(position, lines[0], colour=ORANGE, dashed=True))
         aside = f"dashed: {run_axis(ds).place(ds[over].values[0])}"
     return [panel(f"along {'xy'[axis]}", x, y, marks, aside=aside)]

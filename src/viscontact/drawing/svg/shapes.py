@@ -10,7 +10,7 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.cross_section import Cut
 from viscontact.drawing.content.shape import natural_size, shape_of, stretch_note
 from viscontact.drawing.svg.svg_axes import linear
-from viscontact.drawing.svg.svg_panel import ROOM, Stroke, panel
+from viscontact.drawing.svg.svg_panel import ROOM, SvgCurve, panel
 
 _POINTS, _MESH = 241, 121
 
@@ -31,8 +31,8 @@ def _section(section: Cut, along: str, heading: str) -> Element:
     half, top = float(section.position[-1]), section.top
     x = linear(along, "m", -half, half)
     y = linear("gap", "m", -0.16 * top, top, most=3)
-    plane = Stroke(np.array([-half, half]), np.zeros(2), "ground")
-    body = Stroke(section.position, section.gap, "body")
+    plane = SvgCurve(np.array([-half, half]), np.zeros(2), "ground")
+    body = SvgCurve(section.position, section.gap, "body")
     across, up = ROOM
     stretch = (up / (1.16 * top)) / (across / (2 * half))
     return panel(heading, x, y, [plane, body], aside=stretch_note("heights", stretch))

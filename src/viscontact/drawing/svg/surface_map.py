@@ -12,7 +12,7 @@ from viscontact.bodies.surfaces import Surface
 from viscontact.drawing.content.look import BLUE
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.svg_axes import linear
-from viscontact.drawing.svg.svg_panel import ColouredCells, Stroke, map_panel, panel
+from viscontact.drawing.svg.svg_panel import ColouredCells, SvgCurve, map_panel, panel
 from viscontact.results.formatting import format_percent
 from viscontact.units.formatting import format_number, format_quantity
 
@@ -92,5 +92,5 @@ def _section(surface: Surface) -> list[Element]:
     low, span = float(line[known].min()), float(np.ptp(line[known]))
     x = linear("x", "m", float(surface.x[0]), float(surface.x[-1]))
     y = linear("height", "m", -0.06 * span, 1.1 * span, 3)
-    mark = Stroke(surface.x[::every], line[::every] - low)
+    mark = SvgCurve(surface.x[::every], line[::every] - low)
     return [panel("along x", x, y, [mark], aside="through the highest")]

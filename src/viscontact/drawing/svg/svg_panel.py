@@ -32,7 +32,7 @@ _FLAT = 0.03
 
 
 @dataclass(frozen=True)
-class Stroke:
+class SvgCurve:
     """Curve over the axes."""
 
     x: ArrayLike  # points [SI]; a gap where one is not finite
@@ -57,7 +57,7 @@ def panel(
     heading: str,
     x: AxisScale,
     y: AxisScale,
-    marks: Iterable[Stroke],
+    marks: Iterable[SvgCurve],
     *,
     cells: ColouredCells | None = None,
     aside: str = "",
@@ -90,7 +90,7 @@ def map_panel(
     limits: tuple[tuple[float, float], tuple[float, float]],
     cells: ColouredCells,
     *,
-    marks: Iterable[Stroke] = (),
+    marks: Iterable[SvgCurve] = (),
     aside: str = "",
     stretch: float = 1.0,
     note: str = "",
@@ -146,7 +146,7 @@ class _Frame:
                 path = "".join(strokes)
                 yield element("path", d=path, shape_rendering="crispEdges", **look)
 
-    def drawn(self, mark: Stroke) -> Iterable[Element]:
+    def drawn(self, mark: SvgCurve) -> Iterable[Element]:
         if mark.kind == "rim":
             across, up = self.across(self.x.place(mark.x)), self.up(self.y.place(mark.y))
             path = _path(list(zip(across.tolist(), up.tolist(), strict=True)))
@@ -166,12 +166,12 @@ class _Frame:
             near = inside & (_with_neighbours(y <= 1.0) & _with_neighbours(y >= 0.0))
             yield self._outline([_thin(across[run], up[run]) for run in _runs(near)], mark)
 
-    def _fill_below(self, runs: list[_Path], mark: Stroke) -> Element:
+    def _fill_below(self, runs: list[_Path], mark: SvgCurve) -> Element:
         edge = _TOP if mark.kind == "body" else self.bottom
         closed = "".join(_path(run) + f"V{edge:g}H{run[0][0]:.1f}Z" for run in runs)
         return element("path", d=closed, fill_opacity="0.16" if mark.kind == "body" else "0.07")
 
-    def _outline(self, runs: list[_Path], mark: Stroke) -> Element:
+    def _outline(self, runs: list[_Path], mark: SvgCurve) -> Element:
         is_body = mark.kind == "body"
         return element(
             "path",
