@@ -590,6 +590,10 @@ def test_the_line_load_of_a_long_contact_is_drawn(page: Any, server: seen.Server
     seen.run(page, "#refine")
     page.wait_for_selector("#line-load svg")
     assert "Line load [kN/m]" in page.inner_text("#line-load")
+    width, drawn = page.evaluate(
+        "[...document.querySelectorAll('#line-load, #line-load svg')].map((e) => e.clientWidth)"
+    )[:2]
+    assert width == drawn > 0
     heading = page.evaluate(
         "document.getElementById('line-load').previousElementSibling.textContent"
     )

@@ -56,8 +56,9 @@ async function drawAnswer(request, shown, reference) {
 
 function drawSurface({ surface, start, remarks }, row, isSame) {
   place("map-chapter").hidden = !surface.length;
+  // A figure takes the width of its place, which is none while that is hidden.
+  place("line-load").parentElement.hidden = !surface.some(({ layout }) => layout.meta.name === "line-load");
   drawPlaced(surface, ["map", "section-x", "section-y", "line-load"], "surface-panels");
-  place("line-load").parentElement.hidden = !place("line-load").figure;
   if (!surface.length) return;
   const slider = place("instant-slider"), last = surface[0].frames.length - 1;
   const index = isSame && Number(slider.value) <= last ? slider.value : String(start);
@@ -70,10 +71,10 @@ function drawSurface({ surface, start, remarks }, row, isSame) {
 }
 
 function drawHistories({ friction, histories, scale }, over, isSame) {
-  place("friction-chapter").hidden = !friction.length;
-  drawPlaced(friction, ["friction"], "friction-panels");
   // Nothing is drawn over a single speed; the table has its numbers.
   place("histories-chapter").hidden = !histories.length;
+  place("friction-chapter").hidden = !friction.length;
+  drawPlaced(friction, ["friction"], "friction-panels");
   place("histories-title").textContent = `Over ${over}`;
   drawPanels(place("histories"), histories);
   const button = place("time-scale"), { dataset } = button;
