@@ -207,10 +207,8 @@ def peak_error_on_relaxing_ball(ratio, duration, tolerance):
     ("ratio", "duration", "tolerance"),
     [
         (10.0, 1.0, 0.03),
-        pytest.param(10.0, 5.0, 0.01, marks=pytest.mark.slow),
-        pytest.param(10.0, 0.1, 0.01, marks=pytest.mark.slow),
-        pytest.param(10.0, 0.0, 0.01, marks=pytest.mark.slow),
-        pytest.param(2.0, 5.0, 0.01, marks=pytest.mark.slow),
+        *((10.0, duration, 0.01) for duration in (5.0, 0.1, 0.0)),
+        (2.0, 5.0, 0.01),
     ],
 )
 def test_peak_of_ball_on_relaxing_body_is_within_the_tolerance_at_every_instant(

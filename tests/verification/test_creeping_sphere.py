@@ -97,7 +97,7 @@ def test_curved_load_of_a_users_class_is_followed_between_few_requested_times():
     "name",
     [
         # Series are above; powers of time and two bodies are in `viscontact verify`.
-        name if name == "tabulated_creep" else pytest.param(name, marks=pytest.mark.slow)
+        name
         for name in BODIES
         if name != "maxwell"
     ],

@@ -34,7 +34,7 @@ def travelled(material, mate=None):
 @pytest.mark.parametrize(
     "body",
     [
-        pytest.param(ON_RIGID, id="one term", marks=pytest.mark.slow),
+        pytest.param(ON_RIGID, id="one term"),
         pytest.param(ON_CORE, id="several terms"),
     ],
 )

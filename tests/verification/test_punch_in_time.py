@@ -125,8 +125,8 @@ def test_steady_swing_is_the_complex_compliance(softness, name, period, control,
     ("name", "cycles"),
     [
         ("fractional_maxwell", 5),
-        pytest.param("fractional_zener", 6, marks=pytest.mark.slow),
-        pytest.param("power_law", 10, marks=pytest.mark.slow),
+        ("fractional_zener", 6),
+        ("power_law", 10),
     ],
 )
 def test_swing_of_laws_with_a_wide_spectrum(softness, name, cycles):
@@ -225,8 +225,7 @@ def test_staircase_of_eccentric_forces_tilts_by_superposition():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("steps", [[50, 100], pytest.param([25, 50, 100], marks=pytest.mark.slow)])
-def test_stairs_of_approach_relax(steps):
+def test_stairs_of_approach_relax():
     """The inverse: F = sum of dw_i M(t - t_i) 2 a. Measured at 100 steps a stair: 1.5e-5."""
     body = BODIES["relaxation_series"]
     (state,) = marched(
@@ -235,7 +234,7 @@ def test_stairs_of_approach_relax(steps):
     stiffness = state.force / 1e9 / 1e-6  # 2 a
     stairs, levels = np.array([0.0, 10.0, 40.0]), np.array([1e-6, 3e-6, 2e-6])
     load = vc.ApproachHistory([0, 10, 10, 40, 40], levels[[0, 0, 1, 1, 2]])
-    errors = []
+    steps, errors = np.array([25, 50, 100]), []
     for n in steps:
         times = np.unique(
             np.concatenate([stair + 60 * np.linspace(0, 1, n + 1) ** 2 for stair in stairs])
@@ -247,4 +246,4 @@ def test_stairs_of_approach_relax(steps):
         exact = np.where(lags >= 0, relaxed, 0.0) @ jumps * stiffness
         errors.append(deviation(over_time(states, "force"), exact))
     assert errors[-1] < 5e-5
-    assert order(1 / np.array(steps), errors) == pytest.approx(2.0, abs=0.3)
+    assert order(1 / steps, errors) == pytest.approx(2.0, abs=0.3)

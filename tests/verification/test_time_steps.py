@@ -153,24 +153,20 @@ def test_adaptive_steps_need_at_most_half_of_the_uniform_ones(name, history, tol
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "history", "tolerance"),
+    ("name", "history"),
     [
-        ("zener", "triangle", 1e-4),
-        *(
-            slow("zener", history, 3e-5)
-            for history in ("step", "triangle", "stage in and out", "jumps")
-        ),
-        *(slow("burgers", history, 3e-5) for history in ("step", "triangle", "jumps")),
+        *(("zener", history) for history in ("step", "triangle", "stage in and out", "jumps")),
+        *(("burgers", history) for history in ("step", "triangle", "jumps")),
     ],
 )
-def test_given_steps_know_their_error(name, history, tolerance):
+def test_given_steps_know_their_error(name, history):
     """Uniform steps. Measured: 0.55 to 25 times the error.
 
     Below 1 where steps are as long as the law's times, in which case the run warns.
     """
     case = problem(name, history)
     runs = [case.run(vc.uniform_times(case.body.end, steps)) for steps in (30, 120)]
-    truth = fine(case, *runs, tolerance=tolerance)
+    truth = fine(case, *runs)
     for uniform in runs:
         error = uniform.error(truth)
         assert 0.5 < uniform.estimate / error < 30

@@ -116,9 +116,9 @@ def test_time_error_of_the_force_falls_with_the_square_of_the_step():
 @pytest.mark.parametrize(
     ("name", "sampled", "cells"),
     [
-        pytest.param("zener", False, 44.3, marks=pytest.mark.slow),
+        ("zener", False, 44.3),
         ("zener", True, 44.3),
-        pytest.param("relaxation_series", False, 110.3, marks=pytest.mark.slow),
+        ("relaxation_series", False, 110.3),
     ],
 )
 def test_stage_in_and_out_smoothly(name, sampled, cells):

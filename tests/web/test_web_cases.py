@@ -327,7 +327,7 @@ def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("missing", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("missing", [False, True])
 def test_spectrum_of_a_measured_surface_is_drawn_below_its_shape(
     missing: bool, client: TestClient
 ) -> None:

@@ -519,13 +519,7 @@ def suspended_and_taken_over(runner: Runner, directory: Path, delay: float, at: 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("delay", "at"),
-    [
-        (0.0, 0),
-        *(pytest.param(*each, marks=pytest.mark.slow) for each in ((0.1, 8), (0.15, COUNT))),
-    ],
-)
+@pytest.mark.parametrize(("delay", "at"), [(0.0, 0), (0.1, 8), (0.15, COUNT)])
 def test_run_that_was_suspended_stops_before_its_next_write_and_its_successor_gets_the_same_bits(
     delay: float, at: int, tmp_path: Path, whole: Path, runner: Runner
 ) -> None:
