@@ -302,6 +302,15 @@ def test_case_that_is_edited_during_the_runs_is_refused(tmp_path: Path) -> None:
     assert ds.state.values.tolist() == ["done", "done"]
 
 
+def test_directories_that_differ_only_in_the_case_of_letters_are_refused(tmp_path: Path) -> None:
+    case = tmp_path / "case.yaml"
+    case.write_text(AUTOMATIC + "grid: {shape: [8, 8], size: [3 mm, 3 mm]}\n", encoding="utf-8")
+    varied = vc.vary(case, {"material.shear_modulus": ["1 mPa", "1 MPa"]})
+    with pytest.raises(ValueError, match="shear_modulus=1mPa: 2 of the runs would go there"):
+        vc.simulate_many(varied, workers=1, directory=tmp_path / "sweep")
+    assert not (tmp_path / "sweep").exists()
+
+
 def test_case_may_change_until_a_run_begins(tmp_path: Path) -> None:
     case, sweep = tmp_path / "case.yaml", tmp_path / "sweep"
     case.write_text(AUTOMATIC, encoding="utf-8")
