@@ -67,6 +67,7 @@ def test_a_line_that_a_killed_process_has_begun_is_removed(tmp_path: Path) -> No
     {
         "earlier version": ('{"design": {}}\n', "is not a journal of this version of viscontact"),
         "no JSON": ("a,b\n", ":1: is not a line of JSON: 'a,b'; remove the file"),
+        "a line without an end": ("a,b", ":1: is not a line of JSON: 'a,b'; remove the file"),
         "another study": ('{"study": "fit"}\n', "holds another design, with a different study"),
     }.values(),
 )

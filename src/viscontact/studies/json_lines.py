@@ -23,13 +23,14 @@ def read_lines(
 ) -> Iterator[Item]:
     """Read the lines, numbered from 1, in constant memory; ValueError names one that is damaged.
 
-    Where lines are `appended`, a last one without an end is one that a killed process has begun.
+    Where lines are `appended` to a first one, a last one without an end is one that a killed
+    process has begun.
     """
     with path.open(encoding="utf-8") as lines:
         number = 0
         try:
             while line := lines.readline(_LONGEST_LINE):
-                if appended and not line.endswith("\n") and not lines.read(1):
+                if appended and number and not line.endswith("\n") and not lines.read(1):
                     return
                 number += 1
                 yield read(_value(line, remedy), number)
