@@ -106,8 +106,6 @@ def _approach(ds: xr.Dataset) -> str:
     )
 
 
-_EXTENTS = {"x": "length", "y": "width"}
-
 #: Representative strain of a ball, in units of contact radius over radius of the ball.
 _TABOR = 0.2
 
