@@ -1,4 +1,4 @@
-"""Axis of time or speed of a figure: its span and its scale."""
+"""Axis of time or speed of a figure: its span, its scale, and texts of the points along it."""
 
 from __future__ import annotations
 

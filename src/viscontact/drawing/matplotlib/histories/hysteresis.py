@@ -1,4 +1,4 @@
-"""Force over approach: the loop of loading and unloading."""
+"""Loops of runs: force over approach, and in reports resistance over position."""
 
 from __future__ import annotations
 
