@@ -23,6 +23,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_cover_that_was_only_pressed_approaches_as_an_elastic_one(folder: Path) -> None:
     """While the contact grows, the relation of force and approach is an elastic layer's.
 

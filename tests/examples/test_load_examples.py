@@ -155,6 +155,7 @@ def test_report_of_a_rolling_roller_names_the_speed_of_the_largest_friction(
     assert "The friction coefficient is largest at 10" in page
 
 
+@pytest.mark.slow
 def test_instrument_meets_its_conditions_as_lee_radok_and_ting_say(tmp_path: Path) -> None:
     ds = run_as_a_user("afm-record", tmp_path)
     reached, lost = ds.attrs["event_times"]

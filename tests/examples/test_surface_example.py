@@ -38,6 +38,7 @@ def test_patch_is_what_its_note_says() -> None:
     assert slope == pytest.approx(-3.6, abs=1.2)
 
 
+@pytest.mark.slow
 def test_rough_ball_spreads_as_an_elastic_one_of_its_compliance(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

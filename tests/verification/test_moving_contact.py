@@ -181,6 +181,7 @@ def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) 
     assert np.mean(counts) < 8  # 12 are allowed at a tolerance of 1e-6
 
 
+@pytest.mark.slow
 def test_recorded_run_continues_to_the_same_bits(tmp_path: Path) -> None:
     grid = vc.Grid((20, 28), (3.2, 4.48), centre=(0.0, 0.64))
     path = vc.Travel([0.0, 6.4, 12.8], y=[0.0, 0.64, 1.28])

@@ -25,6 +25,7 @@ def last_published(steps):
     return pressure
 
 
+@pytest.mark.slow
 def test_the_published_rule_tends_to_the_packages_pressure_with_the_step():
     load = vc.step(FORCE, eccentricity_x=ECCENTRICITY)
     times = vc.uniform_times(END, 200)

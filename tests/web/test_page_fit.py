@@ -83,6 +83,7 @@ def test_a_record_without_a_cantilever_is_fitted(client: TestClient) -> None:
     assert found["material"]["shear_modulus"] == "0.005 MPa"
 
 
+@pytest.mark.slow
 def test_a_file_of_an_instrument_gives_the_law_of_the_command_line(
     client: TestClient, capsys: pytest.CaptureFixture[str]
 ) -> None:

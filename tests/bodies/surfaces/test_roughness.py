@@ -160,6 +160,7 @@ def test_topography_without_a_unit_or_size_is_refused() -> None:
         surface_of(np.eye(3))
 
 
+@pytest.mark.slow
 def test_check_states_the_roughness_of_the_surface_and_draws_its_spectrum(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -51,6 +51,7 @@ def test_the_bars_are_the_elasticities_the_largest_on_top(table: xr.Dataset) -> 
     assert [text.get_text() for text in none.get_yticklabels()] == [""]
 
 
+@pytest.mark.slow
 def test_the_report_states_each_elasticity_with_its_error(
     table: xr.Dataset, tmp_path: Path
 ) -> None:

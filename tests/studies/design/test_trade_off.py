@@ -71,6 +71,7 @@ def test_the_front_of_two_goals_is_found_in_all_its_parts(function: object) -> N
     assert len(found) >= 10
 
 
+@pytest.mark.slow
 def test_a_larger_value_of_one_goal_and_a_smaller_one_of_the_other_are_traded(
     tmp_path: Path,
 ) -> None:
