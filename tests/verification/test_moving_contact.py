@@ -361,8 +361,7 @@ def test_given_approach_moves_at_the_height_of_its_force() -> None:
     assert given.resistance_y.values == pytest.approx(held.resistance_y.values, rel=1e-3, abs=1e-4)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("speed", [0.1, 0.03])
+@pytest.mark.parametrize("speed", [0.1, pytest.param(0.03, marks=pytest.mark.slow)])
 def test_adaptive_steps_see_the_loss_and_meet_whole_cells(speed: float) -> None:
     grid = vc.Grid((40, 56), (3.2, 4.48), centre=(0.0, 0.64))
     given, end = (BODY, ZENER, LEVEL, grid), 1.28 / speed

@@ -329,7 +329,6 @@ def test_lease_that_was_taken_over_is_lost_and_stays_the_successors(tmp_path: Pa
     assert names(tmp_path) == []
 
 
-@pytest.mark.slow
 def test_lease_that_lapsed_is_taken_again_unless_another_process_did(tmp_path: Path) -> None:
     with holder(tmp_path) as process:
         before = current_lease(tmp_path)
@@ -518,8 +517,13 @@ def suspended_and_taken_over(runner: Runner, directory: Path, delay: float, at: 
     return not has_ended
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("delay", "at"), [(0.0, 0), (0.1, 8), (0.15, COUNT)])
+@pytest.mark.parametrize(
+    ("delay", "at"),
+    [
+        (0.0, 0),
+        *(pytest.param(*each, marks=pytest.mark.slow) for each in ((0.1, 8), (0.15, COUNT))),
+    ],
+)
 def test_run_that_was_suspended_stops_before_its_next_write_and_its_successor_gets_the_same_bits(
     delay: float, at: int, tmp_path: Path, whole: Path, runner: Runner
 ) -> None:

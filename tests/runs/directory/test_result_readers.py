@@ -43,8 +43,7 @@ with vc.open_results(sys.argv[1]) as ds:
 """
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("locking", ["TRUE", "FALSE"])
+@pytest.mark.parametrize("locking", ["TRUE", pytest.param("FALSE", marks=pytest.mark.slow)])
 def test_reader_continues_with_what_it_has_opened(
     locking: str, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
