@@ -17,7 +17,7 @@ from viscontact import plot
 from viscontact.drawing.content.map import Maps, maps_over
 from viscontact.drawing.plotly.parts import plain
 from viscontact.drawing.plotly.pressure_map import pressure_map as interactive_map
-from viscontact.drawing.svg.pressure_map import map_drawing
+from viscontact.drawing.svg.result_overview import map_drawing
 
 FloatArray = NDArray[np.float64]
 

@@ -17,10 +17,11 @@ from viscontact.bodies.indenters import HeightMap, Indenter
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.layers import creeping_laws
 from viscontact.drawing.content.law_curves import curve_times
+from viscontact.drawing.content.small_panels import law_panels
 from viscontact.drawing.matplotlib import creep_curve, draw_indenter
 from viscontact.drawing.matplotlib.layout.saving import as_svg
-from viscontact.drawing.svg.curves import law_drawings
 from viscontact.drawing.svg.html import element
+from viscontact.drawing.svg.panel_drawing import panel_drawing
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
 from viscontact.report.page_elements import remark, width_of
@@ -100,7 +101,8 @@ def _small_sections(ds: xr.Dataset) -> list[Element]:
 
 def _small_curves(ds: xr.Dataset, part: str) -> list[Element]:
     laws = creeping_laws(recorded_object(ds, part, "creep"))
-    return [each for name, law in laws.items() for each in law_drawings(law, name)]
+    panels = [each for name, law in laws.items() for each in law_panels(law, name)]
+    return [*map(panel_drawing, panels)]
 
 
 def _wide_or_small(wide: Element, small: Callable[[], list[Element]]) -> Element:

@@ -29,7 +29,7 @@ from synthetic_results import (
     maxwell_sphere,
 )
 from viscontact.case import read_case
-from viscontact.drawing.svg.curves import law_span
+from viscontact.drawing.content.small_panels import law_span
 from viscontact.units.parsing import parse_quantity
 
 _EXAMPLES = Path(vc.__file__).parent / "case" / "examples"

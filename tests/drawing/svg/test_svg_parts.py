@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from viscontact.bodies.surfaces import Surface
+from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.svg.html import as_script, element, written
 from viscontact.drawing.svg.overview import Overview, as_text
 from viscontact.drawing.svg.surface_map import surface_overview
-from viscontact.drawing.svg.svg_axes import linear, logarithmic
+from viscontact.drawing.svg.svg_axes import linear, scale_of
+from viscontact.units.formatting import ReadableUnit
 
 
 def test_text_of_an_element_is_escaped() -> None:
@@ -40,9 +42,14 @@ def test_overview_of_a_surface_states_its_roughness() -> None:
 
 
 def test_ticks_of_a_logarithmic_axis_have_readable_units() -> None:
-    axis = logarithmic("time", "s", 0.01, 10.0, each_with_unit=True)
+    def times(low: float, high: float) -> Axis:
+        seconds = ReadableUnit("s", 1.0)
+        return Axis("Time", seconds, (low, high), "log", low, in_clock_units=True)
+
+    axis = scale_of(times(0.01, 10.0))
+    assert axis.label == "time"
     assert [text for _, text in axis.ticks] == ["10 ms", "100 ms", "1 s", "10 s"]
-    axis = logarithmic("time", "s", 1.0, 604800.0, each_with_unit=True)
+    axis = scale_of(times(1.0, 604800.0))
     assert [text for _, text in axis.ticks] == ["1 s", "1 min", "1 h", "1 d"]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import HarmonicHistory, LoadHistory
 from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel, Units
-from viscontact.units.formatting import readable_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 #: Number of cycles of a harmonic load that are drawn, and of straight pieces of a curved load.
 _MOST_CYCLES, _MOST_PIECES = 5, 240
@@ -54,10 +54,15 @@ def whole_load_panel(load: LoadHistory, units: Units = readable_unit) -> Panel:
     low, high = float(levels.min(initial=0.0)), float(levels.max(initial=0.0))
     span = (high - low) or 1.0
     limits = (low - _BELOW * span, low + (1 + _ABOVE) * span)
+    quantity, reach = _quantity(load), (-_BEFORE * end, end)
+    x = Axis("Time", units("s", times), reach)
+    if kinks[-1] == 0:  # of a constant load; the drawing's end means nothing
+        x = Axis("Time", ReadableUnit("", 1.0), reach, texts=("0",))
     return Panel(
-        Axis("Time", units("s", times), (-_BEFORE * end, end)),
-        Axis(_quantity(load), units(load.unit, *limits), limits),
+        x,
+        Axis(quantity, units(load.unit, *limits), limits),
         (Curve(times, levels),),
+        title=f"{quantity.lower()} over time",
         note=note,
     )
 

@@ -8,6 +8,7 @@ fonts and places only. All numbers are in SI; each axis has the unit in which th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -43,6 +44,17 @@ class Axis:
     def of(cls, quantity: str, si: str, *values: ArrayLike, units: Units = readable_unit) -> Axis:
         """Linear axis for values of an SI unit."""
         return cls(quantity, units(si, *values))
+
+    @classmethod
+    def over_decades(cls, quantity: str, si: str, low: float, high: float) -> Axis:
+        """Logarithmic axis between two ends above 0 [SI], in the unit of its middle."""
+        unit = readable_unit(si, math.sqrt(low * high))
+        return cls(quantity, unit, (low, high), "log", first=low)
+
+    @classmethod
+    def between(cls, quantity: str, si: str, low: float, high: float) -> Axis:
+        """Linear axis between two ends [SI]."""
+        return cls(quantity, readable_unit(si, low, high), (low, high))
 
     @property
     def label(self) -> str:

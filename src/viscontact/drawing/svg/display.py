@@ -14,7 +14,8 @@ from viscontact.bodies.materials.cards import Card as MaterialCard
 from viscontact.bodies.materials.layers import Layered, creeping_laws
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface
-from viscontact.drawing.svg.curves import law_drawings, load_drawings
+from viscontact.drawing.content.load_course import whole_load_panel
+from viscontact.drawing.content.small_panels import law_panels
 from viscontact.drawing.svg.measurements import (
     fit_overview,
     indentation_fit_overview,
@@ -23,6 +24,7 @@ from viscontact.drawing.svg.measurements import (
     record_overview,
 )
 from viscontact.drawing.svg.overview import Overview, as_html, as_text
+from viscontact.drawing.svg.panel_drawing import panel_drawing
 from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
@@ -169,10 +171,8 @@ def _draw(obj: Displayable) -> list[Element]:
         return indenter_drawings(obj)
     if isinstance(obj, Layered):
         laws = creeping_laws(obj)
-        curves = [each for name, law in laws.items() for each in law_drawings(law, name)]
-        return [stack_drawing(obj), *curves]
+        panels = [each for name, law in laws.items() for each in law_panels(law, name)]
+        return [stack_drawing(obj), *map(panel_drawing, panels)]
     if isinstance(obj, Law | Material):
-        return law_drawings(obj if isinstance(obj, Law) else obj.law)
-    if isinstance(obj, LoadHistory):
-        return load_drawings(obj)
-    return []
+        return [*map(panel_drawing, law_panels(obj if isinstance(obj, Law) else obj.law))]
+    return [panel_drawing(whole_load_panel(obj))] if isinstance(obj, LoadHistory) else []

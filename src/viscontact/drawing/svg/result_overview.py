@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 import numpy as np
 import xarray as xr
 
-from viscontact.drawing.content.history import history_panel, is_idle
+from viscontact.backend.arrays import Integers
+from viscontact.drawing.content.history import is_idle
 from viscontact.drawing.content.look import ORANGE
-from viscontact.drawing.content.map import maps_at
-from viscontact.drawing.content.panel import Axis
+from viscontact.drawing.content.map import Map, Maps, maps_at
+from viscontact.drawing.content.result_card import area_panel, end_panel
+from viscontact.drawing.content.scale import ColourScale
 from viscontact.drawing.svg.overview import Overview
-from viscontact.drawing.svg.pressure_map import map_drawing
-from viscontact.drawing.svg.svg_axes import AxisScale, linear, logarithmic
-from viscontact.drawing.svg.svg_panel import SvgCurve, panel
+from viscontact.drawing.svg.panel_drawing import panel_drawing
+from viscontact.drawing.svg.svg_panel import ColouredCells, SvgCurve, map_panel
 from viscontact.results.formatting import format_scalar
-from viscontact.results.run_axis import RunAxis, in_order, run_axis
+from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
-from viscontact.results.stored_contact import cells_in_contact
+from viscontact.results.snapshots import labels_of
 from viscontact.results.summary import headline
 from viscontact.results.variables import REQUIRED, Place, shown_in
+from viscontact.units.formatting import format_compact
 
-#: Up to this ratio of its extents along y and x a contact counts as round.
-ROUND = 1.05
+#: Most cells along an axis; of more, means are drawn. Most points of an outline.
+_MOST, _POINTS = 60, 160
+#: Length of the arrow along a motion over the width.
+_ARROW = 0.15
 
 
 def result_overview(ds: xr.Dataset) -> Overview:
@@ -58,11 +64,7 @@ def _warnings(ds: xr.Dataset) -> list[tuple[str, str]]:
 
 
 def _drawings(ds: xr.Dataset) -> list[Element]:
-    drawn = _section(ds)
-    area = ds["contact_area"].values
-    if area.size > 1 and np.isfinite(area).all() and area.max() > 0:
-        drawn.append(_course(ds))
-    return [*drawn, *_map(ds)]
+    return [*map(panel_drawing, filter(None, (end_panel(ds), area_panel(ds)))), *_map(ds)]
 
 
 def _map(ds: xr.Dataset) -> list[Element]:
@@ -73,50 +75,38 @@ def _map(ds: xr.Dataset) -> list[Element]:
         return []
 
 
-def _course(ds: xr.Dataset) -> Element:
-    """Contact area over time or speed."""
-    drawn = history_panel({"": ds}, "contact_area")
-    (curve,) = drawn.curves
-    marks = [SvgCurve(curve.x, curve.y)]
-    if curve.error is not None and np.isfinite(curve.error).all():
-        marks += [SvgCurve(curve.x, curve.y + s * curve.error, dashed=True) for s in (-1.0, 1.0)]
-    y = linear("area", "m2", *(drawn.y.limits or (0.0, 1.0)), 3)
-    return panel("contact area", _along(drawn.x, run_axis(ds)), y, marks)
-
-
-def _along(axis: Axis, over: RunAxis) -> AxisScale:
-    start, end = axis.limits or (0.0, 1.0)
-    if axis.scale == "linear":
-        return linear(over.name, over.unit, start, end)
-    return logarithmic(over.name, over.unit, axis.first, end, each_with_unit=over.is_history)
-
-
-def _section(ds: xr.Dataset) -> list[Element]:
-    """Pressure along the longer extent of the contact, at the first and last stored row."""
-    if "pressure" not in ds:
-        return []
-    over = str(ds["pressure"].dims[0])
-    ends = [ds["pressure"].isel({over: k}).transpose("x", "y").values for k in (0, -1)]
-    masks = [cells_in_contact(ds, k).transpose("x", "y").values for k in (0, -1)]
-    touched = [k for k in (0, 1) if masks[k].any()]
-    if not touched:
-        return []
-    at_last = masks[touched[-1]]
-    extents = [np.ptp(ds[axis].values[at_last.any(axis=1 - k)]) for k, axis in enumerate("xy")]
-    axis = int(extents[1] > ROUND * extents[0])
-    position = ds["xy"[axis]].values
-    places = [ends[k].sum(axis=axis).argmax() for k in touched]
-    lines, inside = (
-        [fields[k].take(place, axis=1 - axis) for k, place in zip(touched, places, strict=True)]
-        for fields in (ends, masks)
+def map_drawing(maps: Maps) -> Element:
+    """Draw the last map: the pressure in bands between its levels, and the outline."""
+    scale, (x, y) = maps.scale(), maps.centres(_MOST)
+    cells = ColouredCells(x, y, _bands(maps, scale), scale.colours(len(scale.levels) - 1))
+    low, high = (format_compact(float(each)) for each in scale.unit(scale.levels[[0, -1]]))
+    instant = labels_of(maps.snapshots)[-1]
+    return map_panel(
+        scale.unit.label(scale.quantity.lower()),
+        (maps.window.x, maps.window.y),
+        cells,
+        marks=_marks(maps, maps.maps[-1]),
+        aside=f"{low} to {high}, {instant}",
+        stretch=maps.window.stretch,
+        note=maps.window.note,
     )
-    half = 1.15 * max(float(np.abs(position[mask]).max(initial=0.0)) for mask in inside)
-    half = min(max(half, float(position[-1]) / 50), float(position[-1]))
-    x = linear("xy"[axis], "m", -half, half)
-    y = linear("pressure", "Pa", 0.0, 1.1 * max(float(line.max()) for line in lines), 3)
-    marks = [SvgCurve(position, lines[-1])]
-    aside = ""
-    if len(lines) > 1 and ds.sizes[over] > 1:
-        marks.insert(0, SvgCurve(position, lines[0], colour=ORANGE, dashed=True))
-        aside = f"dashed: {run_axis(ds).place(ds[over].values[0])}"
-    return [panel(f"along {'xy'[axis]}", x, y, marks, aside=aside)]
+
+
+def _bands(maps: Maps, scale: ColourScale) -> Integers:
+    """Numbers of the bands between levels that cells lie in, -1 without contact."""
+    cells = maps.cells(len(maps.maps) - 1, _MOST)
+    bands = np.searchsorted(scale.levels, cells, side="right") - 1
+    return np.where(np.isfinite(cells), np.clip(bands, 0, len(scale.levels) - 2), -1)
+
+
+def _marks(maps: Maps, shown: Map) -> Iterator[SvgCurve]:
+    """Yield the outline, where it does not cover the pressure, and the moving body."""
+    stretch = maps.window.stretch
+    for curve in [] if maps.many_spots else shown.outline:
+        x, y = curve[:: math.ceil(len(curve) / _POINTS)].T
+        yield SvgCurve(x, y, "rim")
+    if shown.body is not None:
+        (x, y), arrow = shown.body.axis, shown.body.arrow(stretch, _ARROW * np.ptp(maps.window.x))
+        yield SvgCurve([x], [y], "dots", ORANGE)
+        if arrow is not None:
+            yield SvgCurve([x, x + arrow[0]], [y, y + arrow[1] / stretch], colour=ORANGE)

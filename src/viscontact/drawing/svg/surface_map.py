@@ -10,9 +10,10 @@ import numpy as np
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.bodies.surfaces import Surface
 from viscontact.drawing.content.look import BLUE
+from viscontact.drawing.content.measured_surface import section_panels
 from viscontact.drawing.svg.overview import Overview
-from viscontact.drawing.svg.svg_axes import linear
-from viscontact.drawing.svg.svg_panel import ColouredCells, SvgCurve, map_panel, panel
+from viscontact.drawing.svg.panel_drawing import panel_drawing
+from viscontact.drawing.svg.svg_panel import ColouredCells, map_panel
 from viscontact.results.formatting import format_percent
 from viscontact.units.formatting import format_number, format_quantity
 
@@ -20,8 +21,6 @@ from viscontact.units.formatting import format_number, format_quantity
 _MOST = 40
 #: From low to high; unknown heights stay empty.
 _TONES = (0.12, 0.3, 0.5, 0.7, 0.95)
-#: Number of points of a section.
-_POINTS = 240
 
 
 def surface_overview(surface: Surface) -> Overview:
@@ -42,7 +41,8 @@ def surface_overview(surface: Surface) -> Overview:
         rows.append(("periodic", "yes"))
     if surface.missing_share > 0:
         rows.append(("not measured", f"{format_percent(surface.missing_share)} of the points"))
-    return Overview(f"Surface: {surface.name}", rows, [_map(surface), *_section(surface)])
+    sections = map(panel_drawing, section_panels(surface))
+    return Overview(f"Surface: {surface.name}", rows, [_map(surface), *sections])
 
 
 def _map(surface: Surface) -> Element:
@@ -79,18 +79,3 @@ def _tones(means: Floats) -> Integers:
     known = means[np.isfinite(means)]
     limits = np.quantile(known, np.linspace(0, 1, len(_TONES) + 1)[1:-1])
     return np.where(np.isfinite(means), np.searchsorted(limits, means), -1)
-
-
-def _section(surface: Surface) -> list[Element]:
-    """Heights along x through the highest point, from the lowest of the section on."""
-    highest = int(np.nanargmax(surface.heights))
-    line = surface.heights[:, highest % surface.shape[1]]
-    known = np.isfinite(line)
-    if np.count_nonzero(known) < 2 or not np.ptp(line[known]) > 0:
-        return []
-    every = math.ceil(line.size / _POINTS)
-    low, span = float(line[known].min()), float(np.ptp(line[known]))
-    x = linear("x", "m", float(surface.x[0]), float(surface.x[-1]))
-    y = linear("height", "m", -0.06 * span, 1.1 * span, 3)
-    mark = SvgCurve(surface.x[::every], line[::every] - low)
-    return [panel("along x", x, y, [mark], aside="through the highest")]

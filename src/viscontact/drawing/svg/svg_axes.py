@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.content.scale import round_step
 from viscontact.units.formatting import clock_ticks, format_quantity, readable_unit
 
@@ -34,43 +35,40 @@ class AxisScale:
         return np.asarray((at - self.low) / (self.high - self.low))
 
 
-def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> AxisScale:
-    """Linear axis between two ends, `low` < `high` [SI]."""
-    shown = readable_unit(unit, low, high)
-    step = round_step((high - low) / shown.factor / most)
-    first, last = (math.ceil(low / shown.factor / step - 1e-9), high / shown.factor / step + 1e-9)
-    numbers = [step * k for k in range(first, math.floor(last) + 1)]
-    ticks = tuple(
-        ((number * shown.factor - low) / (high - low), _number(number)) for number in numbers
-    )
-    return AxisScale(_axis_label(quantity, shown.symbol), low, high, ticks)
+def scale_of(axis: Axis, most: int = 4) -> AxisScale:
+    """Scale with about `most` ticks of an axis with limits."""
+    low, high = axis.limits or (0.0, 1.0)
+    if axis.scale != "linear":
+        return _logarithmic(axis, axis.first, high)
+    factor = axis.unit.factor
+    step = round_step((high - low) / factor / most)
+    first, last = (math.ceil(low / factor / step - 1e-9), high / factor / step + 1e-9)
+    texts = {step * k: _number(step * k) for k in range(first, math.floor(last) + 1)}
+    if axis.texts:
+        texts = {float(place): text for place, text in enumerate(axis.texts)}
+    ticks = tuple(((at * factor - low) / (high - low), text) for at, text in texts.items())
+    return AxisScale(_label(axis), low, high, ticks)
 
 
-def logarithmic(
-    quantity: str, unit: str, low: float, high: float, *, each_with_unit: bool = False
-) -> AxisScale:
-    """Logarithmic axis between two ends, 0 < `low` < `high` [SI], with ticks at decades."""
-    shown = readable_unit(unit, math.sqrt(low * high))
+def linear(quantity: str, si: str, low: float, high: float, most: int = 4) -> AxisScale:
+    """Linear axis of an SI unit between two ends, `low` < `high` [SI]."""
+    return scale_of(Axis.between(quantity, si, low, high), most)
+
+
+def _logarithmic(axis: Axis, low: float, high: float) -> AxisScale:
+    """Logarithmic axis between two ends above 0 [SI], with ticks at decades, or of the clock."""
     ends = math.log10(low), math.log10(high)
     decades = range(math.ceil(ends[0] - 1e-9), math.floor(ends[1] + 1e-9) + 1)
     every = max(1, math.ceil((len(decades) - 1) / _MOST_DECADES))
+    places = [10.0**decade for decade in decades[::every]]
+    if axis.in_clock_units:
+        texts = _clock(low, high) or {place: format_quantity(place, "s") for place in places}
+    else:
+        texts = {place: _number(place / axis.unit.factor) for place in places}
     ticks = tuple(
-        (
-            (decade - ends[0]) / (ends[1] - ends[0]),
-            format_quantity(10.0**decade, unit)
-            if each_with_unit
-            else _number(10.0**decade / shown.factor),
-        )
-        for decade in decades[::every]
+        ((math.log10(place) - ends[0]) / (ends[1] - ends[0]), text) for place, text in texts.items()
     )
-    clock = each_with_unit and unit == "s" and _clock(low, high)
-    if clock:
-        ticks = tuple(
-            ((math.log10(place) - ends[0]) / (ends[1] - ends[0]), text)
-            for place, text in clock.items()
-        )
-    label = quantity if each_with_unit else _axis_label(quantity, shown.symbol)
-    return AxisScale(label, *ends, ticks, logarithmic=True)
+    return AxisScale(_label(axis), *ends, ticks, logarithmic=True)
 
 
 def _clock(low: float, high: float) -> dict[float, str]:
@@ -84,5 +82,9 @@ def _number(value: float) -> str:
     return f"{value:.6g}".replace("-", "\N{MINUS SIGN}") if abs(value) > 1e-12 else "0"
 
 
-def _axis_label(quantity: str, symbol: str) -> str:
-    return f"{quantity} [{symbol}]" if symbol else quantity
+def _label(axis: Axis) -> str:
+    """Quantity, and the unit where it does not stand at each tick."""
+    name = axis.quantity
+    name = name if len(name) == 1 else name[0].lower() + name[1:]  # but for a symbol
+    each_has_unit = axis.scale != "linear" and axis.in_clock_units
+    return name if each_has_unit or not axis.unit.symbol else f"{name} [{axis.unit.symbol}]"

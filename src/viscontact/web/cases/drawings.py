@@ -13,6 +13,7 @@ from viscontact.bodies.materials.material import Material
 from viscontact.case import Case, CaseError, Parts
 from viscontact.drawing.content.law_curves import curve_times
 from viscontact.drawing.content.shape import natural_size
+from viscontact.drawing.content.small_panels import law_span
 from viscontact.drawing.matplotlib import (
     creep_curve,
     draw_indenter,
@@ -21,7 +22,6 @@ from viscontact.drawing.matplotlib import (
     fitted_series,
 )
 from viscontact.drawing.matplotlib.layout.page import Width
-from viscontact.drawing.svg.curves import law_span
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from viscontact.bodies.surfaces import Surface
-from viscontact.drawing.content.power_spectrum import spectrum_panel
+from viscontact.drawing.content.measured_surface import spectrum_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel
