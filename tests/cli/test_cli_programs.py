@@ -8,7 +8,7 @@ import viscontact as vc
 from case.test_case_programs import CASE
 from interrupted_runs import kill, same_bits
 from viscontact.cli import main
-from viscontact.drawing.plotly.histories import history
+from viscontact.drawing.plotly.panel_over_run import history
 from viscontact.plot import history as drawn_history
 from viscontact.report.accuracy import accuracy_lines
 

@@ -15,9 +15,8 @@ from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.content.loop import Loop, cycle_panel
 from viscontact.drawing.content.panel import Axis, Curve, Panel
 from viscontact.drawing.plotly.friction import friction
-from viscontact.drawing.plotly.histories import histories
 from viscontact.drawing.plotly.indentation_fits import fit_over_time, force_over_approach
-from viscontact.drawing.plotly.panel_over_run import panel_over_run
+from viscontact.drawing.plotly.panel_over_run import histories, panel_over_run
 from viscontact.drawing.plotly.responses import responses
 from viscontact.identification import IndentationRecord, fit_indentation
 from viscontact.indenters import Sphere

@@ -25,7 +25,7 @@ from viscontact.drawing.content.history import load_names, response_names
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.section import section
-from viscontact.drawing.plotly.histories import history
+from viscontact.drawing.plotly.panel_over_run import history
 from viscontact.drawing.plotly.parts import plain
 from viscontact.drawing.plotly.pressure_map import MOST_CELLS, pressure_map
 from viscontact.drawing.svg.html import as_script
@@ -34,8 +34,8 @@ from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.drawings import geometry, recorded_surface
 from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
+from viscontact.report.result_chapters import lines_csv
 from viscontact.report.run_data import run_data
-from viscontact.report.section_csv import lines_csv
 from viscontact.results.snapshots import take_snapshots
 from viscontact.results.summary import headline
 

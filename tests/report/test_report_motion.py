@@ -18,13 +18,13 @@ from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.section import section
 from viscontact.drawing.matplotlib.histories.hysteresis import loops as printed_loops
-from viscontact.drawing.plotly.histories import history
 from viscontact.drawing.plotly.loops import loops
+from viscontact.drawing.plotly.panel_over_run import history
 from viscontact.drawing.plotly.pressure_map import pressure_map
 from viscontact.drawing.plotly.sections import draw_section
 from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.report.page import report_page
-from viscontact.report.section_csv import lines_csv
+from viscontact.report.result_chapters import lines_csv
 
 __all__ = ["without_pictures"]  # a fixture
 

@@ -18,7 +18,7 @@ from reports_without_pictures import without_pictures
 from viscontact.cli import main
 from viscontact.cli.sweep.table import print_table
 from viscontact.drawing.content.history import response_names
-from viscontact.drawing.plotly.histories import histories
+from viscontact.drawing.plotly.panel_over_run import histories
 from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState

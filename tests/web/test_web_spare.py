@@ -18,7 +18,7 @@ from fastapi.testclient import TestClient
 
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.cli import main
-from viscontact.web import calculator, first_use
+from viscontact.web import calculator
 from viscontact.web.runs import queue
 from viscontact.web.workspace.folder import Folder
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
@@ -144,13 +144,14 @@ def test_a_server_uses_what_an_answer_needs_before_the_first_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, recwarn: pytest.WarningsRecorder
 ) -> None:
     used: list[bool] = []
+    use_first = calculator._use_first
 
     def noted() -> None:
-        first_use.use_first()
+        use_first()
         used.append(True)
 
     monkeypatch.setattr(calculator, "_FIRST_USE", 0.0)
-    monkeypatch.setattr(calculator, "use_first", noted)
+    monkeypatch.setattr(calculator, "_use_first", noted)
     with asking(tmp_path / "page", keeps_spare=True):
         until(lambda: bool(used))
     with asking(tmp_path / "other"):

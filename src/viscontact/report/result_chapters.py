@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import re
 from collections.abc import Iterator
@@ -23,7 +24,6 @@ from viscontact.drawing.plotly.pressure_map import map_remarks
 from viscontact.drawing.svg.html import element
 from viscontact.report.limits import notices
 from viscontact.report.page_elements import remark
-from viscontact.report.section_csv import lines_csv
 from viscontact.report.still_figures import still_figures
 from viscontact.results.contact_spots import last_spots
 from viscontact.results.formatting import format_scalar
@@ -274,3 +274,19 @@ def _loop(figure: Figure) -> Element:
 def _download(text: str, name: str, content: str) -> Element:
     source = f"data:text/csv;charset=utf-8,{quote(content)}"
     return element("a", text, class_="download", download=name, href=source)
+
+
+def lines_csv(maps: Maps, lines: Lines) -> str:
+    """Write positions and a column for each instant [SI], with the place of a moving line."""
+    other = "y" if lines.along == "x" else "x"
+    places = [f", {other} = {at!r} m" if maps.moves else "" for at in lines.crossings]
+    heads = [
+        f"{lines.quantity.lower()} at {each.time!r} {each.axis.unit}{place} [{lines.si}]"
+        for each, place in zip(maps.snapshots, places or [""] * len(maps.maps), strict=True)
+    ]
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow([f"{lines.along} [m]", *heads])
+    columns = [lines.positions.tolist(), *(values.tolist() for values in lines.values)]
+    writer.writerows(zip(*columns, strict=True))
+    return file.getvalue()

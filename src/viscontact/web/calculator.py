@@ -6,6 +6,8 @@ import asyncio
 import json
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
 
@@ -13,10 +15,20 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
 from viscontact import __version__
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Sphere
+from viscontact.bodies.laws import Zener
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.material import Material
+from viscontact.report.run_data import run_data
+from viscontact.results.netcdf import open_results, save
+from viscontact.results.summary import summary_rows
+from viscontact.runs.single import simulate
+from viscontact.units.systems import AUTOMATIC
 from viscontact.web.cases.case_reader import CaseReader
-from viscontact.web.first_use import use_first
 from viscontact.web.runs.queue import RunQueue
 from viscontact.web.runs.run import ManagedRun
+from viscontact.web.runs.run_figures import look_of, run_figures
 from viscontact.web.runs.status import result_summary, status_of
 from viscontact.web.workspace.folder import Folder
 from viscontact.web.workspace.problems import RequestError
@@ -101,7 +113,7 @@ class Calculator:
         await asyncio.sleep(_FIRST_USE)
         if self._is_awaited and not self.queue.is_at_work:
             with suppress(Exception):  # the answer itself will say what is wrong
-                await self.do(use_first)
+                await self.do(_use_first)
 
     async def poll_runs(self) -> None:
         """Start and check runs until cancelled."""
@@ -110,3 +122,16 @@ class Calculator:
                 self.queue.end()
             self.queue.poll()
             await asyncio.sleep(POLL_INTERVAL if self.queue.is_at_work else IDLE_INTERVAL)
+
+
+def _use_first() -> None:
+    """Compute and draw a small contact, as the first use of the libraries takes a second."""
+    material = Material(Zener(1e9, 1e9, 1e9), poisson_ratio=0.4)
+    grid = Grid((48, 48), (0.6e-3, 0.6e-3))
+    ds = simulate(Sphere(0.01), material, step(5.0), grid, [0.0, 0.05, 0.1], errors=False)
+    with TemporaryDirectory() as folder:
+        save(ds, Path(folder) / "run.nc")
+        with open_results(Path(folder) / "run.nc") as read:
+            run_data(read)
+            summary_rows(read)
+            run_figures(read, look_of(AUTOMATIC, dark=False))

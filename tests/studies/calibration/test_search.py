@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import ttest_1samp
 
-from viscontact.studies.calibration.notes import notes_on
+from viscontact.studies.calibration.fit_case import notes_on
 from viscontact.studies.calibration.search import (
     Evaluate,
     NoResidualsError,

@@ -1,4 +1,4 @@
-"""Panel over time or speed: first curve with its band, another dashed, marks, both scales."""
+"""Scalars over time or speed: a curve with its band, another dashed, marks, both scales."""
 
 from __future__ import annotations
 
@@ -6,9 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 import plotly.graph_objects as go
+import xarray as xr
 
 from viscontact.backend.arrays import Singles
-from viscontact.drawing.content.look import Look
+from viscontact.drawing.content.along_run import texts_along
+from viscontact.drawing.content.history import history_panel, load_names, response_names
+from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Curve, Panel
 from viscontact.drawing.plotly.parts import Part, drawn, numbers, words
 from viscontact.drawing.plotly.run_scale import part_along, places_along
@@ -118,3 +121,18 @@ def _parts(curve: Curve) -> list[slice]:
     known = np.isfinite(curve.y) & np.isfinite(curve.error)
     changes = np.flatnonzero(np.diff([False, *known, False]))
     return [slice(a, b) for a, b in changes.reshape(-1, 2).tolist() if b - a > 1]
+
+
+def history(
+    ds: xr.Dataset, name: str, look: Look = LIGHT, reference: xr.Dataset | None = None
+) -> go.Figure:
+    """Draw a scalar over time or speed with its error band, and the same of a reference dashed."""
+    panel = history_panel({"": ds}, name, look.unit, reference)
+    return panel_over_run(panel, look, f"history-{name}", texts_along(ds, name, look))
+
+
+def histories(
+    ds: xr.Dataset, look: Look = LIGHT, reference: xr.Dataset | None = None
+) -> list[go.Figure]:
+    """Draw what is prescribed, and what answers: a figure for each scalar that has a panel."""
+    return [history(ds, name, look, reference) for name in (*load_names(ds), *response_names(ds))]

@@ -13,8 +13,8 @@ from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.usefulness import is_of_use
 from viscontact.drawing.figures import TABLE, Chapter
 from viscontact.drawing.plotly.friction import friction
-from viscontact.drawing.plotly.histories import histories
 from viscontact.drawing.plotly.loops import loops
+from viscontact.drawing.plotly.panel_over_run import histories
 from viscontact.drawing.plotly.pressure_map import outlines, pressure_map
 from viscontact.drawing.plotly.sections import line_loads, sections
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from os import PathLike
 from typing import Any, Literal
@@ -11,7 +11,6 @@ from warnings import warn
 import numpy as np
 
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.studies.calibration.notes import notes_on
 from viscontact.studies.calibration.preparation import (
     Record,
     check_bounds,
@@ -24,7 +23,7 @@ from viscontact.studies.calibration.preparation import (
 from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.result import CaseFit, result_of
 from viscontact.studies.calibration.search import Optimum, search
-from viscontact.studies.calibration.unknowns import unknowns_of
+from viscontact.studies.calibration.unknowns import Unknown, unknowns_of
 from viscontact.studies.case_values import (
     case_path,
     case_with,
@@ -38,6 +37,10 @@ from viscontact.studies.journal import journal_of
 from viscontact.units.numbers import whole
 
 _RUNS_PER_UNKNOWN = 40
+
+#: Correlation from which on two parameters are not distinguished, and the part of a range that
+#: counts as its bound.
+_INSEPARABLE, _AT_BOUND = 0.99, 1e-3
 
 
 def fit_case(  # noqa: PLR0913
@@ -211,3 +214,25 @@ def _search(residuals: Residuals, most: int) -> Optimum:
         return search(residuals, np.array([each.start for each in residuals.unknowns]))
     except BudgetSpentError:
         raise ValueError(f"runs: {most} are too few for this fit; give more") from None
+
+
+def notes_on(
+    unknowns: Sequence[Unknown], found: Optimum, confidence: float, budget: int
+) -> Iterator[str]:
+    """Yield notes on the optimum of a search of at most `budget` runs."""
+    names, correlation = [each.name for each in unknowns], found.correlation
+    for n in range(len(names)):
+        for m in range(n):
+            if abs(correlation[n, m]) > _INSEPARABLE:
+                yield (
+                    f"{names[m]} and {names[n]} cannot be distinguished (correlation "
+                    f"{correlation[n, m]:+.4f}): fix one of them, or add a record with another "
+                    "rate or a hold"
+                )
+    for each, part, reach in zip(unknowns, found.point, found.reach(confidence), strict=True):
+        if not _AT_BOUND < part < 1 - _AT_BOUND:
+            yield f"{each.name} lies at its bound {each.text(round(part))}; widen its range"
+        elif reach > 0.5:
+            yield f"{each.name} is left open: its interval is longer than its range"
+    if not found.complete:
+        yield f"the search ended after {budget} runs, before it had converged; allow more runs"
