@@ -3,13 +3,14 @@
 Truth: eqs. 1 to 5 and 7 of Spinu & Cerlinca (2018), evaluated by `independent.audit`, which
 shares no numerics with the package. A violation is relative to the largest displacement so far,
 to the force, and to force times the contact's extent; the solver has promised `tolerance` for all
-of them. The thousand problems take a minute and a half on one core.
+of them. A thousand problems take five minutes on one core.
 """
 
 import numpy as np
 import pytest
 
 import viscontact as vc
+from campaigns import tried
 from verification.independent import audit
 from verification.random_problems import random_problem
 
@@ -152,5 +153,6 @@ def test_four_random_problems_all_converge_to_equilibrium():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(4))  # for the processes of pytest-xdist
-def test_a_thousand_random_problems_all_converge_to_equilibrium(part):
-    assert not failures(range(4 + 274 * part, 4 + 274 * (part + 1)))
+def test_many_random_problems_all_converge_to_equilibrium(part):
+    first = 4 + 274 * part
+    assert not failures(range(first, first + tried(60, 274)))
