@@ -62,6 +62,11 @@ class Axis:
         return self.unit.label(self.quantity)
 
 
+def spans_decades(low: float, high: float) -> bool:
+    """Return whether an axis from one value to another is logarithmic: from a ratio of 10 on."""
+    return high > 10 * low
+
+
 @dataclass(frozen=True)
 class Ink:
     """Colour of a curve by its meaning; each renderer has its own shades."""

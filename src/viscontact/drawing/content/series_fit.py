@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import (
@@ -19,12 +18,12 @@ from viscontact.drawing.content.panel import (
     Mark,
     MarkLook,
     Panel,
+    spans_decades,
 )
 from viscontact.identification import Fit, MasterCurve, ShiftFit
 from viscontact.units.formatting import ReadableUnit, readable_unit
 from viscontact.units.temperatures import in_celsius
 
-_WIDE = 4.0  # ratio above which a column is drawn on a logarithmic axis
 #: Curves among many.
 _fine = partial(Curve, is_fine=True)
 _LABELS = {
@@ -125,7 +124,7 @@ def _values_axis(measured: Mapping[str, Floats], symbol: str = "") -> Axis:
     values = np.concatenate(list(measured.values()))
     quantity = _LABELS[next(iter(measured))] if len(measured) == 1 else "Modulus"
     unit = readable_unit("1/Pa" if "compliance" in measured else "Pa", values)
-    is_log = bool(values.max() > _WIDE * values.min())
+    is_log = spans_decades(float(values.min()), float(values.max()))
     return Axis(f"{quantity}{symbol}", unit, scale="log" if is_log else "linear")
 
 
@@ -163,7 +162,6 @@ def _symbol(fit: Fit) -> str:
     return letter if "modulus" in fit.measured else f"{letter}′, {letter}″"
 
 
-def _geometric(points: ArrayLike) -> Floats:
+def _geometric(points: Floats) -> Floats:
     """Points for a curve over the range of measured ones, even on a logarithmic axis."""
-    positive = np.asarray(points, dtype=np.float64)
-    return np.geomspace(positive.min(), positive.max(), 400)
+    return np.geomspace(points.min(), points.max(), 400)

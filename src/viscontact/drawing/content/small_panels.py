@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
-from viscontact.drawing.content.panel import SECOND, Axis, Curve, Ink, Panel
+from viscontact.drawing.content.panel import SECOND, Axis, Curve, Ink, Panel, spans_decades
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.units.formatting import ReadableUnit
 
@@ -18,9 +18,6 @@ from viscontact.units.formatting import ReadableUnit
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.
 _AROUND = 100.0
-#: Beyond this ratio of largest to smallest value, or of last to first compliance, an axis is
-#: logarithmic.
-_DECADES = 20.0
 _FITTED = Ink("fit")
 _PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
 
@@ -77,7 +74,7 @@ def _law_axis(symbol: str, si: str, values: Floats) -> Axis:
     """Axis of values above zero."""
     known = values[np.isfinite(values)]
     low, high = float(known.min()), float(known.max())
-    if known[-1] > _DECADES * known[0]:  # what flows; what relaxes goes to zero on a linear one
+    if spans_decades(known[0], known[-1]):  # what flows; what relaxes goes to zero on a linear one
         return Axis.over_decades(symbol, si, 0.8 * low, 1.2 * high)
     top = 1.08 * high
     # A curve that moves little is drawn around itself; others down to zero.
@@ -175,7 +172,7 @@ def _positive_axis(oscillates: bool, sets: Iterable[Floats]) -> Axis:
 def _values_axis(name: str, values: Floats) -> Axis:
     si = "1/Pa" if name == "compliance" else "Pa"
     low, high = float(values.min()), float(values.max())
-    if high > _DECADES * low:
+    if spans_decades(low, high):
         return Axis.over_decades(name, si, 0.8 * low, 1.2 * high)
     return Axis.between(name, si, 0.0, 1.08 * high)
 
