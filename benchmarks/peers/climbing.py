@@ -76,7 +76,7 @@ def in_columns(found: Sequence[Reading], targets: Sequence[float]) -> str:
     """Seconds and ratios, with the error if it differs from that of the column."""
     cells = []
     for reading, target in zip(found, targets, strict=True):
-        elsewhere = "" if np.isclose(reading.error, target) else f"at {reading.error:.0e}"
+        elsewhere = "" if np.isclose(reading.error, target, atol=0) else f"at {reading.error:.0e}"
         cells.append(f"{reading.seconds:8.3g} {reading.ratio:7.2f} {elsewhere:9}")
     return "  ".join(cells)
 

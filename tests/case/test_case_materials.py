@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.case import Case, CaseError, case_schema, read_case, read_material
 from viscontact.case.yaml_source import write
 from viscontact.cli import main
@@ -172,7 +173,7 @@ def test_temperature_shifts_every_time_of_the_law(tmp_path: Path) -> None:
     found = read(tmp_path, material).material
     t = np.array([0.0, 1e-4, 1.0])
     np.testing.assert_allclose(found.law(t), vc.Maxwell(1e9, 1e10)(t / factor), rtol=1e-12)
-    assert found.measured_until == pytest.approx(100 * factor, rel=1e-12)
+    assert found.measured_until == close_to(100 * factor, rel=1e-12)
     at_reference = read(tmp_path, {**material, "temperature": "298.15 K"}).material
     assert at_reference == vc.Material(vc.Maxwell(1e9, 1e10), 0.3, measured_until=100.0)
 
@@ -183,11 +184,11 @@ def test_arrhenius_and_measured_factors_shift_too(tmp_path: Path) -> None:
     material = {**MAXWELL, "temperature": "30 degC", "shift": arrhenius}
     factor = np.exp(8e4 / 8.31446261815324 * (1 / 303.15 - 1 / 293.15))
     law = read(tmp_path, material).material.law
-    assert law(1.0) == pytest.approx(vc.Maxwell(1e9, 1e10)(1 / factor), rel=1e-12)
+    assert law(1.0) == close_to(vc.Maxwell(1e9, 1e10)(1 / factor), rel=1e-12)
     material["shift"] = {"kind": "factors", "file": "factors.csv"}
     rows = "T,log_aT\nC,-\n40,-2\n20,0\n"  # as exported: from warm to cold
     found = read(tmp_path, material, {"factors.csv": rows})
-    assert found.material.law(1.0) == pytest.approx(vc.Maxwell(1e9, 1e10)(10.0), rel=1e-12)
+    assert found.material.law(1.0) == close_to(vc.Maxwell(1e9, 1e10)(10.0), rel=1e-12)
     assert dict(found.files) == {("material", "shift", "file"): tmp_path / "factors.csv"}
 
 
@@ -196,7 +197,7 @@ def test_card_gives_law_volume_and_shift(tmp_path: Path) -> None:
     assert found == vc.Material(vc.RelaxationSeries(0.5e9, [0.5e9], [10.0]), 0.5)
     factor = float(vc.WLF(298.15, 17.44, 51.6).factor(313.15))
     warm = read(tmp_path, {**CARDED, "temperature": "40 degC"}).material
-    assert warm.law.times == pytest.approx([10.0 * factor], rel=1e-14)
+    assert warm.law.times == close_to([10.0 * factor], rel=1e-14)
     ansys = "MP,EX,3,3000\nMP,PRXY,3,0.5\nTB,PRONY,3,1,1,SHEAR\nTBDATA,1,0.5,10\n"
     assert read(tmp_path, {**CARDED, "name": "3"}, {"a.inp": ansys}).material == found
 
@@ -298,7 +299,7 @@ def test_thickness_is_a_length(given: object, said: str, tmp_path: Path) -> None
 def test_material_alone_may_be_a_table(tmp_path: Path) -> None:
     (tmp_path / "pmma.csv").write_text(PMMA, encoding="utf-8")
     (tmp_path / "material.yaml").write_text(write(TABLE), encoding="utf-8")
-    assert read_material(tmp_path / "material.yaml").law(10.0) == pytest.approx(1.5e-10, rel=1e-14)
+    assert read_material(tmp_path / "material.yaml").law(10.0) == close_to(1.5e-10, rel=1e-14)
 
 
 def test_files_travel_with_the_run_even_if_they_are_called_alike(

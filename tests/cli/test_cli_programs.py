@@ -6,6 +6,7 @@ import xarray as xr
 
 import viscontact as vc
 from case.test_case_programs import CASE
+from closeness import close_to
 from interrupted_runs import kill, same_bits
 from viscontact.cli import main
 from viscontact.drawing.plotly.panel_over_run import history
@@ -52,10 +53,10 @@ def test_tables_and_figures_show_the_events(folder, capsys):
     first = float(ds.attrs["event_times"][0])
     figure = drawn_history(ds)
     marked = [line.get_xdata()[0] for line in figure.axes[0].get_lines() if line.get_ls() == ":"]
-    assert marked[0] == pytest.approx(first * 1e3)  # in ms
+    assert marked[0] == close_to(first * 1e3)  # in ms
     assert "force reaches 50 mN" in figure.get_supxlabel()
     shapes = history(ds, "approach").layout.shapes
-    assert shapes[0].x0 == pytest.approx(first * 1e3)
+    assert shapes[0].x0 == close_to(first * 1e3)
     assert shapes[0].label.text == "1"
     assert dict(accuracy_lines(ds))["Event 1"] == lines[0]
     ds.close()
@@ -71,6 +72,6 @@ def test_a_sweep_varies_sentences(folder):
     for path in sorted(folder.glob("both/*/result.nc")):
         with xr.open_dataset(path) as ds:
             ends.append(float(ds.attrs["event_times"][0]))
-            assert float(ds.force.max()) == pytest.approx(0.05, rel=1e-6)
+            assert float(ds.force.max()) == close_to(0.05, rel=1e-6)
     # Twice as fast, the force is reached in a little less than half of the time.
     assert 0.45 < min(ends) / max(ends) < 0.5

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from closeness import close_to
 from synthetic_results import maxwell_sphere
 from synthetic_sweeps import hertz_sweep
 from viscontact import plot
@@ -66,7 +67,7 @@ def test_histories_are_the_same_in_matplotlib_and_plotly(name: str) -> None:
             each.text for each in page.layout.annotations
         ]
         if is_drawn:
-            assert axes.get_ylim() == pytest.approx(page.layout.yaxis.range)
+            assert axes.get_ylim() == close_to(page.layout.yaxis.range)
         assert axes.get_title(loc="right").removeprefix("peak ") == page.layout.meta["note"]
         shaded = np.concatenate([np.zeros((0, 2))] + [
             path.vertices for each in axes.collections for path in each.get_paths()
@@ -74,7 +75,7 @@ def test_histories_are_the_same_in_matplotlib_and_plotly(name: str) -> None:
         known = np.asarray(band.y)[np.isfinite(band.y)]
         assert bool(known.size) == bool(shaded.size)
         if known.size:
-            assert (shaded[:, 1].min(), shaded[:, 1].max()) == pytest.approx(
+            assert (shaded[:, 1].min(), shaded[:, 1].max()) == close_to(
                 (known.min(), known.max()), rel=1e-6
             )
         frames = [frame.name for frame in page.frames]

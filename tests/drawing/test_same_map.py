@@ -12,6 +12,7 @@ import pytest
 from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
+from closeness import close_to
 from synthetic_results import ellipse, roller
 from viscontact import plot
 from viscontact.drawing.content.map import Maps, maps_over
@@ -72,8 +73,8 @@ def test_unit_is_the_same() -> None:
 def test_range_is_the_same() -> None:
     scale = content().scale()
     heat, bar = interactive_map(content()).data[0], still_map("colours")[-1]
-    assert (heat.zmin, heat.zmax) == pytest.approx(scale.unit(scale.limits))
-    assert bar.get_ylim() == pytest.approx(scale.unit(scale.limits))
+    assert (heat.zmin, heat.zmax) == close_to(scale.unit(scale.limits))
+    assert bar.get_ylim() == close_to(scale.unit(scale.limits))
 
 
 def test_levels_are_the_same() -> None:
@@ -139,20 +140,20 @@ def test_tension_is_drawn_in_colours_that_diverge_from_zero() -> None:
     maps = maps_over(tensile)
     scale = maps.scale()
     low, high = scale.unit(scale.limits)
-    assert (low, high) == pytest.approx((-0.3, 3.0), rel=1e-3)
-    assert scale.unit(scale.levels)[[0, -1]].tolist() == pytest.approx([-0.5, 3.0])
+    assert (low, high) == close_to((-0.3, 3.0), rel=1e-3)
+    assert scale.unit(scale.levels)[[0, -1]].tolist() == close_to([-0.5, 3.0])
     heat = plain(interactive_map(maps))["data"][0]
-    assert (heat["zmin"], heat["zmax"]) == pytest.approx((low, high))
+    assert (heat["zmin"], heat["zmax"]) == close_to((low, high))
     shown = np.frombuffer(base64.b64decode(heat["z"]["bdata"]), "<i2") * heat["z"]["step"]
-    assert shown.min() == pytest.approx(-0.3, rel=1e-3)
+    assert shown.min() == close_to(-0.3, rel=1e-3)
     # White at zero, red below it, blue above.
     red, blue = (colour[1:3] > colour[5:7] for colour in scale.colours(3)[::2])
     assert (red, blue) == (True, False)
     figure = plot.pressure_map(tensile, style="contours")
-    assert figure.axes[-1].get_ylim() == pytest.approx((-0.5, 3.0))
+    assert figure.axes[-1].get_ylim() == close_to((-0.5, 3.0))
     _, bar, section, *_ = plot.animation(tensile, seconds=1.0, fps=2.0).figure.axes
-    assert bar.get_ylim() == pytest.approx((-0.5, 3.0))
-    assert section.get_ylim()[0] == pytest.approx(1.05 * low)
+    assert bar.get_ylim() == close_to((-0.5, 3.0))
+    assert section.get_ylim()[0] == close_to(1.05 * low)
 
 
 def test_levels_end_below_peaks_that_depend_on_the_mesh() -> None:
@@ -164,5 +165,5 @@ def test_levels_end_below_peaks_that_depend_on_the_mesh() -> None:
     high = np.quantile(maps.snapshots[-1].pressure[maps.snapshots[-1].in_contact], 0.97)
     assert scale.levels[-1] < high < scale.limits[1]
     figure = plot.pressure_map(ds, style="contours")
-    assert figure.axes[-1].get_ylim()[1] == pytest.approx(scale.unit(scale.levels[-1]))
+    assert figure.axes[-1].get_ylim()[1] == close_to(scale.unit(scale.levels[-1]))
     assert "peak depends on the mesh" in figure.axes[0].get_title(loc="left")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.cli import main
 from viscontact.identification.instrument_curves import is_instrument_file, split_number
 
@@ -34,14 +35,14 @@ def test_curve_of_jpk_has_the_times_and_the_setpoint_of_its_header():
     points = int(stated("force-segment-header.num-points"))
     assert curve.times.size == 2 * points
     # Approach and retraction of one second each; the clock of a segment starts at 0.
-    assert stated("force-segment-header.duration") == pytest.approx(1.0)
-    assert np.ptp(curve.times) == pytest.approx(2.0, rel=1e-3)
-    assert curve.spring_constant == pytest.approx(0.0434937, rel=1e-5)
+    assert stated("force-segment-header.duration") == close_to(1.0)
+    assert np.ptp(curve.times) == close_to(2.0, rel=1e-3)
+    assert curve.spring_constant == close_to(0.0434937, rel=1e-5)
     # The approach stops when the force above the baseline reaches the setpoint. It is sampled
     # every 0.5 ms, in which the piezo moves by 2.5 nm; the rest is drift of the baseline.
     force = curve.spring_constant * curve.deflection
-    assert force.max() - force[: points // 4].mean() == pytest.approx(4e-9, rel=0.08)
-    assert np.argmax(force) == pytest.approx(points, rel=0.01)
+    assert force.max() - force[: points // 4].mean() == close_to(4e-9, rel=0.08)
+    assert np.argmax(force) == close_to(points, rel=0.01)
 
 
 def test_contact_point_is_where_the_force_leaves_the_baseline():
@@ -54,7 +55,7 @@ def test_contact_point_is_where_the_force_leaves_the_baseline():
     line = np.polyfit(position[far], force[far], 1)
     rest = force - np.polyval(line, position)
     scatter = rest[far].std()
-    assert scatter == pytest.approx(contact.noise * curve.spring_constant, rel=0.2)
+    assert scatter == close_to(contact.noise * curve.spring_constant, rel=0.2)
     behind = rest[position > contact.position + 1e-7]
     assert behind.size > 50
     assert behind.min() > 5 * scatter

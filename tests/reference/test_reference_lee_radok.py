@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import beta, gamma, hyp1f1
 
+from closeness import close_to
 from inverse_pairs import MODULUS, maxwell, power_law, series
 from viscontact import reference
 
@@ -54,7 +55,7 @@ def test_pressure_under_a_step_balances_the_force(law, times):
     """The strictest check of the two callables, the radius and the integral at once."""
     contact = reference.lee_radok_step(FORCE, RADIUS, *law)
     for t in times:
-        assert integrated_force(contact, t) == pytest.approx(FORCE, rel=1e-8)
+        assert integrated_force(contact, t) == close_to(FORCE, rel=1e-8)
 
 
 LAWS = {"maxwell": maxwell(3.0), "zener": ZENER, "stiff": STIFF, "power-law": power_law(0.5)}
@@ -73,12 +74,12 @@ def test_pressure_under_a_ramp_balances_the_force(law, t):
     """At the ramp's end, just after it, a while after and ten thousand ramps after."""
     contact = reference.lee_radok_ramp(FORCE, 2.0, RADIUS, *LAWS[law])
     assert contact.force(t) == FORCE
-    assert integrated_force(contact, t) == pytest.approx(FORCE, rel=1e-8)
+    assert integrated_force(contact, t) == close_to(FORCE, rel=1e-8)
 
 
 def test_pressure_within_a_ramp_balances_the_force():
     contact = reference.lee_radok_ramp(FORCE, 2.0, RADIUS, *ZENER)
-    assert integrated_force(contact, 0.5) == pytest.approx(FORCE / 4, rel=1e-8)
+    assert integrated_force(contact, 0.5) == close_to(FORCE / 4, rel=1e-8)
 
 
 def test_maxwell_central_pressure_follows_its_closed_form():
@@ -158,8 +159,8 @@ def test_maxwell_radius_under_a_ramp_follows_its_closed_form(t):
     contact = reference.lee_radok_ramp(FORCE, 2.0, RADIUS, *maxwell(3.0))
     factor = (t + t**2 / 6) / 2 if t < 2 else 1 + (t - 1) / 3
     cubed = 0.75 * RADIUS * FORCE / MODULUS * factor
-    assert contact.contact_radius(t) ** 3 == pytest.approx(cubed, rel=1e-13)
-    assert contact.approach(t) == pytest.approx(cubed ** (2 / 3) / RADIUS, rel=1e-13)
+    assert contact.contact_radius(t) ** 3 == close_to(cubed, rel=1e-13)
+    assert contact.approach(t) == close_to(cubed ** (2 / 3) / RADIUS, rel=1e-13)
 
 
 def test_under_a_maxwell_body_the_peak_leaves_the_axis_at_1_54_relaxation_times():
@@ -168,7 +169,7 @@ def test_under_a_maxwell_body_the_peak_leaves_the_axis_at_1_54_relaxation_times(
     for t, place in ((1.53, 0.0), (1.55, 0.866)):
         radius = contact.contact_radius(3.0 * t)
         r = radius * np.linspace(0.0, 1.0, 501)
-        assert r[contact.pressure(r, 3.0 * t).argmax()] / radius == pytest.approx(place, abs=0.01)
+        assert r[contact.pressure(r, 3.0 * t).argmax()] / radius == close_to(place, abs=0.01)
 
 
 def test_elastic_law_gives_hertz():
@@ -180,8 +181,8 @@ def test_elastic_law_gives_hertz():
         (reference.lee_radok_step(FORCE, RADIUS, *law), 7.0),
         (reference.lee_radok_ramp(FORCE, 2.0, RADIUS, *law), 7.0),
     ]:
-        assert contact.contact_radius(t) == pytest.approx(sphere.contact_radius, rel=1e-14)
-        assert contact.approach(t) == pytest.approx(sphere.approach, rel=1e-14)
+        assert contact.contact_radius(t) == close_to(sphere.contact_radius, rel=1e-14)
+        assert contact.approach(t) == close_to(sphere.approach, rel=1e-14)
         close = 1e-12 * sphere.peak_pressure
         np.testing.assert_allclose(contact.pressure(r, t), sphere.pressure(r), rtol=0, atol=close)
 
@@ -195,7 +196,7 @@ def test_a_solid_held_for_ever_is_hertz_with_its_final_compliance(load):
     )
     sphere = reference.hertz_sphere(FORCE, RADIUS, 1 / (1 / 2e9 + 1 / 1e9))
     r = sphere.contact_radius * np.linspace(0, 0.99, 12)
-    assert contact.contact_radius(1e6) == pytest.approx(sphere.contact_radius, rel=1e-13)
+    assert contact.contact_radius(1e6) == close_to(sphere.contact_radius, rel=1e-13)
     np.testing.assert_allclose(contact.pressure(r, 1e6), sphere.pressure(r), rtol=1e-11)
 
 
@@ -236,7 +237,7 @@ def test_softer_and_slower_laws_scale(softer, slower, t):
     )
     a = contact.contact_radius(t)
     r = a * np.array([0.0, 0.4, 0.8])
-    assert scaled.contact_radius(t * slower) == pytest.approx(a, rel=1e-12)
+    assert scaled.contact_radius(t * slower) == close_to(a, rel=1e-12)
     p = contact.pressure(r, t)
     np.testing.assert_allclose(scaled.pressure(r, t * slower) * softer, p, rtol=1e-10)
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipkm1
 
+from closeness import close_to
 from inverse_pairs import maxwell, series
 from viscontact import reference
 
@@ -50,7 +51,7 @@ def test_pressures_of_two_cycles_give_the_displacement_by_superposition():
             exact = BROAD(middles) @ np.diff(elastic_path[: k + 1])
             ours = contact.displacement(rho, t[k])
             # Midpoints of 141 instants through a path with corners.
-            assert ours == pytest.approx(exact, abs=1e-3 * contact.approach.max())
+            assert ours == close_to(exact, abs=1e-3 * contact.approach.max())
             opening = ours + rho**2 / 0.02 - contact.approach[k]
             scale = 1e-6 * contact.approach.max()
             assert opening >= -scale
@@ -69,7 +70,7 @@ def test_pressure_integrates_to_the_force_after_a_hold_and_a_partial_release():
         rings = 2 * math.pi * r * contact.pressure(r, 3.5) * contact.contact_radius[-1]
         total = np.sum(weights * math.pi / 4 * np.cos(angle) * rings)
         # The cone's pressure is infinite on the axis.
-        assert total == pytest.approx(contact.force[-1], rel=1e-4)
+        assert total == close_to(contact.force[-1], rel=1e-4)
 
 
 # The residual indentation.
@@ -97,7 +98,7 @@ def test_residual_indentation_of_a_maxwell_body_is_permanent():
     np.testing.assert_allclose(late, early, rtol=1e-9)
     # Where the indenter lost contact last it left its own depth.
     lost = float(np.interp(contact.lost[0], t, contact.approach))
-    assert late[0] == pytest.approx(lost, rel=1e-4)
+    assert late[0] == close_to(lost, rel=1e-4)
 
 
 def test_far_displacement_is_that_of_a_point_load():
@@ -107,7 +108,7 @@ def test_far_displacement_is_that_of_a_point_load():
     contact = reference.press_axisymmetric(SPHERE, t, force=load, creep_compliance=BROAD)
     middles = 3 - (t[1:] + t[:-1]) / 2
     crept = BROAD(middles) @ np.diff(load)
-    assert math.pi * 2.0 * contact.displacement(2.0, 3.0) == pytest.approx(crept, rel=1e-3)
+    assert math.pi * 2.0 * contact.displacement(2.0, 3.0) == close_to(crept, rel=1e-3)
 
 
 def test_body_without_force_touches_the_deformed_surface():

@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from closeness import close_to
 from viscontact import reference
 
 SPHERE, CONE = reference.SphereProfile(0.01), reference.ConeProfile(1.4)
@@ -19,10 +20,10 @@ def test_profiles_transform_the_gap():
     slopes = [(SPHERE, lambda r: r / 0.01), (CONE, lambda r: 1 / math.tan(1.4))]
     for profile, slope in slopes:
         exact = s * quad(lambda x, f=slope: f(s * math.sin(x)), 0, math.pi / 2)[0]
-        assert float(profile.depth(np.array(s))) == pytest.approx(exact, rel=1e-12)
-        assert float(profile.reach(np.array(exact))) == pytest.approx(s, rel=1e-12)
+        assert float(profile.depth(np.array(s))) == close_to(exact, rel=1e-12)
+        assert float(profile.reach(np.array(exact))) == close_to(s, rel=1e-12)
         swept = quad(lambda x, p=profile: float(p.depth(np.array(x))), 0, s)[0]
-        assert float(profile.depth_integral(np.array(s))) == pytest.approx(swept, rel=1e-12)
+        assert float(profile.depth_integral(np.array(s))) == close_to(swept, rel=1e-12)
 
 
 @both
@@ -35,11 +36,9 @@ def test_profile_integrals_are_those_of_quadrature(profile):
         return (ends[1] - ends[0]) / (2 * h)
 
     outer = quad(lambda x: rate(math.hypot(r, x)) / math.hypot(r, x), 0, math.sqrt(s**2 - r**2))[0]
-    assert float(profile.outer_integral(np.array(s), np.array(r))) == pytest.approx(outer, rel=1e-6)
+    assert float(profile.outer_integral(np.array(s), np.array(r))) == close_to(outer, rel=1e-6)
     inner = quad(lambda x: float(profile.depth(np.array(s * math.sin(x)))), 0, math.asin(r / s))[0]
-    assert float(profile.inner_integral(np.array(r), np.array(s))) == pytest.approx(
-        inner, rel=1e-10
-    )
+    assert float(profile.inner_integral(np.array(r), np.array(s))) == close_to(inner, rel=1e-10)
 
 
 @both
@@ -56,15 +55,15 @@ def test_triangle_force_is_the_integral_over_the_rods(profile, t):
         return way_in - (quad(lambda x: modulus(t - x), 1.0, t, epsrel=1e-12)[0] if t > 1 else 0)
 
     last = min(t, 1.0) if t <= 1 else brentq(chi, 0.0, 1.0, xtol=1e-15)
-    assert float(contact.earlier(t)) == pytest.approx(last, rel=1e-9)
+    assert float(contact.earlier(t)) == close_to(last, rel=1e-9)
     edge = float(profile.reach(np.array(1e-5 * last)))
     force = 2e-5 * quad(lambda s: chi(float(profile.depth(np.array(s))) / 1e-5), 0, edge)[0]
-    assert float(contact.force(t)) == pytest.approx(force, rel=1e-8)
+    assert float(contact.force(t)) == close_to(force, rel=1e-8)
 
 
 def test_maxwell_triangle_is_lost_at_the_logarithm():
     contact = reference.ting_triangle(SPHERE, 1e-5, 3.0, 0.0, [2e9], [2.0])
-    assert contact.lost == pytest.approx(2 * math.log(2 * math.exp(1.5) - 1), rel=1e-12)
+    assert contact.lost == close_to(2 * math.log(2 * math.exp(1.5) - 1), rel=1e-12)
     assert contact.force(contact.lost + 1e-6) == 0.0
 
 
@@ -80,8 +79,8 @@ def test_elastic_triangle_has_no_hysteresis(profile):
         if profile is SPHERE
         else reference.cone(force, 1.4, 2e9)
     )
-    assert elastic.approach == pytest.approx(1e-5, rel=1e-12)
-    assert elastic.contact_radius == pytest.approx(contact.contact_radius(1.0), rel=1e-12)
+    assert elastic.approach == close_to(1e-5, rel=1e-12)
+    assert elastic.contact_radius == close_to(contact.contact_radius(1.0), rel=1e-12)
 
 
 @both
@@ -97,7 +96,7 @@ def test_hump_by_quadrature_meets_the_triangle_in_closed_form(profile):
     t = np.linspace(0, 1.9, 39)
     np.testing.assert_allclose(hump.force(t), exact.force(t), atol=1e-11 * exact.force(1.0))
     np.testing.assert_allclose(hump.contact_radius(t), exact.contact_radius(t), atol=1e-12)
-    assert hump.lost == pytest.approx(exact.lost, rel=1e-12)
+    assert hump.lost == close_to(exact.lost, rel=1e-12)
 
 
 @pytest.mark.parametrize("rise", [0.5, 3.0], ids=["fast", "slow"])
@@ -106,7 +105,7 @@ def test_force_triangle_fulfils_tings_two_equations(rise):
     contact = reference.ting_force_triangle(10.0, rise, 0.01, 2e9, 1.0)
     t = contact.widest + 0.6 * (2 * rise - contact.widest)
     earlier = float(contact.earlier(t))
-    assert contact.contact_radius(t) == pytest.approx(contact.contact_radius(earlier), rel=1e-12)
+    assert contact.contact_radius(t) == close_to(contact.contact_radius(earlier), rel=1e-12)
 
     def load(quantity, begin, end):
         """Integrate exp(t') dq(t') by parts, with the cube of a variable against the root at 0."""
@@ -121,10 +120,10 @@ def test_force_triangle_fulfils_tings_two_equations(rise):
         return math.exp(end) * quantity(end) - math.exp(begin) * quantity(begin) - rest
 
     force = 2e9 * 4 / 0.03 * load(lambda x: contact.contact_radius(x) ** 3, 0.0, earlier)
-    assert force * math.exp(-t) == pytest.approx(contact.force(t), rel=1e-9)
+    assert force * math.exp(-t) == close_to(contact.force(t), rel=1e-9)
     there = load(contact.approach, earlier, contact.widest)
     back = load(contact.approach, contact.widest, t)
-    assert there == pytest.approx(-back, rel=1e-7)
+    assert there == close_to(-back, rel=1e-7)
 
 
 def test_first_of_the_cycles_is_the_triangle():
@@ -133,7 +132,7 @@ def test_first_of_the_cycles_is_the_triangle():
     t = np.linspace(0.01, 1.9, 30)
     np.testing.assert_allclose(cycles.force(t), triangle.force(t), atol=1e-12)
     np.testing.assert_allclose(cycles.contact_radius(t), triangle.contact_radius(t), atol=1e-15)
-    assert cycles.lost(0) == pytest.approx(triangle.lost, rel=1e-14)
+    assert cycles.lost(0) == close_to(triangle.lost, rel=1e-14)
 
 
 @pytest.mark.parametrize(

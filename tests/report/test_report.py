@@ -17,6 +17,7 @@ import xarray as xr
 from ruamel.yaml import YAML
 
 import viscontact as vc
+from closeness import close_to
 from drawing.plotly.figure_data import Data, array_of, shown_at, title_of
 from reports_without_pictures import without_pictures
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
@@ -148,7 +149,7 @@ def test_a_map_holds_the_pressure(page: _Page) -> None:
         np.testing.assert_allclose(pressure, exact, atol=1.6e-5 * heat["zmax"] * 1e6)
         assert shown["layout"]["meta"]["title"] == f"t = {instant:g} s"
         peak = float(shown["layout"]["meta"]["note"].split()[-2])
-        assert peak == pytest.approx(pressure.max() * 1e-6, rel=1e-3)
+        assert peak == close_to(pressure.max() * 1e-6, rel=1e-3)
 
 
 def test_outlines_are_the_smooth_rims_of_the_figures(page: _Page) -> None:
@@ -172,7 +173,7 @@ def test_a_fine_map_shows_means_that_keep_the_force() -> None:
     cell = (heat.x[1] - heat.x[0]) * (heat.y[1] - heat.y[0]) * 1e-6
     force = np.nansum(heat.z) * 1e6 * cell
     exact = ds["pressure"].values.sum() * float((ds.x[1] - ds.x[0]) * (ds.y[1] - ds.y[0]))
-    assert force == pytest.approx(exact, rel=1e-5)  # seven digits in each cell
+    assert force == close_to(exact, rel=1e-5)  # seven digits in each cell
 
 
 def test_csv_files_hold_every_digit(page: _Page) -> None:
@@ -199,10 +200,10 @@ def test_a_long_contact_has_its_line_load_on_the_page() -> None:
     assert (title_of(curve, "x"), title_of(curve, "y")) == ("x [mm]", "Line load [kN/m]")
     for index, load in enumerate(expected):
         shown = array_of(curve["data"][index]["y"]) * 1e3
-        assert shown.sum() * dx == pytest.approx(ds["pressure"][index].values.sum() * dx * dy)
+        assert shown.sum() * dx == close_to(ds["pressure"][index].values.sum() * dx * dy)
         position = array_of(curve["data"][index]["x"]) * 1e-3
         middle = np.interp(0.02, position, shown)
-        assert middle == pytest.approx(np.interp(0.02, ds.x, load), rel=1e-4)
+        assert middle == close_to(np.interp(0.02, ds.x, load), rel=1e-4)
     head, *rows = page.download("line-load.csv")
     assert head == ["x [m]", "line load at 0.0 s [N/m]", "line load at 100.0 s [N/m]"]
     x, *loads = np.array(rows, dtype=float).T
@@ -253,7 +254,7 @@ def test_a_logarithmic_axis_over_days_is_marked_in_seconds_minutes_hours_and_day
     axis = shown_at(panel.to_plotly_json(), "log")["layout"]["xaxis"]
     ticks = dict(zip(axis["ticktext"], array_of(axis["tickvals"]), strict=True))
     for text, hours in (("1 h", 1.0), ("1 d", 24.0)):
-        assert ticks[text] == pytest.approx(np.log10(hours / 24))  # the axis is in days
+        assert ticks[text] == close_to(np.log10(hours / 24))  # the axis is in days
     assert axis["title"]["text"] == "Time, logarithmic"
 
 
@@ -418,7 +419,7 @@ def test_run_data_is_the_result_in_si_units_and_fits_into_json() -> None:
     # The radius of a Hertz contact is sqrt(R d): the area is pi R d, here with R = 10 mm. The
     # area is counted in cells, 30 to 50 across.
     area, approach = (scalars[name]["value"] for name in ("contact_area", "approach"))
-    assert area == pytest.approx(np.pi * 0.01 * np.array(approach), rel=0.03)
+    assert area == close_to(np.pi * 0.01 * np.array(approach), rel=0.03)
     assert scalars["peak_pressure"]["mesh"] == [True] * len(TIMES)
     assert None not in scalars["peak_pressure"]["value"]
     assert scalars["approach"]["mesh"] == [False] * len(TIMES)

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from closeness import close_to
 from reports_without_pictures import without_pictures
 from viscontact import plot
 from viscontact.bodies.loads.motion import Motion
@@ -62,8 +63,8 @@ def test_map_has_axis_and_direction_of_the_body(moved: xr.Dataset) -> None:
         (arrow,) = frame.layout["annotations"]
         assert (arrow.x, arrow.y) == (*frame.data[-1].x, *frame.data[-1].y)
         # From its tail to its head [pixel], up the screen: against y.
-        assert (arrow.ax, arrow.ay) == pytest.approx((0, -34))
-        assert (arrow.xshift, arrow.yshift) == pytest.approx((0, -34))
+        assert (arrow.ax, arrow.ay) == close_to((0, -34))
+        assert (arrow.xshift, arrow.yshift) == close_to((0, -34))
     assert not figure.frames[3].layout["annotations"]  # at rest
 
 
@@ -85,8 +86,8 @@ def test_section_along_the_motion_has_leading_and_trailing_edge(moved: xr.Datase
     assert edges[3] == []  # at rest
     leading, trailing = edges[1]
     pressed = moved.y.values[(moved.pressure[1].values > 0).any(axis=0)]
-    assert leading == pytest.approx((pressed.min() - CELL / 2) * 1e3)
-    assert trailing == pytest.approx((pressed.max() + CELL / 2) * 1e3)
+    assert leading == close_to((pressed.min() - CELL / 2) * 1e3)
+    assert trailing == close_to((pressed.max() + CELL / 2) * 1e3)
 
 
 def test_histories_show_position_and_what_the_motion_costs(moved: xr.Dataset) -> None:
@@ -122,7 +123,7 @@ def test_area_of_the_last_loop_is_the_motion_work_of_a_cycle() -> None:
     work = float(ds.motion_work[-1] - ds.motion_work[24])
     # A polygon of 24 corners in an ellipse has this part of its area; the loop is nearly one.
     polygon = np.sinc(2 / 24)
-    assert np.trapezoid(force, position) == pytest.approx(polygon * work, rel=3e-3)
+    assert np.trapezoid(force, position) == close_to(polygon * work, rel=3e-3)
 
 
 def test_page_of_a_moving_contact_names_motion_and_edges(moved: xr.Dataset) -> None:

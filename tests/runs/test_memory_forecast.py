@@ -9,6 +9,8 @@ import sys
 
 import pytest
 
+from closeness import close_to
+
 #: A creeping sphere on many cells; the memory of the process before and after a run on a few.
 RUN = """
 import viscontact as vc
@@ -83,7 +85,7 @@ measured = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measure
 def test_announced_memory_is_what_a_run_takes(kind: str, cells: int, most: int | None) -> None:
     """Within 10 %; without symmetry at most 200 bytes a cell and 16 for each term of the law."""
     taken, announced, freed = memory(kind, cells, **GIVEN_BACK)
-    assert taken == pytest.approx(announced - freed, rel=0.1)
+    assert taken == close_to(announced - freed, rel=0.1)
     if most is not None:
         # Buffers of libraries, about 10 MB here, do not grow with the cells.
         assert taken < most * cells**2 + 2e7

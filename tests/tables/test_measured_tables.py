@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from closeness import close_to
 from random_examples import given_few_or_many
 from viscontact.laws import TabulatedCreep
 from viscontact.tables import Table, read_table
@@ -244,7 +245,7 @@ def test_sets_are_separated_by_their_number_in_the_files_order(tmp_path: Path) -
     first, second = table(tmp_path, f"t [s],E [Pa],Set,T [degC]\n{rows}").sets()
     assert (first.set_number, second.set_number) == (7.0, 3.0)
     assert first["time"].tolist() == [2.0, 1.0]
-    assert first.temperature == pytest.approx(293.25, abs=1e-12)
+    assert first.temperature == close_to(293.25, abs=1e-12)
     assert second.lines.tolist() == [4]
 
 

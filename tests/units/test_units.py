@@ -16,6 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viscontact
+from closeness import close_to
 from viscontact.results.stated_errors import is_rounding_tilt
 from viscontact.units.common_units import COMMON_UNITS
 from viscontact.units.dimensions import DIMENSIONS
@@ -63,7 +64,7 @@ from viscontact.units.parsing import parse_quantity
 )
 def test_quantity_in_words_is_its_si_value(text: str, dimension: str, value: float) -> None:
     # a few last digits: π and the pound are not exact in binary
-    assert parse_quantity(text, dimension) == pytest.approx(value, rel=4e-16)
+    assert parse_quantity(text, dimension) == close_to(value, rel=4e-16)
 
 
 def test_a_length_in_millimetres_is_exactly_the_number_that_a_script_writes() -> None:
@@ -153,7 +154,7 @@ def test_readable_unit_and_number_give_the_value_back(value: float, unit: str) -
     readable = readable_unit(unit, value)
     printed = float(format_number(value / readable.factor, 6))
     # six digits printed: half of the sixth is lost
-    assert printed * readable.factor == pytest.approx(value, rel=5.1e-6)
+    assert printed * readable.factor == close_to(value, rel=5.1e-6)
 
 
 def test_tilt_is_rounding_by_what_it_moves_not_by_its_size() -> None:

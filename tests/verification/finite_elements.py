@@ -58,11 +58,11 @@ class LayersUnderABall:
         mesh = skfem.MeshQuad.init_tensor(r, depth - z[::-1])
         self._basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad1()))
         self._matrices = self._layer_matrices(depth)
-        at = self._basis.doflocs
-        clamped = np.isclose(at[1], 0.0) | np.isclose(at[0], wide)
-        clamped |= np.isclose(at[0], 0.0) & (np.arange(at.shape[1]) % 2 == 0)  # on the axis u_r = 0
+        at, tiny = self._basis.doflocs, 1e-6 * depth
+        clamped = (at[1] < tiny) | (at[0] > wide - tiny)
+        clamped |= (at[0] < tiny) & (np.arange(at.shape[1]) % 2 == 0)  # on the axis u_r = 0
         self._free = np.flatnonzero(~clamped)
-        surface = np.flatnonzero(np.isclose(at[1], depth) & (np.arange(at.shape[1]) % 2 == 1))
+        surface = np.flatnonzero((at[1] > depth - tiny) & (np.arange(at.shape[1]) % 2 == 1))
         surface = surface[at[0, surface] <= reach * (1 + 1e-9)]
         self._surface = surface[np.argsort(at[0, surface])]
         self.places = at[0, self._surface]

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 
 RADIUS, ASIDE = 0.01, (3e-4, -2e-4)
 AWAY = (ASIDE[0] ** 2 + ASIDE[1] ** 2) / (2 * RADIUS)
@@ -34,11 +35,11 @@ def test_ball_beside_the_pivot_is_pressed_like_a_centred_one_that_is_further_awa
     centred = states(BALL, [-AWAY, 3 * AWAY, 2.5 * AWAY])
     assert [each.force > 0 for each in found] == [False, False] + 7 * [True]
     for one, other in zip(found, centred, strict=True):
-        assert one.force == pytest.approx(other.force, rel=1e-6)
+        assert one.force == close_to(other.force, rel=1e-6)
         assert np.abs(one.pressure - other.pressure).max() <= 1e-5 * other.peak_pressure
         if one.force > 0:
-            assert one.tilt_x == pytest.approx(-ASIDE[0] / RADIUS, rel=1e-4)
-            assert one.tilt_y == pytest.approx(-ASIDE[1] / RADIUS, rel=1e-4)
+            assert one.tilt_x == close_to(-ASIDE[0] / RADIUS, rel=1e-4)
+            assert one.tilt_y == close_to(-ASIDE[1] / RADIUS, rel=1e-4)
 
 
 def test_ball_rolls_off_until_it_is_balanced_on_the_pivot():

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscontact as vc
+from closeness import close_to
 from verification.creeping_bodies import BODIES
 from verification.indenting import deviation
 from verification.pressing import BALL, FORCE, RADIUS, grid_around, over_time
@@ -48,7 +49,7 @@ def test_recursion_and_sum_over_all_steps_agree_to_rounding(law, history, planne
         recursive, superposed = (
             memory.ramp(float(length)) if length else memory.jump() for memory in memories
         )
-        assert recursive.compliance == pytest.approx(superposed.compliance, rel=1e-12)
+        assert recursive.compliance == close_to(superposed.compliance, rel=1e-12)
         assert recursive.resolved == superposed.resolved
         fields = [response.of(np.array([value, 1.0])) for response in (recursive, superposed)]
         # Each step's part is rounded, and these may be as large as all that has crept.
@@ -126,4 +127,4 @@ def test_the_last_of_four_thousand_steps_does_what_the_first_did():
     # What still creeps under the mean is work, too.
     crept = body.creep(times[-1:]) - body.creep(times[-129:-128])
     mean = 100 * float(crept[0]) * alike.approach * 1e9
-    assert last.loss_per_cycle == pytest.approx(loss + mean, rel=2e-3)
+    assert last.loss_per_cycle == close_to(loss + mean, rel=2e-3)

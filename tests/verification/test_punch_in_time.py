@@ -13,6 +13,7 @@ import pytest
 from scipy.special import gamma
 
 import viscontact as vc
+from closeness import close_to
 from verification.creeping_bodies import BODIES, TIME, G
 from verification.indenting import deviation
 from verification.pressing import order, over_time
@@ -41,7 +42,7 @@ def elastic(**load):
 def softness():
     """Approach by force and compliance, 1/(2 a) on a fine mesh [1/m]."""
     found = elastic().approach * 1e9
-    assert found == pytest.approx(1 / (2 * 5e-3), rel=0.03)
+    assert found == close_to(1 / (2 * 5e-3), rel=0.03)
     return found
 
 
@@ -112,12 +113,12 @@ def test_steady_swing_is_the_complex_compliance(softness, name, period, control,
         harmonic_part(fine, over_time(last, of), frequency) for of in ("force", "approach")
     )
     if control == "force":
-        assert abs(force) == pytest.approx(SWING, rel=1e-6)
-    assert abs(approach / force) == pytest.approx(abs(compliance) * softness, rel=1e-3 / 4)
+        assert abs(force) == close_to(SWING, rel=1e-6)
+    assert abs(approach / force) == close_to(abs(compliance) * softness, rel=1e-3 / 4)
     lag = np.angle(force / approach)
-    assert lag == pytest.approx(steady.phase_lag, abs=1e-3 / 4)
+    assert lag == close_to(steady.phase_lag, abs=1e-3 / 4)
     loss = math.pi * abs(force) ** 2 * -compliance.imag * softness
-    assert states[-1].loss_per_cycle == pytest.approx(loss, rel=1e-3)
+    assert states[-1].loss_per_cycle == close_to(loss, rel=1e-3)
 
 
 @pytest.mark.slow
@@ -166,7 +167,7 @@ def test_swing_from_rest_with_its_transient(softness, steps):
         states = marched(body.material, vc.harmonic(MEAN, SWING, period, 2), times)
         errors.append(deviation(over_time(states, "approach"), exact))
     assert errors[0] < 1e-4
-    assert order(1 / np.array(steps), errors) == pytest.approx(2.0, abs=0.15)
+    assert order(1 / np.array(steps), errors) == close_to(2.0, abs=0.15)
 
 
 #: A series, a power of time and a table.
@@ -205,10 +206,10 @@ def test_staircase_of_forces_is_superposed(softness, name, instants):
         instants, STAIRS, LEVELS, 1 / (2 * softness), body.material.contact_compliance()
     )
     states = marched(body.material, staircase(), instants)
-    assert over_time(states, "approach") == pytest.approx(exact, rel=1e-8)
+    assert over_time(states, "approach") == close_to(exact, rel=1e-8)
     by_hand = reference.punch_staircase(instants, STAIRS, LEVELS, 1 / (2 * softness), body.creep)
     between = 1e-4 if name.startswith("tabulated") else 1e-6 if name.endswith("bulk") else 1e-9
-    assert exact == pytest.approx(by_hand, abs=between * by_hand.max())
+    assert exact == close_to(by_hand, abs=between * by_hand.max())
 
 
 def test_staircase_of_eccentric_forces_tilts_by_superposition():
@@ -221,7 +222,7 @@ def test_staircase_of_eccentric_forces_tilts_by_superposition():
     exact = reference.punch_staircase(instants, STAIRS, LEVELS, 0.5, body.creep) * 1e9
     for name in ("approach", "tilt_x", "tilt_y"):
         found = over_time(states, name)
-        assert found == pytest.approx(exact * getattr(unit, name), rel=1e-7)
+        assert found == close_to(exact * getattr(unit, name), rel=1e-7)
 
 
 @pytest.mark.slow
@@ -246,4 +247,4 @@ def test_stairs_of_approach_relax():
         exact = np.where(lags >= 0, relaxed, 0.0) @ jumps * stiffness
         errors.append(deviation(over_time(states, "force"), exact))
     assert errors[-1] < 5e-5
-    assert order(1 / steps, errors) == pytest.approx(2.0, abs=0.3)
+    assert order(1 / steps, errors) == close_to(2.0, abs=0.3)

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.reference import layer_sphere, slow_friction_coefficient
@@ -93,9 +94,9 @@ def test_the_strip_without_layers_is_that_of_hunter():
     found = rolling_strip(
         exact.half_width, RADIUS, lambda k: (1 + 9 / (1 - 1j * k)) / 2000, 1 / 2000
     )
-    assert found.force == pytest.approx(FORCE, rel=1e-5)
-    assert found.offset == pytest.approx(exact.offset, rel=1e-5)
-    assert found.friction_coefficient == pytest.approx(exact.friction_coefficient, rel=1e-5)
+    assert found.force == close_to(FORCE, rel=1e-5)
+    assert found.offset == close_to(exact.offset, rel=1e-5)
+    assert found.friction_coefficient == close_to(exact.friction_coefficient, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -118,13 +119,13 @@ def test_a_cylinder_rolls_on_a_layer_as_without_a_grid(name, speed, half_width):
         ("friction_coefficient", exact.friction_coefficient),
         ("peak_pressure", exact.peak_pressure),
     ):
-        assert float(ds[scalar]) == pytest.approx(value, rel=allowed), scalar
+        assert float(ds[scalar]) == close_to(value, rel=allowed), scalar
         assert abs(float(ds[scalar]) - value) < float(ds[f"{scalar}_error"]), scalar
-    assert float(ds.contact_width) == pytest.approx(2 * exact.half_width, rel=1e-3)
+    assert float(ds.contact_width) == close_to(2 * exact.half_width, rel=1e-3)
     if name == "elastic core":  # a line contact has no datum on a half-space
         assert np.isnan(ds.approach)
     else:
-        assert float(ds.approach) == pytest.approx(exact.approach, rel=allowed)
+        assert float(ds.approach) == close_to(exact.approach, rel=allowed)
 
 
 @pytest.mark.slow
@@ -213,8 +214,8 @@ def test_slow_and_fast_balls_press_an_elastic_layer():
             return layer_sphere(radius, RADIUS, THICKNESS, shear_modulus=shear, poisson_ratio=NU)
 
         radius = brentq(lambda radius: pressed(radius).force - FORCE, 0.1, 1.0)
-        assert float(ds.approach[index]) == pytest.approx(pressed(radius).approach, rel=2e-3)
-        assert float(ds.contact_area[index]) == pytest.approx(np.pi * radius**2, rel=1e-2)
+        assert float(ds.approach[index]) == close_to(pressed(radius).approach, rel=2e-3)
+        assert float(ds.contact_area[index]) == close_to(np.pi * radius**2, rel=1e-2)
     slow = slow_friction_coefficient(RADIUS, PHI1 / (PHI0 + PHI1) * TIME, 1e-4)
     # Its retardation length is a hundredth of a cell; the bar shows it.
     assert abs(ds.friction_coefficient[0] - slow) < ds.friction_coefficient_error[0]
@@ -228,9 +229,9 @@ def test_a_thick_layer_is_a_half_space():
         for body in (thick, RUBBER)
     )
     for name in ("friction_coefficient", "peak_pressure", "contact_area"):
-        assert float(here[name]) == pytest.approx(float(there[name]), rel=1e-5), name
+        assert float(here[name]) == close_to(float(there[name]), rel=1e-5), name
     # The base is 3000 contact radii away.
-    assert float(here.approach) == pytest.approx(float(there.approach), rel=1e-3)
+    assert float(here.approach) == close_to(float(there.approach), rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -247,7 +248,7 @@ def test_a_covered_cylinder_rolls_as_a_plain_one_on_the_covered_body(base):
     there = line(plate, 0.1, size=size, indenter_material=covered(base), rolling=True)
     here = line(covered(base), 0.1, size=size, indenter_material=plate)
     for name in ("friction_coefficient", "peak_pressure", "contact_width"):
-        assert float(there[name]) == pytest.approx(float(here[name]), rel=1e-6), name
+        assert float(there[name]) == close_to(float(here[name]), rel=1e-6), name
 
 
 def test_a_cover_that_slides_is_relaxed():
@@ -257,7 +258,7 @@ def test_a_cover_that_slides_is_relaxed():
         for material, rolling in ((RUBBER, False), (elastic, False))
     )
     for name in ("friction_coefficient", "peak_pressure"):
-        assert float(slides[name]) == pytest.approx(float(relaxed[name]), rel=1e-9), name
+        assert float(slides[name]) == close_to(float(relaxed[name]), rel=1e-9), name
     with pytest.raises(ValueError, match="rolling and sliding differ"):
         line(RUBBER, 0.1, indenter_material=covered("rigid"))
 
@@ -279,7 +280,7 @@ def test_a_fluid_layer_has_an_approach():
         ("friction_coefficient", exact.friction_coefficient),
         ("peak_pressure", exact.peak_pressure),
     ):
-        assert float(ds[name]) == pytest.approx(value, rel=2e-4), name
+        assert float(ds[name]) == close_to(value, rel=2e-4), name
     with pytest.raises(ValueError, match="resistance of a fluid grows"):
         line(vc.Layered([vc.Layer(THICKNESS, RUBBER)], base=fluid), 0.5)
 
@@ -307,12 +308,12 @@ def test_a_wave_in_full_contact_has_the_exact_resistance(base):
     grid = vc.Grid((64, 16), (1.0, 1.0), periodic=True)
     wave = vc.Waviness(height, wavelength_x=1.0)
     ds = vc.steady(wave, covered(base), vc.step(5.0), speed, along="x", grid=grid).isel(speed=0)
-    assert float(ds.contact_area) == pytest.approx(1.0)
+    assert float(ds.contact_area) == close_to(1.0)
     exact = (k * height) ** 2 / 4 * (1 / complex(compliance)).imag
-    assert float(ds.resistance_x) == pytest.approx(abs(exact), rel=1e-3)
+    assert float(ds.resistance_x) == close_to(abs(exact), rel=1e-3)
     if base == "rigid":  # compressed by the relaxed uniaxial compliance
         pressed = 5.0 * THICKNESS * (1 - 2 * NU) / (1 - NU) * (PHI0 + PHI1)
-        assert float(ds.approach) == pytest.approx(height + pressed, rel=1e-6)
+        assert float(ds.approach) == close_to(height + pressed, rel=1e-6)
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import web.served_page as seen
+from closeness import close_to
 
 pytest.importorskip("playwright")
 pytestmark = [
@@ -89,6 +90,6 @@ def test_answer_shows_the_motion(page: Any) -> None:
     map_of = "document.getElementById('map')"
     cross, arrow = page.evaluate(f"[{map_of}.data.at(-1), {map_of}.layout.annotations[0]]")
     edges = page.evaluate("document.getElementById('section-y').data.at(-1).x")
-    assert (abs(arrow["yshift"]), arrow["xshift"]) == (pytest.approx(34), 0)
+    assert (abs(arrow["yshift"]), arrow["xshift"]) == (close_to(34), 0)
     assert (edges[0] - cross["y"][0]) * arrow["yshift"] > 0
     assert (edges[1] - cross["y"][0]) * arrow["yshift"] < 0

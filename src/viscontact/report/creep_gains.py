@@ -54,8 +54,8 @@ def _rows(
 ) -> Iterator[tuple[str, ...]]:
     """Rows of a goal at the first instant, at the end of the case, and at those of `INSTANTS`."""
     times = next(iter(runs.values()))["time"].values
-    chosen = {label: time for label, time in INSTANTS.items() if np.isclose(times, time).any()}
-    if not np.isclose(list(chosen.values()), end).any():
+    chosen = {label: at for label, at in INSTANTS.items() if np.isclose(times, at, atol=0).any()}
+    if not np.isclose(list(chosen.values()), end, atol=0).any():
         chosen[f"{format_quantity(end, 's', 3)} (end of the case)"] = end
     chosen[format_quantity(float(times[0]), "s", 3)] = float(times[0])
     for label, time in sorted(chosen.items(), key=itemgetter(1)):

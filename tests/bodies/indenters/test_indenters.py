@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
+from closeness import close_to
 from viscontact.indenters import (
     CombinedIndenter,
     Cone,
@@ -118,9 +119,9 @@ def test_sphere_departs_from_the_paraboloid_by_the_fourth_order_term():
     departure = Sphere(R).gap(r, 0.0) - Paraboloid(R, R).gap(r, 0.0)
     rest = departure - r**4 / (8 * R**3)
     # The next term adds (r/R)² / 2 at most to a ratio, 0.08 at the coarsest.
-    assert slopes(departure) == pytest.approx([4, 4, 4], abs=0.12)
-    assert slopes(rest) == pytest.approx([6, 6, 6], abs=0.2)
-    assert rest[-1] == pytest.approx(r[-1] ** 6 / (16 * R**5), rel=5e-3)
+    assert slopes(departure) == close_to([4, 4, 4], abs=0.12)
+    assert slopes(rest) == close_to([6, 6, 6], abs=0.2)
+    assert rest[-1] == close_to(r[-1] ** 6 / (16 * R**5), rel=5e-3)
 
 
 def test_sphere_ends_at_its_radius():
@@ -135,7 +136,7 @@ def test_paraboloid_has_its_radii_along_its_own_axes():
 
 def test_sharper_cone_has_the_larger_gap():
     # 30 degrees from axis to flank: tan = 1/sqrt(3); two roundings.
-    assert float(Cone(math.radians(30)).gap(0.6, 0.8)) == pytest.approx(math.sqrt(3), rel=1e-15)
+    assert float(Cone(math.radians(30)).gap(0.6, 0.8)) == close_to(math.sqrt(3), rel=1e-15)
     assert float(Cone(0.3).gap(1.0, 0.0)) > float(Cone(1.3).gap(1.0, 0.0))
 
 
@@ -156,7 +157,7 @@ def test_roller_follows_eq_13(x, y):
 @pytest.mark.parametrize("y", [1e-11, 1e-7, 1e-5])
 def test_roller_does_not_cancel_near_its_generating_line(y):
     # As printed, R - sqrt(R² - y²) is 0 here at y = 1e-11: all digits lost.
-    assert float(CROWNED.gap(0.0, y)) == pytest.approx(
+    assert float(CROWNED.gap(0.0, y)) == close_to(
         float(eq_13_in_120_digits(CROWNED, 0, y)), rel=4 * EPS
     )
     if y == 1e-11:
@@ -167,8 +168,8 @@ def test_roller_does_not_cancel_near_its_generating_line(y):
 def test_roller_is_a_parabola_across_to_second_order():
     R, y = 5e-3, 1e-3 / 2.0 ** np.arange(5)
     error = Roller(R, half_length=1.0).gap(0.0, y) / (y**2 / (2 * R)) - 1
-    assert slopes(error) == pytest.approx([2] * 4, abs=0.03)  # (y/R)²/2 = 0.02 at the coarsest
-    assert error[-1] == pytest.approx(y[-1] ** 2 / (4 * R**2), rel=1e-3)
+    assert slopes(error) == close_to([2] * 4, abs=0.03)  # (y/R)²/2 = 0.02 at the coarsest
+    assert error[-1] == close_to(y[-1] ** 2 / (4 * R**2), rel=1e-3)
 
 
 @pytest.mark.parametrize("y", [0.0, 2e-3])
@@ -180,8 +181,8 @@ def test_crown_continues_the_straight_part_without_step_or_kink(y):
     slope = rise / s
     # To the leading order; the next is (s/R_c)² and s²/(R R_c), 3e-3 at the coarsest.
     leading = s**2 / (2 * R_c) * R / math.sqrt(R**2 - y**2)
-    assert rise == pytest.approx(leading, rel=5e-3)
-    assert slopes(slope) == pytest.approx([1] * 4, abs=0.01)  # the slope itself dies out
+    assert rise == close_to(leading, rel=5e-3)
+    assert slopes(slope) == close_to([1] * 4, abs=0.01)  # the slope itself dies out
 
 
 def test_roller_is_straight_within_its_half_length():
@@ -200,7 +201,7 @@ def test_roller_ends_where_its_section_or_its_crown_ends():
     assert float(roller.gap(0.0, 5.001)) == math.inf
     # R(x) = 0 where the crown has dropped by R: s² = 13² - 8², which ends the section.
     end = 1.0 + math.sqrt(13.0**2 - 8.0**2)
-    assert float(roller.gap(end - 1e-6, 0.0)) == pytest.approx(5.0, abs=1e-5)
+    assert float(roller.gap(end - 1e-6, 0.0)) == close_to(5.0, abs=1e-5)
     assert float(roller.gap(end + 1e-6, 0.0)) == math.inf
     # A crown tighter than the roller is thick ends first.
     short = Roller(radius=5.0, half_length=1.0, crown_radius=2.0)
@@ -233,7 +234,7 @@ def test_height_map_is_bilinear_as_in_scipy():
     y = random.uniform(surface.y[0], surface.y[-1], 400)
     scipys = RegularGridInterpolator((surface.x, surface.y), surface.height)((x, y))
     # Heights of order one: some roundings.
-    assert surface.gap(x, y) == pytest.approx(surface.height.max() - scipys, abs=1e-14)
+    assert surface.gap(x, y) == close_to(surface.height.max() - scipys, abs=1e-14)
 
 
 def test_height_map_returns_its_own_points_and_touches_at_the_highest():
@@ -264,9 +265,9 @@ def test_height_map_of_a_paraboloid_errs_by_an_eighth_of_step_squared_times_curv
             middle[:, None], middle
         )
         step = 2 / cells
-        assert error == pytest.approx(step**2 / 8 * (1 / R_x + 1 / R_y), rel=1e-10)
+        assert error == close_to(step**2 / 8 * (1 / R_x + 1 / R_y), rel=1e-10)
         errors.append(error.max())
-    assert slopes(np.array(errors)) == pytest.approx([2, 2], abs=1e-9)
+    assert slopes(np.array(errors)) == close_to([2, 2], abs=1e-9)
 
 
 def test_height_map_keeps_its_own_read_only_copy():
@@ -307,7 +308,7 @@ def test_curvatures_of_a_sum_add_axis_by_axis():
     # along x: 1 + 1/4; along y: 1/2 + 1
     assert crossed.curvatures == (1.25, 1.5)
     assert crossed.radius_of_curvature == 1 / 1.5
-    assert (Sphere(3.0) + Roller(6.0, 1.0)).radius_of_curvature == pytest.approx(2.0, rel=EPS)
+    assert (Sphere(3.0) + Roller(6.0, 1.0)).radius_of_curvature == close_to(2.0, rel=EPS)
 
 
 def test_radius_of_curvature_is_infinite_where_it_means_nothing():

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from verification.pressing import ELASTIC, MODULUS, grid_around, press
 from viscontact import reference
 from viscontact.indenters import PlacedIndenter
@@ -62,13 +63,13 @@ def test_points_of_an_ellipsoid_fulfil_its_equation() -> None:
     inside = np.isfinite(gap)
     assert np.array_equal(inside, (x / a) ** 2 + (y / b) ** 2 <= 1)
     x, y, z = x[inside], y[inside], gap[inside]
-    assert (x / a) ** 2 + (y / b) ** 2 + ((z - c) / c) ** 2 == pytest.approx(1, abs=1e-14)
+    assert (x / a) ** 2 + (y / b) ** 2 + ((z - c) / c) ** 2 == close_to(1, abs=1e-14)
 
 
 def test_equal_axes_make_an_ellipsoid_a_sphere() -> None:
     x, y = np.array([0.0, 1e-9, 0.3, 0.9]), np.array([0.0, 2e-9, 0.1, 0.2])
     ball, egg = vc.Sphere(1.0), vc.Ellipsoid(1.0, 1.0, 1.0)
-    assert egg.gap(x, y) == pytest.approx(ball.gap(x, y), rel=1e-14, abs=0)
+    assert egg.gap(x, y) == close_to(ball.gap(x, y), rel=1e-14, abs=0)
     assert egg.curvatures == ball.curvatures
 
 
@@ -78,9 +79,9 @@ def test_small_contact_of_an_ellipsoid_is_hertzs() -> None:
     hertz = reference.hertz_elliptical(0.1, 0.04, 0.01, MODULUS)
     axes = (hertz.semi_axis_x, hertz.semi_axis_y)
     state = press(egg, grid_around(axes, (20, 20)), force=0.1)
-    assert state.approach == pytest.approx(hertz.approach, rel=2e-4)
-    assert state.peak_pressure == pytest.approx(hertz.peak_pressure, rel=5e-4)
-    assert state.contact_area == pytest.approx(math.pi * axes[0] * axes[1], rel=2e-3)
+    assert state.approach == close_to(hertz.approach, rel=2e-4)
+    assert state.peak_pressure == close_to(hertz.peak_pressure, rel=5e-4)
+    assert state.contact_area == close_to(math.pi * axes[0] * axes[1], rel=2e-3)
 
 
 # -- wedge and pyramids ------------------------------------------------------------------------
@@ -102,17 +103,17 @@ def test_section_of_a_pyramid_has_the_testers_area(pyramid: vc.Pyramid, area: fl
     """Counted on the points of a fine mesh: to its rim's share, 2e-3 of them."""
     line = np.linspace(-9, 9, 2001)
     count = np.count_nonzero(pyramid.gap(line[:, None], line) <= 1.0)
-    assert count * (line[1] - line[0]) ** 2 == pytest.approx(area, rel=4e-3)
+    assert count * (line[1] - line[0]) ** 2 == close_to(area, rel=4e-3)
 
 
 def test_pyramid_looks_along_x_with_a_face_and_has_its_angle_there() -> None:
     pyramid = vc.Pyramid(math.radians(68), faces=4)
-    assert float(pyramid.gap(1.0, 0.0)) == pytest.approx(1 / math.tan(math.radians(68)))
+    assert float(pyramid.gap(1.0, 0.0)) == close_to(1 / math.tan(math.radians(68)))
     edge = pyramid.gap(1.0, 1.0)
-    assert float(edge) == pytest.approx(float(pyramid.gap(1.0, 0.0)))
+    assert float(edge) == close_to(float(pyramid.gap(1.0, 0.0)))
     # 148.11° between opposite edges of a Vickers pyramid, of its drawing in ISO 6507.
     across = 2 * math.degrees(math.atan(math.sqrt(2) / float(edge)))
-    assert across == pytest.approx(148.11, abs=0.005)
+    assert across == close_to(148.11, abs=0.005)
 
 
 @pytest.mark.filterwarnings("ignore:the largest pressure lies at a tip:viscontact.AccuracyWarning")
@@ -129,7 +130,7 @@ def test_force_on_a_pyramid_lies_between_those_of_the_cones_within_and_around_it
         forces.append(state.force / scale**2)
     inner = 2 / math.pi * MODULUS * math.tan(math.radians(80)) * 1e-6**2
     assert inner < forces[0] < inner / math.cos(math.pi / 4)
-    assert forces[0] == pytest.approx(forces[1], rel=1e-6)
+    assert forces[0] == close_to(forces[1], rel=1e-6)
 
 
 @pytest.mark.filterwarnings("ignore:the contact reaches the end:viscontact.AccuracyWarning")
@@ -150,7 +151,7 @@ def test_middle_of_a_long_wedge_is_in_plane_strain() -> None:
     # In the middle p is infinite, at the rim a cell is in contact in part.
     within = (np.abs(grid.y) > 0.15 * a) & (np.abs(grid.y) < 0.97 * a)
     exact = MODULUS * slope / math.pi * np.arccosh(a / np.abs(grid.y[within]))
-    assert middle[within] == pytest.approx(exact, abs=4e-3 * exact.max())
+    assert middle[within] == close_to(exact, abs=4e-3 * exact.max())
     assert not middle[np.abs(grid.y) > a + grid.cell_size[1]].any()
 
 
@@ -165,7 +166,7 @@ def test_points_of_a_torus_are_at_its_tubes_radius_from_the_ring() -> None:
     inside = np.isfinite(gap)
     distance = np.hypot(np.hypot(x, y)[inside] - ring, tube - gap[inside])
     assert inside.sum() > 200
-    assert distance == pytest.approx(tube, rel=1e-14)
+    assert distance == close_to(tube, rel=1e-14)
 
 
 def test_ring_bears_like_a_hertzian_line_bent_to_a_circle() -> None:
@@ -178,9 +179,9 @@ def test_ring_bears_like_a_hertzian_line_bent_to_a_circle() -> None:
     line = reference.hertz_line(line_load, tube, MODULUS)
     grid = vc.Grid((176, 176), (2.3 * ring, 2.3 * ring))
     state = press(vc.Torus(ring, tube), grid, force=2 * math.pi * ring * line_load)
-    assert line.half_width == pytest.approx(half_width)
-    assert state.peak_pressure == pytest.approx(line.peak_pressure, rel=5e-3)
-    assert state.contact_area == pytest.approx(2 * math.pi * ring * 2 * half_width, rel=5e-3)
+    assert line.half_width == close_to(half_width)
+    assert state.peak_pressure == close_to(line.peak_pressure, rel=5e-3)
+    assert state.contact_area == close_to(2 * math.pi * ring * 2 * half_width, rel=5e-3)
 
 
 # -- textures ----------------------------------------------------------------------------------
@@ -196,9 +197,9 @@ def test_wave_is_a_cosine_to_its_digits() -> None:
                 * mpmath.cos(2 * mpmath.pi * mpmath.mpf(y) / 3 + mpmath.mpf(0.25))
             )
             # Angles of some hundreds lose as much of the last digit.
-            assert float(wave.gap(x, y)) == pytest.approx(float(exact), rel=1e-7, abs=1e-12)
+            assert float(wave.gap(x, y)) == close_to(float(exact), rel=1e-7, abs=1e-12)
     flat = vc.Waviness(1.0, wavelength_x=1.0).gap(1e-9, 5.0)
-    assert float(flat) == pytest.approx(2 * (math.pi * 1e-9) ** 2, rel=1e-12, abs=0)
+    assert float(flat) == close_to(2 * (math.pi * 1e-9) ** 2, rel=1e-12, abs=0)
 
 
 def test_crest_of_a_wave_is_no_measure_of_a_contact_that_spans_many() -> None:
@@ -216,21 +217,21 @@ def test_waves_repeat_along_the_axes_that_they_cross() -> None:
     assert waves.rotated(math.pi / 2).shifted(x=0.1).periods == (math.inf, 1e-3)
     # Crests at 60 degrees to y: 1/cos and 1/sin of the angle apart along the axes.
     turned = waves.rotated(math.pi / 3)
-    assert turned.periods == pytest.approx((2e-3, 2e-3 / math.sqrt(3)), rel=1e-12)
+    assert turned.periods == close_to((2e-3, 2e-3 / math.sqrt(3)), rel=1e-12)
     x, y = np.random.default_rng(1).uniform(-0.1, 0.1, (2, 9))
     texture = vc.Waviness(0.1, wavelength_x=1e-3).rotated(math.pi / 3)
     for shift in ((turned.periods[0], 0.0), (0.0, turned.periods[1])):
         there = texture.gap(x + shift[0], y + shift[1])
-        assert there == pytest.approx(texture.gap(x, y), abs=1e-11)
+        assert there == close_to(texture.gap(x, y), abs=1e-11)
     crossed = vc.Waviness(0.1, wavelength_x=1e-3, wavelength_y=2e-3)
     assert (crossed + waves).periods == (1e-3, 2e-3)
-    assert vc.Dimples(1.0, 2.0, 5.0).rotated(0.4).periods == pytest.approx((4.0, 4.0), rel=1e-12)
+    assert vc.Dimples(1.0, 2.0, 5.0).rotated(0.4).periods == close_to((4.0, 4.0), rel=1e-12)
     assert vc.Sphere(1.0).rotated(0.3).periods == (math.inf, math.inf)
 
 
 def test_wave_adds_to_a_sphere_without_a_shift() -> None:
     rough = vc.Sphere(1.0) + vc.Waviness(0.01, wavelength_x=0.2)
-    assert rough.gap([0.0, 0.1, 0.6], 0.0) == pytest.approx(
+    assert rough.gap([0.0, 0.1, 0.6], 0.0) == close_to(
         [0.0, 1 - math.sqrt(0.99) + 0.02, 0.2], rel=1e-12
     )
 
@@ -244,7 +245,7 @@ def test_dimple_is_the_cap_of_a_sphere() -> None:
     assert gap[0] == depth
     assert gap[-1] == 0.0
     # The sphere's middle stands above the plane by its radius less the depth.
-    assert np.hypot(r, gap + sphere - depth) == pytest.approx(sphere, rel=1e-14)
+    assert np.hypot(r, gap + sphere - depth) == close_to(sphere, rel=1e-14)
     assert vc.Dimples(3.0, 3.0, 6.0).gap([0.0, 3.0], 0.0).tolist() == [3.0, 0.0]
 
 
@@ -253,12 +254,12 @@ def test_dimple_has_its_neighbours_at_the_spacing(pattern: str, neighbours: int)
     texture = vc.Dimples(0.1, 0.2, 1.0, pattern)
     around = 2 * math.pi * np.arange(neighbours) / neighbours
     middles = texture.gap(np.cos(around), np.sin(around))
-    assert middles == pytest.approx(0.1, rel=1e-12)
+    assert middles == close_to(0.1, rel=1e-12)
     line = np.linspace(-5, 5, 1001)[:-1]
     period = 1.0 if pattern == "square" else math.sqrt(3)
     area = np.mean(texture.gap(line[:, None], line * period) > 0)
     per_dimple = 1.0 if pattern == "square" else math.sqrt(3) / 2
-    assert area == pytest.approx(math.pi * 0.2**2 / per_dimple, rel=0.01)
+    assert area == close_to(math.pi * 0.2**2 / per_dimple, rel=0.01)
 
 
 # -- drawn by points ---------------------------------------------------------------------------
@@ -269,7 +270,7 @@ def test_revolved_line_is_seen_at_every_angle() -> None:
     angle = np.linspace(0, 2 * math.pi, 9)
     for r, drop in ((1.0, 0.25), (2 - 1e-9, 1.0)):
         gap = body.gap(r * np.cos(angle), r * np.sin(angle))
-        assert gap == pytest.approx(drop, abs=1e-8)
+        assert gap == close_to(drop, abs=1e-8)
     assert float(body.gap(2.001, 0.0)) == math.inf
 
 
@@ -278,17 +279,17 @@ def test_revolved_parabola_is_smooth_on_the_axis_and_a_doubled_point_is_a_tip() 
     dome = vc.Revolved(r, r**2)
     fine = np.linspace(0, 1, 101)
     # A monotone cubic through 20 intervals; on the axis it begins flat, as the parabola does.
-    assert dome.gap(fine, 0.0) == pytest.approx(fine**2, abs=6e-4)
+    assert dome.gap(fine, 0.0) == close_to(fine**2, abs=6e-4)
     # Of its own a cubic would begin with a slope of 1/2 here.
     assert float(vc.Revolved([0, 1, 2], [0, 1, 3]).gap(1e-4, 0.0)) < 1e-6
     tip = vc.Revolved([0, *r], [0, *r])
-    assert tip.gap(fine, 0.0) == pytest.approx(fine, abs=1e-14)
+    assert tip.gap(fine, 0.0) == close_to(fine, abs=1e-14)
 
 
 def test_hollow_body_has_no_gap_on_its_axis() -> None:
     tube = vc.Revolved([1.0, 1.5, 2.0], [0.1, 0.0, 0.1])
     assert tube.gap([0.0, 0.99, 1.0, 1.5, 2.01], 0.0).tolist() == [math.inf] * 2 + [
-        *(pytest.approx(0.1), 0.0, math.inf)
+        *(close_to(0.1), 0.0, math.inf)
     ]
 
 
@@ -307,14 +308,14 @@ def test_body_turned_by_30_degrees_has_its_long_axis_there() -> None:
     turned = egg.rotated(angle)
     s = np.linspace(-2.9, 2.9, 7)
     along, across = egg.gap(s, 0.0), egg.gap(0.0, s / 3)
-    assert turned.gap(s * math.cos(angle), s * math.sin(angle)) == pytest.approx(along, rel=1e-12)
-    assert turned.gap(-s / 3 * math.sin(angle), s / 3 * math.cos(angle)) == pytest.approx(
+    assert turned.gap(s * math.cos(angle), s * math.sin(angle)) == close_to(along, rel=1e-12)
+    assert turned.gap(-s / 3 * math.sin(angle), s / 3 * math.cos(angle)) == close_to(
         across, rel=1e-12
     )
     for body in (egg, turned, vc.Ellipsoid(3.0, 2.0, 1.0)):
         h = 1e-4
         measured = [2 * float(body.gap(*at)) / h**2 for at in ((h, 0.0), (0.0, h))]
-        assert body.curvatures == pytest.approx(measured, rel=1e-6)
+        assert body.curvatures == close_to(measured, rel=1e-6)
 
 
 def test_quarter_turns_are_exact() -> None:
@@ -328,7 +329,7 @@ def test_quarter_turns_are_exact() -> None:
 def test_body_is_turned_about_its_own_origin_and_then_moved() -> None:
     body = vc.Ellipsoid(3.0, 1.0, 1.0)
     moved = body.rotated(math.pi / 2).shifted(5.0, 1.0)
-    assert moved.gap([5.0, 5.0], [1.0, 3.0]) == pytest.approx(body.gap([0.0, 2.0], 0.0))
+    assert moved.gap([5.0, 5.0], [1.0, 3.0]) == close_to(body.gap([0.0, 2.0], 0.0))
     turned = moved.body
     assert isinstance(turned, PlacedIndenter)
     x, y = moved.place(*turned.place([2.0, 0.0], [0.0, 0.5]))
@@ -340,7 +341,7 @@ def test_turned_roller_presses_as_the_roller_does() -> None:
     grid = vc.Grid((41, 31), (6e-3, 1e-3))
     straight = press(roller, grid, force=50.0)
     turned = press(roller.rotated(math.pi / 2), vc.Grid((31, 41), (1e-3, 6e-3)), force=50.0)
-    assert turned.pressure == pytest.approx(straight.pressure.T, rel=1e-4, abs=1e-4 * 1e8)
+    assert turned.pressure == close_to(straight.pressure.T, rel=1e-4, abs=1e-4 * 1e8)
 
 
 # -- refusals ----------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.special import gamma
 
+from closeness import close_to
 from viscontact.bodies.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws import (
     BesideSpring,
@@ -64,7 +65,7 @@ def test_pair_creeps_in_closed_form_within_its_estimate(pair, spring):
     law, closed = pair(spring)
     beside = BesideSpring(law, spring)
     # 1e-5 is what the body may have crept and still be taken as elastic
-    assert beside(T) == pytest.approx(closed(T), rel=beside.inversion_error + 1e-5)
+    assert beside(T) == close_to(closed(T), rel=beside.inversion_error + 1e-5)
     assert beside.inversion_error < 1e-4
 
 
@@ -84,8 +85,8 @@ def test_means_are_integrals_over_their_length(law):
         edges = np.append(0.0, np.geomspace(end * 1e-12, end, 400))
         t = edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2
         expected = (beside(t) @ weights) @ np.diff(edges) / 2 / end
-        assert beside.mean_creep(0.0, end) == pytest.approx(expected, rel=1e-6)
-        assert beside.mean_creep(end, end) == pytest.approx(beside(end), rel=1e-12)
+        assert beside.mean_creep(0.0, end) == close_to(expected, rel=1e-6)
+        assert beside.mean_creep(end, end) == close_to(beside(end), rel=1e-12)
 
 
 def test_two_parallel_springs_are_a_spring():
@@ -94,9 +95,9 @@ def test_two_parallel_springs_are_a_spring():
 
 
 def test_pair_ends_on_the_spring_or_on_both():
-    assert BesideSpring(Maxwell(2.0, 6.0), 3.0)(np.inf) == pytest.approx(1 / 6, rel=1e-9)
+    assert BesideSpring(Maxwell(2.0, 6.0), 3.0)(np.inf) == close_to(1 / 6, rel=1e-9)
     solid = BesideSpring(FractionalZener(5.0, 1.0, 3.0, 0.4), 3.0)
-    assert solid(np.inf) == pytest.approx(1 / 8)
+    assert solid(np.inf) == close_to(1 / 8)
 
 
 @pytest.mark.parametrize(
@@ -109,7 +110,7 @@ def test_measured_law_with_a_parallel_spring_is_the_table_of_the_sum(kind):
     beside = BesideSpring(kind(times, values), spring)
     t = np.logspace(-3, 5, 60)
     closed = FractionalZener(7.0, 3.0, 3.0, 0.5)
-    assert beside(t) == pytest.approx(closed(t), rel=2e-4)
+    assert beside(t) == close_to(closed(t), rel=2e-4)
     assert beside.measured_until == 1e7
     assert 0 < beside.inversion_error < 1e-3
 

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from closeness import close_to
 from saturating_force import SaturatingForce
 from viscontact.bodies.loads import harmonic
 from viscontact.bodies.loads.largest_load import largest_load
@@ -48,7 +49,7 @@ def test_force_is_zero_before_the_first_point():
 def test_a_repeated_time_has_a_value_on_either_side():
     assert CYCLE.force_at([3.0], side="left").tolist() == [10]
     assert CYCLE.force_at([3.0], side="right").tolist() == [4]
-    assert CYCLE.force_at([2.9, 3.1]) == pytest.approx([10, 3.8], rel=4 * EPS)
+    assert CYCLE.force_at([2.9, 3.1]) == close_to([10, 3.8], rel=4 * EPS)
 
 
 @given(history=histories(), time=st.floats(0, 40))
@@ -61,9 +62,7 @@ def test_force_stays_between_its_neighbours_and_agrees_with_numpy_away_from_jump
     elif time >= history.times[0] and time not in history.times:
         # NumPy interpolates by another formula; what is negligible counts as zero here.
         slack = 4 * EPS * history.largest_force + 1e-12 * history.largest_force
-        assert (
-            right == left == pytest.approx(np.interp(time, history.times, history.force), abs=slack)
-        )
+        assert right == left == close_to(np.interp(time, history.times, history.force), abs=slack)
 
 
 @given(history=histories())
@@ -311,7 +310,7 @@ def test_an_approach_is_prescribed_and_the_force_left_open():
     stage = ApproachHistory([0, 1, 1, 3], [0, 2e-6, -1e-6, 3e-6], tilt_y=None)
     assert stage.at(0.5) == LoadPoint(None, 0.0, 0.0, 0.0, None, approach=1e-6)
     assert stage.approach_at([1.0], side="left").tolist() == [2e-6]
-    assert stage.approach_at([1.0, 2.0, 9.0]) == pytest.approx([-1e-6, 1e-6, 3e-6])
+    assert stage.approach_at([1.0, 2.0, 9.0]) == close_to([-1e-6, 1e-6, 3e-6])
     assert stage.largest_level == 3e-6
     assert (stage.kinks.tolist(), stage.jumps.tolist()) == ([0, 1, 3], [1])
 
@@ -353,7 +352,7 @@ def test_usual_histories_prescribe_an_approach_as_well():
     assert ramp(duration=2.0, approach=1e-6, tilt_x=1e-3).at(1.0) == LoadPoint(
         None, 0.0, 0.0, 1e-3, None, approach=5e-7
     )
-    assert triangle(approach=1e-6, rise=1.0).approach_at([0.5, 1.5, 4.0]) == pytest.approx(
+    assert triangle(approach=1e-6, rise=1.0).approach_at([0.5, 1.5, 4.0]) == close_to(
         [5e-7, 5e-7, 0.0]
     )
 
@@ -364,7 +363,7 @@ def test_a_stage_that_follows_a_force_history_has_its_values(history, time):
     for side in ("left", "right"):
         reached = float(stage.approach_at(time, side=side))
         slack = 1e-12 * history.largest_force
-        assert reached == pytest.approx(float(history.force_at(time, side=side)), abs=slack)
+        assert reached == close_to(float(history.force_at(time, side=side)), abs=slack)
 
 
 # -- harmonic loads --------------------------------------------------------------------------
@@ -379,7 +378,7 @@ def test_a_stage_that_follows_a_force_history_has_its_values(history, time):
 def test_harmonic_force_is_the_sine_it_says(time, phase, mean, amplitude):
     swing = harmonic(mean, amplitude, 2.0, 3, phase)
     exact = mean + amplitude * math.sin(math.pi * time + phase)
-    assert float(swing.level_at(time)) == pytest.approx(exact, abs=1e-12)
+    assert float(swing.level_at(time)) == close_to(exact, abs=1e-12)
     assert swing.at(time).force == float(swing.level_at(time))
 
 
@@ -399,7 +398,7 @@ def test_lines_over_the_longest_step_of_a_harmonic_load_miss_it_by_the_chord_of_
     line = np.interp(fine, steps, swing.level_at(steps))
     missed = np.abs(line - swing.level_at(fine)).max()
     # A chord over an angle h is off by 1 - cos(h/2) at the crest; those beside it by 1.2e-3 less.
-    assert missed == pytest.approx(5 * (1 - math.cos(math.pi / 128)), rel=2e-3)
+    assert missed == close_to(5 * (1 - math.cos(math.pi / 128)), rel=2e-3)
 
 
 def test_harmonic_force_that_is_rounding_is_no_load():
@@ -436,7 +435,7 @@ def test_bad_harmonic_loads_are_refused(arguments, message):
 def test_a_load_without_eccentricity_and_tilt_is_central_and_free_to_tilt():
     load = SaturatingForce(10.0, 2.0)
     level = 10 * (1 - math.exp(-1.5))
-    assert load.at(3.0) == LoadPoint(pytest.approx(level, rel=4 * EPS), 0.0, 0.0, None, None)
+    assert load.at(3.0) == LoadPoint(close_to(level, rel=4 * EPS), 0.0, 0.0, None, None)
     assert load.is_even(0)
     assert load.is_even(1)
 
@@ -450,8 +449,8 @@ def test_a_curved_load_is_largest_at_its_crest():
             return self.largest_level * np.sin(np.pi * reached / self.kinks[-1]) ** 2
 
     time, point = largest_load(Bump(10.0, 2.0), end=24.0)
-    assert time == pytest.approx(12.0)
-    assert point.force == pytest.approx(10.0)
+    assert time == close_to(12.0)
+    assert point.force == close_to(10.0)
 
 
 # -- cycles ----------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscontact as vc
+from closeness import close_to
 from random_examples import given_few_or_many
 from viscontact.bodies.materials.cards import (
     Card,
@@ -75,9 +76,9 @@ def test_shear_terms_alone_leave_the_bulk_modulus_elastic(text: str, tmp_path: P
     # By hand: E = 3000 and nu = 0.25 are G = 1200 and K = 2000 MPa; G_inf = 0.5 G.
     material = read(tmp_path, text).material
     assert material.poisson_ratio is None
-    assert material.bulk_modulus == pytest.approx(2e9, rel=1e-15)
+    assert material.bulk_modulus == close_to(2e9, rel=1e-15)
     law = material.law
-    assert law.equilibrium == pytest.approx(0.6e9, rel=1e-15)
+    assert law.equilibrium == close_to(0.6e9, rel=1e-15)
     np.testing.assert_allclose(law.moduli, [0.36e9, 0.24e9], rtol=1e-15)
     assert law.times == (10.0, 100.0)
 
@@ -96,9 +97,9 @@ def test_abaqus_constants_are_of_the_long_term_unless_they_say_instantaneous(
     for line in ("*elastic", "*ELASTIC, MODULI = long term", "*Elastic,\nmoduli=LONG"):
         text = ABAQUS.replace("*elastic, moduli=INSTANTANEOUS", line)
         material = read(tmp_path, text).material
-        assert material.law.relaxation(np.inf) == pytest.approx(1.2e9, rel=1e-15)
-        assert material.law.relaxation(0.0) == pytest.approx(2.4e9, rel=1e-15)
-        assert material.bulk_modulus == pytest.approx(2e9, rel=1e-15)
+        assert material.law.relaxation(np.inf) == close_to(1.2e9, rel=1e-15)
+        assert material.law.relaxation(0.0) == close_to(2.4e9, rel=1e-15)
+        assert material.bulk_modulus == close_to(2e9, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -113,13 +114,13 @@ def test_bulk_terms_like_those_in_shear_are_a_constant_poissons_ratio(
 ) -> None:
     material = read(tmp_path, text).material
     assert (material.poisson_ratio, material.bulk_modulus) == (0.25, None)
-    assert material.law.relaxation(0.0) == pytest.approx(1.2e9, rel=1e-15)
+    assert material.law.relaxation(0.0) == close_to(1.2e9, rel=1e-15)
 
 
 @pytest.mark.parametrize("text", [ABAQUS, ANSYS])
 def test_units_are_those_that_are_said(text: str, tmp_path: Path) -> None:
     law = read(tmp_path, text, modulus_unit="GPa", time_unit="ms").material.law
-    assert law.relaxation(0.0) == pytest.approx(1.2e12, rel=1e-15)
+    assert law.relaxation(0.0) == close_to(1.2e12, rel=1e-15)
     np.testing.assert_allclose(law.times, [0.01, 0.1], rtol=1e-15)
 
 
@@ -156,7 +157,7 @@ def test_wlf_shift_is_in_the_temperatures_that_are_said(tmp_path: Path) -> None:
                  ANSYS + "TB,SHIFT,1,1,3,WLF\nTBDATA,1,25,17.44,51.6\n"):  # fmt: skip
         assert read(tmp_path, text, temperature_unit="degC").shift == vc.WLF(298.15, 17.44, 51.6)
         fahrenheit = read(tmp_path, text, temperature_unit="degF").shift
-        assert fahrenheit.c2 == pytest.approx(51.6 * 5 / 9, rel=1e-15)
+        assert fahrenheit.c2 == close_to(51.6 * 5 / 9, rel=1e-15)
         assert "give temperature_unit, e.g. 'degC'" in problem(tmp_path, text)
 
 
@@ -165,7 +166,7 @@ def test_tool_narayanaswamy_is_arrhenius_in_absolute_temperatures(tmp_path: Path
     shift = read(tmp_path, text, temperature_unit="K").shift
     # ln A = (H/R)(1/Tr - 1/T) and A = 1/a_T, Material Reference.
     expected = np.exp(1e4 * (1 / 320 - 1 / 300))
-    assert float(shift.factor(320.0)) == pytest.approx(expected, rel=1e-13)
+    assert float(shift.factor(320.0)) == close_to(expected, rel=1e-13)
     assert "absolute temperatures" in problem(tmp_path, text, temperature_unit="degC")
 
 
@@ -186,7 +187,7 @@ def test_relaxation_test_data_are_used_as_measured(tmp_path: Path) -> None:
     assert isinstance(law, vc.TabulatedRelaxation)
     np.testing.assert_allclose(law.times, [0.0, 60.0, 600.0], rtol=1e-15)
     np.testing.assert_allclose(law.modulus, [1.2e9, 0.9e9, 0.6e9], rtol=1e-15)
-    assert card.material.bulk_modulus == pytest.approx(2e9, rel=1e-15)
+    assert card.material.bulk_modulus == close_to(2e9, rel=1e-15)
     assert card.notes == ("card.txt:4: NMAX is not used: test data are taken as measured",)
 
 
@@ -202,11 +203,11 @@ def test_long_term_constants_with_test_data_need_the_long_term_value(tmp_path: P
     text = RELAXATION.replace(", moduli=INSTANTANEOUS", "")
     assert "give SHRINF=, or MODULI=INSTANTANEOUS" in problem(tmp_path, text)
     card = read(tmp_path, text.replace("Test Data\n", "Test Data, shrinf=0.25\n"))
-    assert card.material.law.relaxation(0.0) == pytest.approx(4.8e9, rel=1e-15)
+    assert card.material.law.relaxation(0.0) == close_to(4.8e9, rel=1e-15)
     assert any("SHRINF is not used beyond" in note for note in card.notes)
     creep = text.replace("RELAXATION", "CREEP").replace("0.75,", "1.5,").replace("0.5,", "2,")
     found = read(tmp_path, creep.replace("Test Data\n", "Test Data, shrinf=4\n")).material
-    assert found.law.relaxation(0.0) == pytest.approx(4.8e9, rel=1e-12)  # j_S = 1/g_R
+    assert found.law.relaxation(0.0) == close_to(4.8e9, rel=1e-12)  # j_S = 1/g_R
     ended = read(tmp_path, text.replace("Test Data\n", "Test Data, shrinf=0.5\n"))
     assert ended.material.law.beyond == "last"
 
@@ -343,7 +344,7 @@ def test_series_law_is_the_same_after_a_card(
     if isinstance(law, vc.Elastic):
         return  # its bulk modulus is its Poisson's ratio
     for name, value in volume.items():
-        assert getattr(found.material, name) == pytest.approx(value, rel=1e-12)
+        assert getattr(found.material, name) == close_to(value, rel=1e-12)
     j, k = (m.contact_compliance()(t) for m in (found.material, card.material))
     np.testing.assert_allclose(j, k, rtol=1e-9)
 
@@ -377,15 +378,15 @@ def test_any_series_is_read_back_to_its_printed_digits(
     assert isinstance(found.law, vc.RelaxationSeries)
     # 13 digits of each weight, of which the end is what they leave of 1.
     loss = 20 * 1e-13 * (at_once / equilibrium)
-    assert found.law.equilibrium == pytest.approx(equilibrium, rel=loss)
+    assert found.law.equilibrium == close_to(equilibrium, rel=loss)
     np.testing.assert_allclose(found.law.moduli, strengths, rtol=loss)
     np.testing.assert_allclose(found.law.times, times, rtol=1e-12)
     if elastic_bulk:
         # E and nu hold K by 1 - 2 nu only; long-term ones are nearer to 1/2.
         bound = loss + 1e-12 * (bulk / equilibrium + 1)
-        assert found.bulk_modulus == pytest.approx(bulk, rel=bound)
+        assert found.bulk_modulus == close_to(bulk, rel=bound)
     else:
-        assert found.poisson_ratio == pytest.approx(ratio, rel=1e-12)
+        assert found.poisson_ratio == close_to(ratio, rel=1e-12)
 
 
 @WRITERS
@@ -405,7 +406,7 @@ def test_arrhenius_shift_is_written_for_ansys_and_refused_for_abaqus(tmp_path: P
     card = Card("1", vc.Material(vc.Zener(1e9, 2e9, 1e10), 0.3), vc.Arrhenius(293.15, 8e4))
     found = back(tmp_path, card, write_ansys, read_ansys, **IN_MPA, temperature_unit="K")
     assert isinstance(found.shift, vc.Arrhenius)
-    assert found.shift.activation_energy == pytest.approx(8e4, rel=1e-14)
+    assert found.shift.activation_energy == close_to(8e4, rel=1e-14)
     with pytest.raises(ValueError, match="Abaqus cards take a WLF shift, got Arrhenius"):
         write_abaqus(card, **IN_MPA, temperature_unit="K")
     with pytest.raises(ValueError, match="absolute temperatures"):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.cli import main
 from viscontact.surfaces import Surface, levelled
@@ -68,7 +69,7 @@ def test_map_of_another_program_arrives_in_metres(tmp_path: Path, ending: str, u
     surface = vc.read_surface(written(tmp_path, ending, unit))
     # X3P and GWY may hold 32 bit.
     np.testing.assert_allclose(surface.heights, HEIGHTS, atol=1e-12)
-    assert surface.size == pytest.approx((24e-6, 12e-6), rel=1e-6)
+    assert surface.size == close_to((24e-6, 12e-6), rel=1e-6)
 
 
 @pytest.mark.parametrize("ending", ["x3p", "nc"])
@@ -93,7 +94,7 @@ def test_matrix_of_another_program_needs_the_missing_units(tmp_path: Path) -> No
         vc.read_surface(file, height_unit="um")
     surface = vc.read_surface(file, spacing=(2e-6, 1.5e-6), height_unit="um")
     np.testing.assert_allclose(surface.heights, HEIGHTS, atol=1e-12)
-    assert surface.spacing == pytest.approx((2e-6, 1.5e-6))
+    assert surface.spacing == close_to((2e-6, 1.5e-6))
 
 
 def test_line_scans_of_another_program_are_swept_or_refused(tmp_path: Path) -> None:
@@ -105,7 +106,7 @@ def test_line_scans_of_another_program_are_swept_or_refused(tmp_path: Path) -> N
     program.NonuniformLineScan(1e-6 * x, line, unit="m").to_netcdf(str(uneven))
     assert vc.read_surface(even).shape == (12, 1)
     ridges = vc.read_surface(even, width=8e-6)
-    assert ridges.size == pytest.approx((24e-6, 8e-6))
+    assert ridges.size == close_to((24e-6, 8e-6))
     np.testing.assert_allclose(ridges.heights, np.repeat(line[:, np.newaxis], 4, axis=1))
     with pytest.raises(ValueError, match=r"uneven\.nc: its points are unevenly spaced"):
         vc.read_surface(uneven)
@@ -177,7 +178,7 @@ def test_npz_carries_its_units(tmp_path: Path) -> None:
     np.savez(file, height=1e9 * HEIGHTS, spacing=[500.0, 250.0], unit="nm", periodic=True)
     surface = vc.read_surface(file)
     np.testing.assert_allclose(surface.heights, HEIGHTS, rtol=1e-14)
-    assert surface.spacing == pytest.approx((5e-7, 2.5e-7), rel=1e-14)
+    assert surface.spacing == close_to((5e-7, 2.5e-7), rel=1e-14)
     assert surface.periodic
     np.savez(file, a=HEIGHTS, b=HEIGHTS)
     with pytest.raises(
@@ -238,7 +239,7 @@ def test_table_of_points_is_read_in_any_order_with_its_units(tmp_path: Path) -> 
     rows = [f"{2 * i + 10:.3f},{0.5 * j:.3f},{10 * i + j}" for i, j in points]
     (tmp_path / "map.csv").write_text("\n".join(["x [um],y [um],height [nm]", *rows]))
     surface = vc.read_surface(tmp_path / "map.csv")
-    assert surface.spacing == pytest.approx((2e-6, 0.5e-6))
+    assert surface.spacing == close_to((2e-6, 0.5e-6))
     expected = 1e-9 * np.add.outer(10.0 * np.arange(4), np.arange(3))
     assert np.argwhere(surface.missing).tolist() == [[2, 1]]
     np.testing.assert_allclose(
@@ -285,7 +286,7 @@ def test_roughness_is_laid_over_a_shape(case: Path) -> None:
     words = "indenter=[{shape: sphere, radius: 5 mm}, {shape: height-map, file: map.npz}]"
     found = read_case(case, [words])
     both = vc.Sphere(5e-3).gap(3e-6, 2e-6) + read_case(case).indenter.gap(3e-6, 2e-6)
-    assert found.indenter.gap(3e-6, 2e-6) == pytest.approx(both, rel=1e-12)
+    assert found.indenter.gap(3e-6, 2e-6) == close_to(both, rel=1e-12)
     assert found.files == {("indenter", 1, "file"): case.parent / "map.npz"}
 
 
@@ -354,7 +355,7 @@ def test_map_runs_with_its_file_and_is_taken_up_from_there(
     assert main(["run", str(case), "-o", str(directory), "--quiet", *settings]) == 0
     assert (directory / "map.npz").read_bytes() == (case.parent / "map.npz").read_bytes()
     with vc.open_results(directory) as ds:
-        assert float(ds.force[-1]) == pytest.approx(10e-3, rel=1e-6)
+        assert float(ds.force[-1]) == close_to(10e-3, rel=1e-6)
         area = float(ds.contact_area[-1])
         assert 0 < area < 32e-6 * 28e-6
     # The kept case stands alone: the same result from its directory.

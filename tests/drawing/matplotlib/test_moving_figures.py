@@ -9,6 +9,7 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.drawing.matplotlib.pressure.contact_curves import pressure_profile
 from viscontact.drawing.matplotlib.pressure.pressure_map import pressure_map
 from viscontact.plot import animation
@@ -34,8 +35,8 @@ def test_profile_marks_the_leading_edge_in_the_direction_of_motion(moved: xr.Dat
     leading, trailing = axes.get_lines()[1:]
     ahead, behind = (np.asarray(each.get_xdata())[0] for each in (leading, trailing))
     pressed = moved.y.values[(moved.pressure.sel(time=0.3).values > 0).any(axis=0)] * 1e6
-    assert ahead == pytest.approx(pressed.min() - 50)
-    assert behind == pytest.approx(pressed.max() + 50)
+    assert ahead == close_to(pressed.min() - 50)
+    assert behind == close_to(pressed.max() + 50)
     faces = [to_hex(each.get_markerfacecolor()) for each in (leading, trailing)]
     assert faces[1] == "#ffffff" != faces[0]
 
@@ -50,8 +51,8 @@ def test_map_has_an_arrow_along_the_motion(moved: xr.Dataset) -> None:
     (arrow,) = (each for each in going.texts if isinstance(each, Annotation) and each.arrow_patch)
     # From the axis, which is at y = -0.3 mm.
     tail, head = going.transData.transform(arrow.xyann), arrow.xycoords.transform(arrow.xy)
-    assert arrow.xyann == pytest.approx((0.0, -0.3), abs=1e-9)
-    assert head[0] == pytest.approx(tail[0])
+    assert arrow.xyann == close_to((0.0, -0.3), abs=1e-9)
+    assert head[0] == close_to(tail[0])
     assert head[1] < tail[1]
     assert not [each for each in resting.texts if getattr(each, "arrow_patch", None)]
 
@@ -64,7 +65,7 @@ def test_film_follows_the_body_and_marks_its_edges(moved: xr.Dataset) -> None:
     for time, place in ((0.0, 0.0), (0.3, -0.3), (0.9, -0.6)):
         film.show(time)
         (cross,) = (line for line in surface.lines if line.get_marker() == "+")
-        assert cross.get_ydata()[0] == pytest.approx(place, abs=1e-9)
+        assert cross.get_ydata()[0] == close_to(place, abs=1e-9)
         assert low < place < high
         arrows = [each for each in surface.texts if getattr(each, "arrow_patch", None)]
         assert len(arrows) == (time < 0.9)  # at rest there is none

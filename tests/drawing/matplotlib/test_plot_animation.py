@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from PIL import Image
 
+from closeness import close_to
 from synthetic_results import maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.drawing.matplotlib.animations import saving
@@ -30,7 +31,7 @@ def test_frames_are_at_equal_steps_of_the_time_axis(scale: str) -> None:
     sphere = maxwell_sphere([0.0, *middle, 100.0], cells=12)
     film = animation(sphere, seconds=6.0, fps=10.0)
     assert film.instants.size == 60
-    assert film.seconds == pytest.approx(6.0)
+    assert film.seconds == close_to(6.0)
     assert film.instants[0] == 0.0
     assert film.instants[-1] == 100.0
     assert np.all(np.diff(film.instants) >= 0)
@@ -61,13 +62,11 @@ def test_each_frame_shows_the_numbers_of_its_instant(sphere: xr.Dataset) -> None
             histories, ("peak_pressure", "contact_area", "approach"), strict=True
         ):
             bar, dot = axes.get_lines()[-2:]
-            assert np.asarray(bar.get_xdata()) == pytest.approx(instant)
+            assert np.asarray(bar.get_xdata()) == close_to(instant)
             curve = axes.get_lines()[0].get_ydata()
             here = int(np.flatnonzero(sphere.time.values == instant)[0])
             assert dot.get_ydata()[0] == curve[here]
-            assert curve[here] / curve[0] == pytest.approx(
-                float(then[name]) / float(sphere[name][0])
-            )
+            assert curve[here] / curve[0] == close_to(float(then[name]) / float(sphere[name][0]))
 
 
 def test_an_instant_without_contact_is_shown_empty(sphere: xr.Dataset) -> None:
@@ -103,7 +102,7 @@ def test_a_gif_has_the_requested_length_and_a_frame_for_each_instant(
         assert read.info["loop"] == 0
         assert read.size[0] == 720
         assert read.convert("RGB").getpixel((1, 1)) == (255, 255, 255)
-    assert sum(durations) == pytest.approx(1000 * 22 / 7.0, abs=10)
+    assert sum(durations) == close_to(1000 * 22 / 7.0, abs=10)
     assert seen[-1] == (22, 22)
     assert [done for done, _ in seen] == sorted(done for done, _ in seen)
     assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
@@ -115,7 +114,7 @@ def test_an_mp4_has_the_requested_frames(sphere: xr.Dataset, tmp_path: Path) -> 
     save_animation(animation(sphere, seconds=1.0, fps=5.0, width=0.12), path)
     frames, seconds = imageio_ffmpeg.count_frames_and_secs(path)
     assert frames == 5
-    assert seconds == pytest.approx(1.0, abs=0.05)
+    assert seconds == close_to(1.0, abs=0.05)
     said = subprocess.run(
         [imageio_ffmpeg.get_ffmpeg_exe(), "-i", path], capture_output=True, text=True, check=False
     ).stderr
@@ -123,7 +122,7 @@ def test_an_mp4_has_the_requested_frames(sphere: xr.Dataset, tmp_path: Path) -> 
     assert re.search(r"Video: h264 .*yuv420p", said)
     width, height = map(int, re.search(r" (\d+)x(\d+)[, ]", said).groups())
     assert width % 2 == height % 2 == 0
-    assert width == pytest.approx(0.12 / 25.4e-3 * 150, abs=6)
+    assert width == close_to(0.12 / 25.4e-3 * 150, abs=6)
 
 
 def test_a_film_of_a_long_contact_holds_its_labels(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from matplotlib.patches import PathPatch, Rectangle
 from numpy.typing import NDArray
 
 import viscontact as vc
+from closeness import close_to
 from synthetic_results import (
     ELLIPSE_AXES,
     ELLIPSE_CELLS,
@@ -145,7 +146,7 @@ def test_contours_of_the_map_are_ellipses_of_equal_pressure(
                 found = level(in_metres(axes, path.vertices), t, transposed)
                 exact = 1 - squared / peak**2
                 np.testing.assert_allclose(found, exact, atol=0.05)  # at single corners
-                assert np.median(found) == pytest.approx(exact, abs=0.005)
+                assert np.median(found) == close_to(exact, abs=0.005)
                 drawn += 1
         assert drawn >= 3
 
@@ -269,13 +270,13 @@ def test_indenter_is_drawn_with_the_box_of_the_contact_of_the_instant_named(
         ((box.get_x(), box.get_width()), (box.get_y(), box.get_height())),
     ):
         low, size = np.array(span) * factor(_label(plan, "xy"[way]))
-        assert low + size / 2 == pytest.approx(middle[way], abs=edges[way])
-        assert size == pytest.approx(extents[way], abs=2 * edges[way])
+        assert low + size / 2 == close_to(middle[way], abs=edges[way])
+        assert size == close_to(extents[way], abs=2 * edges[way])
     for way, axes in enumerate((along, across)):
         assert axes.get_xlabel().startswith("xy"[way])
         shaded = next(patch for patch in axes.patches if isinstance(patch, Rectangle))
         middle_of = (shaded.get_x() + shaded.get_width() / 2) * factor(axes.get_xlabel())
-        assert middle_of == pytest.approx(middle[way], abs=edges[way])
+        assert middle_of == close_to(middle[way], abs=edges[way])
 
 
 @each_way
@@ -305,22 +306,22 @@ def test_stress_section_crosses_the_shorter_extent_through_the_middle(
     assert axes.get_xlabel().startswith("y" if transposed else "x")
     cross = axes.lines[0]
     place = float(np.asarray(cross.get_xdata())[0]) * factor(axes.get_xlabel())
-    assert place == pytest.approx(ELLIPSE_MIDDLE[0], abs=0.6 * ELLIPSE_EDGES[0])
+    assert place == close_to(ELLIPSE_MIDDLE[0], abs=0.6 * ELLIPSE_EDGES[0])
     # As deep and as wide to each side as two of the shorter half widths, found to half a cell.
     half_width = ellipse_growth(2.0) * ELLIPSE_AXES[0]
     ends = [end * factor(axes.get_xlabel()) for end in axes.get_xlim()]
     border = (ELLIPSE_CELLS[0] - 1) / 2 * ELLIPSE_EDGES[0]
     left, right = (ELLIPSE_MIDDLE[0] + side * 2 * half_width for side in (-1, 1))
-    assert ends == pytest.approx([left, min(right, border)], abs=2.1 * ELLIPSE_EDGES[0])
+    assert ends == close_to([left, min(right, border)], abs=2.1 * ELLIPSE_EDGES[0])
     deepest = axes.get_ylim()[0] * factor(axes.get_ylabel())
-    assert deepest == pytest.approx(2 * half_width, abs=ELLIPSE_EDGES[0])
+    assert deepest == close_to(2 * half_width, abs=ELLIPSE_EDGES[0])
     # The plane stands in the heading, on the other axis.
     title = axes.get_title(loc="left").replace("−", "-")
     stated = re.match(r"t = 2 s, ([xy]) = (-?[\d.]+) (\w+)", title)
     assert stated is not None
     assert stated[1] == "xy"[1 - transposed]
     plane = float(stated[2]) * factor(f"[{stated[3]}]")
-    assert plane == pytest.approx(ELLIPSE_MIDDLE[1], abs=0.6 * ELLIPSE_EDGES[1])
+    assert plane == close_to(ELLIPSE_MIDDLE[1], abs=0.6 * ELLIPSE_EDGES[1])
 
 
 def test_stresses_below_an_ellipse_are_those_of_the_table(
@@ -336,10 +337,10 @@ def test_stresses_below_an_ellipse_are_those_of_the_table(
         shear = found.max_shear.values[0]
         assert found.max_shear.dims[-1] == "xy"[1 - (plane ^ transposed)]
         row, column = np.unravel_index(int(shear.argmax()), shear.shape)
-        assert shear.max() / ELLIPSE_PEAK == pytest.approx(0.325, abs=0.005)
-        assert depths[row] / short == pytest.approx(0.665, abs=0.03)
+        assert shear.max() / ELLIPSE_PEAK == close_to(0.325, abs=0.005)
+        assert depths[row] / short == close_to(0.665, abs=0.03)
         place = found[found.max_shear.dims[-1]].values[column]
-        assert place == pytest.approx(middle[1 - plane], abs=0.6 * ELLIPSE_EDGES[1 - plane])
+        assert place == close_to(middle[1 - plane], abs=0.6 * ELLIPSE_EDGES[1 - plane])
 
 
 def test_stresses_reach_two_of_the_shorter_half_widths_deep_by_default(
@@ -347,7 +348,7 @@ def test_stresses_reach_two_of_the_shorter_half_widths_deep_by_default(
 ) -> None:
     depths = vc.section_stresses(results).z.values
     shorter = ellipse_growth(ELLIPSE_TIMES[-1]) * min(ELLIPSE_AXES)
-    assert (depths[0], depths[-1]) == (0.0, pytest.approx(2 * shorter))
+    assert (depths[0], depths[-1]) == (0.0, close_to(2 * shorter))
 
 
 def test_stresses_do_not_depend_on_the_names_of_the_axes() -> None:

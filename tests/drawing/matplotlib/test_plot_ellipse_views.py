@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_hex
 
+from closeness import close_to
 from drawing.matplotlib.test_plot_ellipse import each_way, factor, level
 from drawing.matplotlib.test_plot_solid import Caught, caught, with_dent
 from synthetic_results import (
@@ -45,8 +46,8 @@ def test_section_of_an_animation_is_wide_enough_for_the_longer_extent(
     _, _, section, *_ = animation(results, seconds=1.0, fps=6.0).figure.axes
     low, high = np.array(section.get_xlim()) * factor(section.get_xlabel())
     half, margin = ellipse_growth(ELLIPSE_TIMES[-1]) * ELLIPSE_AXES[1], 0.3 * ELLIPSE_AXES[1]
-    assert low == pytest.approx(ELLIPSE_MIDDLE[1] - half, abs=margin)
-    assert high == pytest.approx(ELLIPSE_MIDDLE[1] + half, abs=margin)
+    assert low == close_to(ELLIPSE_MIDDLE[1] - half, abs=margin)
+    assert high == close_to(ELLIPSE_MIDDLE[1] + half, abs=margin)
 
 
 @pytest.mark.parametrize("name", ["pressure-3d", "surface-3d"])
@@ -82,7 +83,7 @@ def test_indenter_in_space_is_drawn_on_the_rows_of_cells_beside_the_axes(
         unit = factor(axes.get_xlabel())
         place = np.asarray(drawn["xy".index(fixed)]) * unit
         assert np.ptp(place) == 0.0
-        assert abs(place[0]) == pytest.approx(float(np.abs(results[fixed]).min()))
+        assert abs(place[0]) == close_to(float(np.abs(results[fixed]).min()))
         position = np.asarray(drawn["xy".index(moving)]) * unit
         pressed = (results.pressure[0] > 0).any(fixed).values
         assert position.min() < results[moving].values[pressed].min()

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.cli import main
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.plot import draw_indenter
@@ -74,14 +75,14 @@ def test_sections_run_through_the_deepest_point_and_show_the_gap(
         shown = np.isfinite(line[:, 1])
         assert np.array_equal(shown, np.isfinite(gap))
         # The deepest point between the mesh's is found to 1e-6 of its step.
-        assert line[shown, 1] == pytest.approx(gap[shown], rel=1e-5, abs=1e-12)
+        assert line[shown, 1] == close_to(gap[shown], rel=1e-5, abs=1e-12)
         assert line[shown, 1].min() < 1e-3 * line[shown, 1].max()
 
 
 def test_ends_of_the_profile_are_marked_and_noted() -> None:
     figure = draw_indenter(ROLLER, SIZE)
     dashed = [line[0, 0] for line in drawn_lines(figure, 0)[2:]]
-    assert dashed == pytest.approx([-6.0, 6.0], rel=1e-12)
+    assert dashed == close_to([-6.0, 6.0], rel=1e-12)
     said = facts_of(figure)
     assert said.startswith("Roller, logarithmic profile, radius 5 mm, half length 6 mm, amplitude")
     assert "dashed: ends at x = ±6 mm\n" in said
@@ -139,7 +140,7 @@ def test_noted_exaggeration_is_the_drawn_one(body: vc.Indenter) -> None:
         corner, other = axes.transData.transform([(0, 0), (1e-3 / x, 1e-3 / y)])
         drawn = (other[1] - corner[1]) / (other[0] - corner[0])
         # Noted with one or two digits.
-        assert noted == pytest.approx(drawn, rel=0.1 if drawn > 100 else 0.06)
+        assert noted == close_to(drawn, rel=0.1 if drawn > 100 else 0.06)
 
 
 def test_plan_that_is_not_slender_is_drawn_in_its_true_shape() -> None:
@@ -148,7 +149,7 @@ def test_plan_that_is_not_slender_is_drawn_in_its_true_shape() -> None:
     assert axes.get_title(loc="right") == "true shape"
     figure.draw_without_rendering()
     corner, other = axes.transData.transform([(0, 0), (1, 1)])
-    assert other[1] - corner[1] == pytest.approx(other[0] - corner[0], rel=1e-6)
+    assert other[1] - corner[1] == close_to(other[0] - corner[0], rel=1e-6)
     assert "turned by 28.6°" in texts(figure)
 
 
@@ -162,7 +163,7 @@ def test_parts_of_a_sum_are_named_and_a_contact_is_shaded() -> None:
     )
     assert "shaded: extent of the expected contact, 400 µm × 300 µm" in said
     [shade] = [each for each in figure.axes[2].patches if each.get_alpha()]
-    assert shade.get_bbox().bounds == pytest.approx((-0.2, -0.15, 0.4, 0.3))
+    assert shade.get_bbox().bounds == close_to((-0.2, -0.15, 0.4, 0.3))
 
 
 def test_nothing_to_draw_is_refused() -> None:
@@ -210,7 +211,7 @@ def test_body_that_ends_a_little_beyond_the_grid_is_drawn_to_its_end(
     rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((32, 32), (length, 1e-3))
     run = OverTime(prepare_run(Problem(ROLLER, rubber, vc.step(1e-3), grid, [0.0])))
     # The end is looked for in steps of 1e-3 of the length.
-    assert drawn_size(run) == pytest.approx((drawn, 1e-3), rel=2e-3)
+    assert drawn_size(run) == close_to((drawn, 1e-3), rel=2e-3)
 
 
 @pytest.mark.parametrize(

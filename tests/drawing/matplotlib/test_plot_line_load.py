@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 import viscontact as vc
+from closeness import close_to
 from synthetic_results import roller
 from viscontact.cli import main
 from viscontact.plot import COMPARISONS, FIGURES
@@ -50,7 +51,7 @@ def test_curve_is_that_of_hertz_at_the_first_instant(ds: xr.Dataset) -> None:
     np.testing.assert_allclose(load * 1e3, expected, atol=0.015 * expected.max())
     # The curve begins and ends at zero, within half a cell of the contact's ends.
     ends = (OFFSET[0] - a) * 1e3, (OFFSET[0] + a) * 1e3
-    assert (x[0], x[-1]) == pytest.approx(ends, abs=0.5 * 20 / 60)
+    assert (x[0], x[-1]) == close_to(ends, abs=0.5 * 20 / 60)
     assert load[[0, -1]].tolist() == [0.0, 0.0]
     low, high = axes.get_xlim()
     assert low < x[0] < x[-1] < high
@@ -90,7 +91,7 @@ def test_comparison_has_a_panel_for_each_instant_and_a_curve_for_each_run(ds: xr
         np.testing.assert_allclose(one[1:-1] * 1e3, expected[expected > 0], rtol=1e-12)
         np.testing.assert_allclose(two, 2 * one, rtol=1e-12)
         # Both panels have room for the highest curve of either.
-        assert axes.get_ylim() == (0.0, pytest.approx(1.05 * 2e-3 * float(ds.line_load.max())))
+        assert axes.get_ylim() == (0.0, close_to(1.05 * 2e-3 * float(ds.line_load.max())))
 
 
 def test_figure_notes_where_the_line_load_depends_on_the_mesh() -> None:
@@ -115,7 +116,7 @@ def test_line_load_of_a_period_continues_at_its_border() -> None:
     q = ds.line_load.values[0]
     scale = {"Line load [N/m]": 1.0, "Line load [kN/m]": 1e3}[axes.get_ylabel()]
     np.testing.assert_allclose(load * scale, [q[-1], *q, q[0]], rtol=1e-12)
-    assert axes.get_xlim() == pytest.approx((-1.0, 1.0))
+    assert axes.get_xlim() == close_to((-1.0, 1.0))
 
 
 def test_methods_and_commands_draw_it(ds: xr.Dataset, tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.plot import friction, motion_profile
 
 BALL, LOAD = vc.Paraboloid(10.0, 10.0), vc.step(10.0, tilt_x=0.0, tilt_y=0.0)
@@ -21,12 +22,12 @@ def test_friction_is_drawn_over_speed_between_its_limits(curve):
     values, slow, fast = (line.get_xydata() for line in axes.lines)
     assert values[:, 0].tolist() == sorted(SPEEDS)
     order = np.argsort(SPEEDS)
-    assert values[:, 1] == pytest.approx(curve.friction_coefficient.values[order])
+    assert values[:, 1] == close_to(curve.friction_coefficient.values[order])
     # The limits: 0.9 V, and one over the speed, which the fastest contact has almost reached.
-    assert slow[:, 1] == pytest.approx(0.9 * slow[:, 0])
-    assert fast[:, 1] * fast[:, 0] == pytest.approx(fast[0, 1] * fast[0, 0])
-    assert values[-1, 1] == pytest.approx(fast[-1, 1], rel=0.02)
-    assert values[0, 1] == pytest.approx(slow[0, 1], rel=0.2)
+    assert slow[:, 1] == close_to(0.9 * slow[:, 0])
+    assert fast[:, 1] * fast[:, 0] == close_to(fast[0, 1] * fast[0, 0])
+    assert values[-1, 1] == close_to(fast[-1, 1], rel=0.02)
+    assert values[0, 1] == close_to(slow[0, 1], rel=0.2)
     assert axes.get_xscale() == axes.get_yscale() == "log"
 
 
@@ -50,8 +51,8 @@ def test_the_profile_marks_trailing_and_leading_edge(curve):
     x, pressure = line.get_data()
     touched = x[np.flatnonzero(np.asarray(pressure) > 0)]
     cell = x[1] - x[0]
-    assert float(trailing.get_xdata()[0]) == pytest.approx(touched[0] - cell / 2)
-    assert float(leading.get_xdata()[0]) == pytest.approx(touched[-1] + cell / 2)
+    assert float(trailing.get_xdata()[0]) == close_to(touched[0] - cell / 2)
+    assert float(leading.get_xdata()[0]) == close_to(touched[-1] + cell / 2)
     assert trailing.get_markerfacecolor() == "white"
     assert leading.get_markerfacecolor() == leading.get_color()
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["1 m/s"]

@@ -16,6 +16,7 @@ from matplotlib.patches import PathPatch
 from PIL import Image
 
 import viscontact as vc
+from closeness import close_to
 from synthetic_results import maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.plot import COMPARISONS, FIGURES, Animation, ResultPlots, draw_indenter, save_figure
@@ -72,7 +73,7 @@ def test_axes_of_ones_own_are_drawn_into_and_returned(sphere: xr.Dataset) -> Non
     drawn = mine.get_lines()[0].get_ydata()
     unit = {"kPa": 1e3, "MPa": 1e6}[mine.get_ylabel()[-4:-1]]
     middle = sphere.pressure.isel(time=0, y=[7, 8]).mean("y")
-    assert np.nanmax(drawn) == pytest.approx(float(middle.max()) / unit)
+    assert np.nanmax(drawn) == close_to(float(middle.max()) / unit)
 
 
 def test_a_film_is_made_from_a_result(sphere: xr.Dataset) -> None:
@@ -99,10 +100,10 @@ def test_a_figure_is_as_wide_as_the_column(width: str | float, millimetres: floa
     results = {"sphere": maxwell_sphere(cells=12), "roller": roller(shape=(32, 12))}
     for name, draw in FIGURES.items():
         figure = draw(results["sphere"], width=width)
-        assert figure.get_figwidth() * 25.4 == pytest.approx(millimetres, abs=0.1), name
+        assert figure.get_figwidth() * 25.4 == close_to(millimetres, abs=0.1), name
     for name, compare in COMPARISONS.items():
         figure = compare({"a": results["roller"]}, width=width)
-        assert figure.get_figwidth() * 25.4 == pytest.approx(millimetres, abs=0.1), name
+        assert figure.get_figwidth() * 25.4 == close_to(millimetres, abs=0.1), name
 
 
 @pytest.mark.parametrize("width", ["triple", 0.01, 5.0, float("nan")])
@@ -133,7 +134,7 @@ def test_texts_are_outlines_in_svg(sphere: xr.Dataset, tmp_path: Path) -> None:
 def test_a_picture_has_three_hundred_dots_an_inch(sphere: xr.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "figure.png"
     save_figure(FIGURES["hysteresis"](sphere, width="single"), path)
-    assert pyplot.imread(path).shape[1] == pytest.approx(89 / 25.4 * 300, abs=1)
+    assert pyplot.imread(path).shape[1] == close_to(89 / 25.4 * 300, abs=1)
 
 
 # --- figures of this kind ---------------------------------------------------------------------
@@ -172,8 +173,8 @@ def test_outlines_of_runs_lie_over_one_another_at_one_instant() -> None:
         inside = run.x.where((run.pressure[-1] > 0).any("y"), drop=True)
         box = outline.get_path().get_extents()
         cell = float(run.x[1] - run.x[0])
-        assert box.x0 * 1e-3 == pytest.approx(float(inside.min()), abs=cell)
-        assert box.x1 * 1e-3 == pytest.approx(float(inside.max()), abs=cell)
+        assert box.x0 * 1e-3 == close_to(float(inside.min()), abs=cell)
+        assert box.x1 * 1e-3 == close_to(float(inside.max()), abs=cell)
     names = [text.get_text() for text in figure.legends[0].get_texts()]
     assert (names, axes.get_title(loc="left")) == (["straight", "tilted"], "t = 1000 s")
     runs["tilted"] = roller(times=(0.0, 500.0), shape=(48, 16), tilt=0.2)

@@ -13,6 +13,7 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 import viscontact as vc
+from closeness import close_to
 from synthetic_results import (
     ELLIPSE_AXES,
     ELLIPSE_MIDDLE,
@@ -91,9 +92,9 @@ def test_height_of_the_pressure_surface_is_the_pressure(results: xr.Dataset, cau
         }
         assert pressed.keys() <= found.keys()
         for cell, value in pressed.items():
-            assert found[cell] == pytest.approx(value, rel=1e-9)
+            assert found[cell] == close_to(value, rel=1e-9)
         # Between the cells nothing rises above them.
-        assert corners[..., 2].max() == pytest.approx(pressure.max(), rel=1e-9)
+        assert corners[..., 2].max() == close_to(pressure.max(), rel=1e-9)
 
 
 def test_foot_of_the_pressure_surface_is_the_rim_of_a_hertz_contact(caught: Caught):
@@ -131,7 +132,7 @@ def test_of_very_many_cells_the_largest_pressure_is_drawn(caught: Caught):
     single = int(np.flatnonzero(results.pressure[0, :, 16].values > 0)[157])
     results["pressure"][0, single, 16] = 900e6
     FIGURES["pressure-3d"](results, times=[0.0])
-    assert caught.corners[0][..., 2].max() == pytest.approx(900.0)
+    assert caught.corners[0][..., 2].max() == close_to(900.0)
 
 
 def test_depth_of_the_deformed_surface_is_the_displacement(caught: Caught):
@@ -147,7 +148,7 @@ def test_depth_of_the_deformed_surface_is_the_displacement(caught: Caught):
         known = np.argwhere(np.isfinite(depth))
         assert len(found) == len(known)
         for cell in map(tuple, known.tolist()):
-            assert found[cell] == pytest.approx(depth[cell], rel=1e-9)
+            assert found[cell] == close_to(depth[cell], rel=1e-9)
     bar = figure.axes[-1]
     assert bar.get_ylabel() == "Displacement [µm]"
     low, high = sorted(bar.get_ylim())
@@ -167,7 +168,7 @@ def test_depth_on_unequal_cells_is_that_of_its_place_and_instant(transposed: boo
     depth = 40 * (1 + 120 / 300) * np.exp(-((x / 4e-4) ** 2) - (y / 3e-4) ** 2)
     assert len(found) > 1000
     for cell, value in found.items():
-        assert value == pytest.approx(depth[cell], rel=1e-9)
+        assert value == close_to(depth[cell], rel=1e-9)
 
 
 def test_indenter_lies_on_the_surface_where_they_touch_and_above_it_elsewhere():
@@ -200,7 +201,7 @@ def test_rim_of_a_punch_is_level():
     # The surface falls beside it, by a tenth of the approach within a cell.
     approach = float(results["approach"][0])
     unit = approach / depth.mean()
-    assert unit == pytest.approx(10.0 ** round(np.log10(unit)), rel=1e-4)
+    assert unit == close_to(10.0 ** round(np.log10(unit)), rel=1e-4)
     np.testing.assert_allclose(depth, depth.mean(), rtol=1e-4)
 
 
@@ -231,7 +232,7 @@ def test_noted_stretch_of_heights_is_the_drawn_one():
     corner, along, up = (projection @ np.array(end) for end in ends)
     wide, tall = abs(along[0] - corner[0]), abs(up[1] - corner[1])
     drawn = (tall / (abs(z[1] - z[0]) * 1e-6)) / (wide / ((x[1] - x[0]) * unit))
-    assert float(re.search(r"heights ([\d.]+)×", noted)[1]) == pytest.approx(drawn, rel=0.05)
+    assert float(re.search(r"heights ([\d.]+)×", noted)[1]) == close_to(drawn, rel=0.05)
 
 
 @pytest.mark.parametrize(

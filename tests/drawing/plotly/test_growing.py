@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
+from closeness import close_to
 from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.plotly.growing import growing
 from viscontact.results.run_axis import SPEED, TIME
@@ -25,7 +25,7 @@ def test_time_is_logarithmic_where_steps_grow() -> None:
     times = [0.0, *np.geomspace(0.1, 10.0, 5)]
     figure = growing("approach", times, 6 * [1e-6], TIME, (0.0, 1000.0), LIGHT)
     assert figure.layout.xaxis.type == "log"
-    assert list(figure.layout.xaxis.range) == pytest.approx([-1.0, 3.0])
+    assert list(figure.layout.xaxis.range) == close_to([-1.0, 3.0])
 
 
 def test_speeds_are_drawn_in_their_order() -> None:

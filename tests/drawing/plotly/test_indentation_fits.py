@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.drawing.content.look import LIGHT
 from viscontact.drawing.plotly.indentation_fits import (
     contact_point,
@@ -31,7 +31,7 @@ def test_contact_point_is_marked_on_the_curve_of_an_elastic_body() -> None:
     assert figure.layout.xaxis.title.text == "Position [µm]"
     assert figure.layout.meta["title"] == "Deflection [nm]"
     (mark,) = figure.layout.shapes
-    assert mark.x0 == mark.x1 == pytest.approx(3.0, abs=1e-3)
+    assert mark.x0 == mark.x1 == close_to(3.0, abs=1e-3)
     points, body, baseline = figure.data
     np.testing.assert_allclose(points.y, 1e9 * found.curve.deflection, rtol=1e-6)
     np.testing.assert_allclose(baseline.y, 20 + 3 * np.asarray(baseline.x), rtol=1e-3)

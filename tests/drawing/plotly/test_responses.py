@@ -7,6 +7,7 @@ import plotly.graph_objects as go
 import pytest
 import xarray as xr
 
+from closeness import close_to
 from synthetic_sweeps import hertz_sweep, listed
 from viscontact.drawing.plotly.responses import responses
 
@@ -52,7 +53,7 @@ def test_the_allowable_value_is_a_line_and_what_exceeds_it_is_red() -> None:
         ds.attrs["allowable"] = f'{{"peak_pressure": {{"limit": {limit}}}}}'
         found = figure(ds, "peak_pressure")
         (line,) = found.layout.shapes
-        assert line.y0 == line.y1 == pytest.approx(limit / 1e6)
+        assert line.y0 == line.y1 == close_to(limit / 1e6)
         (words,) = found.layout.annotations
         assert words.text == f"allowable {limit / 1e6:g} MPa"
         _, *over = found.data

@@ -19,6 +19,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import viscontact as vc
+from closeness import close_to
 from saturating_force import SaturatingForce
 from synthetic_results import (
     ELLIPSE_MIDDLE,
@@ -260,7 +261,7 @@ def test_section_of_layers_is_to_scale_and_names_them() -> None:
     layers = [vc.Layer(4e-3, _RUBBER), vc.Layer(2e-3, _STEEL), vc.Layer(1e-6, _RUBBER)]
     section, *curves = _parsed(vc.Layered(layers, _STEEL, (True, False, True))).iter("svg")
     heights = [float(each.get("height", "")) for each in section.iter("rect")]
-    assert heights[0] == pytest.approx(2 * heights[1], abs=0.2)  # rounded to 0.1
+    assert heights[0] == close_to(2 * heights[1], abs=0.2)  # rounded to 0.1
     assert heights[2] == 18  # room for its label
     assert _text(section) == "section 4 mm Zener 2 mm elastic 1 µm Zener slides base: elastic"
     dashed = [each for each in section.iter("path") if "stroke-dasharray" in each.attrib]
@@ -303,11 +304,11 @@ def test_map_of_a_surface_has_its_strongest_tone_on_its_peak_and_holes_where_it_
     # 8 x 4 points in 164 x 82 px, which begin 46 px from the left and 24 px from the top.
     side = 164 / 8
     [(left, at, width)] = re.findall(r"M([\d.]+),([\d.]+)h([\d.]+)", strokes["#2f80c3f2"])
-    assert float(left) == pytest.approx(46 + 6 * side, abs=0.1)
-    assert float(at) == pytest.approx(24 + (4 - 1.5) * side, abs=0.1)  # y goes upwards
-    assert float(width) == pytest.approx(side, abs=0.1)
+    assert float(left) == close_to(46 + 6 * side, abs=0.1)
+    assert float(at) == close_to(24 + (4 - 1.5) * side, abs=0.1)  # y goes upwards
+    assert float(width) == close_to(side, abs=0.1)
     drawn = sum(float(w) for d in strokes.values() for w in re.findall(r"h([\d.]+)", d))
-    assert drawn == pytest.approx(31 * side, abs=1.0)
+    assert drawn == close_to(31 * side, abs=1.0)
 
 
 def test_section_of_a_surface_runs_along_x_through_its_highest_point() -> None:
@@ -318,10 +319,10 @@ def test_section_of_a_surface_runs_along_x_through_its_highest_point() -> None:
     _, places = _line(section, "curve")
     found = np.polyval(np.polyfit(at, np.array(text, dtype=float), 1), places)
     # From 0 to the height at x = 14 or 15, whose sine is 0.9985.
-    assert np.ptp(found) * _unit(section, "height") == pytest.approx(0.9985e-6, rel=0.02)
+    assert np.ptp(found) * _unit(section, "height") == close_to(0.9985e-6, rel=0.02)
     at, text = _ticks(section, "x")
     ends = np.polyval(np.polyfit(at, np.array(text, dtype=float), 1), _line(section, "curve")[0])
-    assert np.ptp(ends) * _unit(section, "x") == pytest.approx(29e-6, rel=0.02)
+    assert np.ptp(ends) * _unit(section, "x") == close_to(29e-6, rel=0.02)
 
 
 def test_dots_of_a_fit_lie_on_its_curve_where_it_misses_nothing() -> None:
@@ -331,7 +332,7 @@ def test_dots_of_a_fit_lie_on_its_curve_where_it_misses_nothing() -> None:
     dots = [(float(d.get("cx", "")), float(d.get("cy", ""))) for d in drawing.iter("circle")]
     assert len(dots) == 30
     for across, up in dots:
-        assert up == pytest.approx(np.interp(across, line[:, 0], line[:, 1]), abs=0.3)
+        assert up == close_to(np.interp(across, line[:, 0], line[:, 1]), abs=0.3)
 
 
 def test_a_jump_of_a_load_is_drawn_upright() -> None:

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viscontact as vc
+from closeness import close_to
 from verification.independent import deflection, love
 from viscontact.mechanics.contact import conjugate_gradients
 from viscontact.mechanics.contact.domain import ContactDomain
@@ -46,7 +47,7 @@ def test_the_certificate_is_that_of_the_returned_pressure(half_space):
         assert (found.in_contact == touching).all()  # not what merely overlaps within the tolerance
         violation = max(np.abs(gap[touching]).max(), -gap.min()) / displacement.max()
         # Rounding of two routes to the gap; measured 1e-15.
-        assert violation == pytest.approx(found.residual, abs=1e-13)
+        assert violation == close_to(found.residual, abs=1e-13)
         assert np.abs(found.gap - gap).max() < 1e-13 * displacement.max()
 
 
@@ -144,12 +145,12 @@ def test_two_peaks_share_a_force_between_them_by_the_lever():
     found = solve_contact(case, ContactDomain(grid), tolerance=1e-9)
     assert found.converged
     shares = found.found.pressure[[4, 34], 4] * grid.cell_area
-    assert shares == pytest.approx([6.0, 3.0], rel=1e-8)
+    assert shares == close_to([6.0, 3.0], rel=1e-8)
     # Two gaps, two displacements of their own and of each other: closed form.
     own, other = (float(love(d, 0.0, *grid.cell_size)) for d in (0.0, far - near))
     sinks = 1e-6 * (np.array([[own, other], [other, own]]) @ found.found.pressure[[4, 34], 4])
     tilt = (sinks[1] + 0.1 - sinks[0]) / (far - near)
-    assert found.found.motion[1] == pytest.approx(tilt, rel=1e-8)
+    assert found.found.motion[1] == close_to(tilt, rel=1e-8)
 
 
 def test_a_load_between_two_rows_of_cells_is_found_by_them():
@@ -168,7 +169,7 @@ def test_a_load_between_two_rows_of_cells_is_found_by_them():
     # Statics: the lever between the rows that bear, to the balance's tolerance.
     assert np.flatnonzero(shares).tolist() == [7, 8]
     lever = (aside - grid.y[7]) / grid.cell_size[1]
-    assert shares[7:9] / force == pytest.approx([1 - lever, lever], rel=1e-7)
+    assert shares[7:9] / force == close_to([1 - lever, lever], rel=1e-7)
 
 
 def test_a_search_that_can_only_give_up_cell_after_cell_gets_there_too(monkeypatch):
@@ -202,7 +203,7 @@ def test_the_nearest_balanced_pressure_is_the_one_of_least_change(seed):
     assert (found >= 0).all()
     assert not found[~cells].any()
     # Newton's method ends at the energy's rounding, that is at half the digits of the balance.
-    assert plane.sums(found) * grid.cell_area == pytest.approx(wanted, abs=1e-6)
+    assert plane.sums(found) * grid.cell_area == close_to(wanted, abs=1e-6)
     bears = found > 0
     columns = np.stack(
         [np.ones(42), *(axis.ravel() for axis in np.meshgrid(grid.x, grid.y, indexing="ij"))], 1

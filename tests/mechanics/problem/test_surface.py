@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE
 from viscontact.mechanics.problem.surface import surface_of
 
@@ -24,7 +25,7 @@ def test_bodies_without_layers_are_one_half_space():
     surface = surface_of([RUBBER, STEEL])
     assert [term.response for term in surface.terms] == [HALF_SPACE]
     both = RUBBER.contact_compliance() + STEEL.contact_compliance()
-    assert surface.compliance(2.0) == pytest.approx(both(2.0), rel=1e-15)
+    assert surface.compliance(2.0) == close_to(both(2.0), rel=1e-15)
     assert surface.splitting_error == 0
 
 
@@ -43,7 +44,7 @@ def test_layers_that_creep_alike_are_one_exact_term(body):
     assert surface.splitting_error == 0
     # As an elastic body of each material's compliance at that time (Lee 1955).
     for time in (0.0, 0.7):
-        assert displacement(surface, time) == pytest.approx(elastic(body, time), rel=1e-12)
+        assert displacement(surface, time) == close_to(elastic(body, time), rel=1e-12)
 
 
 def elastic(body, time):
@@ -65,7 +66,7 @@ def test_equal_layers_on_the_same_base_are_a_half_space():
     body = vc.Layered([vc.Layer(1e-3, RUBBER), vc.Layer(1e-3, RUBBER)], base=RUBBER)
     half_space = surface_of([RUBBER])
     found = displacement(surface_of([body]), 0.7)
-    assert found == pytest.approx(displacement(half_space, 0.7), rel=1e-12)
+    assert found == close_to(displacement(half_space, 0.7), rel=1e-12)
 
 
 def test_compliances_of_both_bodies_add():
@@ -76,9 +77,9 @@ def test_compliances_of_both_bodies_add():
     assert [len(each.terms) for each in (alike, other)] == [1, 2]
     for surface, mate in ((alike, STIFFER), (other, STEEL)):
         both = displacement(surface_of([cover]), 0.7) + mate.contact_compliance()(0.7)
-        assert displacement(surface, 0.7) == pytest.approx(both, rel=1e-12)
+        assert displacement(surface, 0.7) == close_to(both, rel=1e-12)
         short = ball(0.7) + mate.contact_compliance()(0.7)
-        assert surface.compliance(0.7) == pytest.approx(short, rel=1e-12)
+        assert surface.compliance(0.7) == close_to(short, rel=1e-12)
 
 
 def test_the_elastic_body_at_a_time_has_all_terms():
@@ -86,7 +87,7 @@ def test_the_elastic_body_at_a_time_has_all_terms():
     surface = surface_of([body, STEEL])
     for time in (0.0, 0.7):
         at_time = surface.response_at(time).ratio(Q) * surface.compliance(time)
-        assert at_time == pytest.approx(displacement(surface, time), rel=1e-9)
+        assert at_time == close_to(displacement(surface, time), rel=1e-9)
 
 
 def test_the_creep_function_of_a_cover_is_that_of_its_law():
@@ -97,4 +98,4 @@ def test_the_creep_function_of_a_cover_is_that_of_its_law():
     assert len(surface.terms) == 2
     assert surface.splitting_error < 1e-7
     for time in (0.0, 1e-3, 7.0):
-        assert surface.compliance(time) == pytest.approx(cover.contact_compliance()(time), rel=1e-7)
+        assert surface.compliance(time) == close_to(cover.contact_compliance()(time), rel=1e-7)

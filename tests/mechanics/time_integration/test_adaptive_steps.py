@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from closeness import close_to
 from viscontact.bodies.loads import harmonic
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.loads import ApproachHistory, ForceHistory, ramp, step
@@ -47,7 +48,7 @@ def test_stops_kinks_and_end_are_all_hit_and_no_step_is_longer_than_asked(stops,
     taken, _ = walk(steps, lambda each: cubic(each, scale))
     ends = {each.time for each in taken}
     assert {*stops, 10.0, *(kink for kink in knots if kink < 10)} <= ends
-    assert sum(each.duration for each in taken) == pytest.approx(10.0)
+    assert sum(each.duration for each in taken) == close_to(10.0)
     assert taken[-1].time == 10.0
     assert all(scale * each.duration**3 <= 0.2 * 1e-2 * (1 + 1e-9) for each in taken)
     shown = [each.requested for each in taken if each.requested is not None]
@@ -82,7 +83,7 @@ def test_smaller_tolerance_takes_steps_by_its_cube_root():
                  cubic)[0])
         for t in (1e-3, 1e-6)
     ]  # fmt: skip
-    assert counts[1] / counts[0] == pytest.approx(10.0, rel=0.2)
+    assert counts[1] / counts[0] == close_to(10.0, rel=0.2)
 
 
 def test_a_refused_step_is_shortened_and_offered_again():
@@ -92,7 +93,7 @@ def test_a_refused_step_is_shortened_and_offered_again():
     assert not steps.accept_step(1.0)
     again = steps.next_step()
     assert again.time - again.duration == first.time - first.duration
-    assert again.duration == pytest.approx(0.2 * first.duration)
+    assert again.duration == close_to(0.2 * first.duration)
 
 
 def test_a_first_step_creeps_little():
@@ -106,7 +107,7 @@ def test_a_first_step_creeps_little():
 def test_steps_begin_small_where_bodies_come_to_touch():
     load = ApproachHistory([0.0, 10.0], [-1e-6, 1.5e-6])
     taken, _ = walk(AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), load, KELVIN))
-    touch = next(k for k, each in enumerate(taken) if each.time == pytest.approx(4.0, rel=1e-14))
+    touch = next(k for k, each in enumerate(taken) if each.time == close_to(4.0, rel=1e-14))
     assert KELVIN(taken[touch + 1].duration) < 1.1 * KELVIN(0.0)
     assert taken[touch].duration > 10 * taken[touch + 1].duration
 

@@ -3,10 +3,10 @@
 from itertools import pairwise
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from closeness import close_to
 from viscontact.bodies.loads import harmonic
 from viscontact.loads import ApproachHistory, ForceHistory, ramp, step
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps
@@ -26,7 +26,7 @@ def test_steps_tile_the_run_and_give_each_instant_asked_for_once(times, force, d
     steps = plan_steps(times, load)
     assert steps[0].time == 0.0
     assert steps[0].is_jump
-    assert sum(each.duration for each in steps) == pytest.approx(times[-1])
+    assert sum(each.duration for each in steps) == close_to(times[-1])
     assert [each.requested for each in steps if each.requested is not None] == times.tolist()
     for before, after in pairwise(steps):
         assert after.time - before.time == after.duration >= 0
@@ -79,8 +79,8 @@ def test_a_swinging_load_is_stepped_as_finely_as_it_needs_until_it_rests():
     steps = plan_steps(np.array([0.0, 0.25, 12.8, 20.0]), load)
     durations = [each.duration for each in steps[1:]]
     assert max(durations[:-1]) <= 0.1 + 1e-12
-    assert durations[:3] == pytest.approx([0.25 / 3] * 3)
-    assert durations[-1] == pytest.approx(7.2)
+    assert durations[:3] == close_to([0.25 / 3] * 3)
+    assert durations[-1] == close_to(7.2)
     assert [each.requested for each in steps if each.requested is not None] == [
         0.0,
         0.25,
@@ -92,7 +92,7 @@ def test_a_swinging_load_is_stepped_as_finely_as_it_needs_until_it_rests():
 def test_bodies_come_to_touch_at_the_end_of_a_step():
     times = np.arange(5.0)
     taken = plan_steps(times, ApproachHistory([0, 4], [-1e-6, 1.5e-6]))
-    assert [each.time for each in taken] == pytest.approx([0, 1, 1.6, 2, 3, 4], rel=1e-14)
+    assert [each.time for each in taken] == close_to([0, 1, 1.6, 2, 3, 4], rel=1e-14)
     assert [each.requested for each in taken] == [0, 1, None, 2, 3, 4]
     # As after a kink, nothing is extrapolated from before.
     assert [each.smooth for each in taken] == [False, False, True, False, True, True]

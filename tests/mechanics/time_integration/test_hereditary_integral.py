@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from closeness import close_to
 from verification.independent import superposed
 from viscontact.bodies.materials.compliance import LawCompliance, SeriesCompliance
 from viscontact.laws import PowerLaw
@@ -43,7 +44,7 @@ def uneven(end, seed=2, steps=12):
 def test_under_a_held_value_the_displacement_is_the_creep_compliance(law):
     times = uneven(40.0)
     # Exact; rounding only, as in all of the following.
-    assert follow(law, times, np.ones(13)) == pytest.approx(law(times), rel=1e-13)
+    assert follow(law, times, np.ones(13)) == close_to(law(times), rel=1e-13)
 
 
 def test_a_ramp_then_held_follows_the_integral_for_each_term():
@@ -60,14 +61,14 @@ def test_a_ramp_then_held_follows_the_integral_for_each_term():
     values, held = np.minimum(times / end, 1.0), 2 * np.minimum(times / end, 1.0)
     for law, integral in ((KELVIN, kelvin), (FLUID, fluid)):
         expected = held + (integral(times) - integral(times - end)) / end
-        assert follow(law, times, values) == pytest.approx(expected, rel=1e-12)
+        assert follow(law, times, values) == close_to(expected, rel=1e-12)
 
 
 def test_every_history_is_the_superposition_of_its_steps():
     values = np.random.default_rng(8).standard_normal(13)
     times = uneven(3.0)
     expected = [superposed(WIDE, times[: i + 1], values[: i + 1]) for i in range(13)]
-    assert follow(WIDE, times, values) == pytest.approx(expected, rel=1e-12)
+    assert follow(WIDE, times, values) == close_to(expected, rel=1e-12)
 
 
 def test_a_jump_meets_the_instant_compliance_only():
@@ -79,11 +80,11 @@ def test_a_jump_meets_the_instant_compliance_only():
     response = memory.jump()
     # Held 5 s, then taken away at once: what is left is the delayed part.
     assert response.compliance == 2.0
-    assert response.history[0] == pytest.approx(1.5 * (1 - np.exp(-5 / 3)), rel=1e-14)
+    assert response.history[0] == close_to(1.5 * (1 - np.exp(-5 / 3)), rel=1e-14)
     memory.accept(np.array([0.0]))
     later = memory.ramp(7.0)
     fading = 1.5 * (1 - np.exp(-5 / 3)) * np.exp(-7 / 3)
-    assert later.history[0] == pytest.approx(fading, rel=1e-13)
+    assert later.history[0] == close_to(fading, rel=1e-13)
 
 
 @given(st.floats(1e-6, 1.0), st.floats(0.01, 0.99), st.floats(-1, 1), st.floats(-1, 1))
@@ -91,7 +92,7 @@ def test_splitting_a_step_in_two_changes_nothing(length, part, start, end):
     middle = start + part * (end - start)
     one = follow(KELVIN, [0.0, length], [start, end])[-1]
     two = follow(KELVIN, [0.0, part * length, length], [start, middle, end])[-1]
-    assert two == pytest.approx(one, rel=1e-12, abs=1e-14)
+    assert two == close_to(one, rel=1e-12, abs=1e-14)
 
 
 def test_smooth_histories_converge_with_the_square_of_the_step():
@@ -104,7 +105,7 @@ def test_smooth_histories_converge_with_the_square_of_the_step():
         times = np.linspace(0.0, end, steps + 1)
         errors.append(abs(follow(KELVIN, times, np.sin(times))[-1] - exact))
     rates = np.log2(np.divide(errors[:-1], errors[1:]))
-    assert rates == pytest.approx(2.0, abs=0.02)
+    assert rates == close_to(2.0, abs=0.02)
     assert errors[-1] < 1e-4
 
 
@@ -114,7 +115,7 @@ def test_a_step_tiny_against_the_law_is_taken_to_rounding(ratio):
     h = 3.0 * ratio
     response = InternalVariables(KELVIN, (1,)).ramp(h)
     series = 1.5 * ratio / 2 * (1 - ratio / 3 * (1 - ratio / 4 * (1 - ratio / 5 * (1 - ratio / 6))))
-    assert response.compliance - 2.0 == pytest.approx(series, rel=1e-4 * ratio**4, abs=5e-16)
+    assert response.compliance - 2.0 == close_to(series, rel=1e-4 * ratio**4, abs=5e-16)
 
 
 @pytest.mark.parametrize("law", [KELVIN, SeriesCompliance(0.1, [5.0, 9.0], [1e-6, 1e-3])])
@@ -144,7 +145,7 @@ def test_equation_of_the_first_kind_is_solved_to_second_order(exponent):
         found = solved(LawCompliance(PowerLaw(1.0, n, 1.0), 1.0), times, wanted)
         errors.append(np.abs(found - times**2)[steps // 2 :].max())
     rates = np.log2(np.divide(errors[:-1], errors[1:]))
-    assert rates == pytest.approx(2.0, abs=0.1)
+    assert rates == close_to(2.0, abs=0.1)
     assert errors[-1] < 1e-4
 
 
@@ -184,7 +185,7 @@ def test_a_resolved_step_after_a_jump_errs_by_less_than_two_percent(delayed):
             exact = (1 + delayed * math.exp(-fast)) / (1 + delayed) if delayed else math.exp(-fast)
             resolved[length] = (response.resolved, abs(left - exact))
         longest = max(length for length, (short, _) in resolved.items() if short)
-        assert law(longest) - 1.0 == pytest.approx(0.5, rel=0.03)
+        assert law(longest) - 1.0 == close_to(0.5, rel=0.03)
         assert max(error for short, error in resolved.values() if short) < 0.02
         assert max(error for _, error in resolved.values()) > 0.05
 
@@ -202,7 +203,7 @@ def test_a_held_displacement_relaxes_in_one_step_of_any_length(length):
         memory.accept(np.ones(1))  # and so the displacement is J(0) = 1
         response = memory.ramp(length)
         left = float((1.0 - response.history[0]) / response.compliance)
-        assert left == pytest.approx(exact, abs=0.08)
+        assert left == close_to(exact, abs=0.08)
         assert left > 0  # a body that is held down is never let go
 
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from closeness import close_to
 from viscontact.mechanics.time_integration.requested_times import (
     AdaptiveTimes,
     adaptive_times,
@@ -23,7 +24,7 @@ def test_uniform_times_are_even_from_exactly_0_to_exactly_the_end(end, n):
     assert times.shape == (n + 1,)
     assert (times[0], times[-1]) == (0.0, end)
     # An instant is rounded to a part of the end, and so is the step between two.
-    assert np.diff(times) == pytest.approx(end / n, abs=2e-16 * end)
+    assert np.diff(times) == close_to(end / n, abs=2e-16 * end)
 
 
 @given(first=st.floats(1e-9, 1e3), ratio=st.floats(1.1, 1e12), n=st.integers(2, 400))
@@ -35,11 +36,11 @@ def test_log_times_are_0_and_a_geometric_progression_to_exactly_the_end(first, r
     assert (np.diff(times) > 0).all()
     # Logarithms up to 30 are rounded to 4e-15, and the quotient of two instants with them.
     quotients = times[2:] / times[1:-1]
-    assert quotients == pytest.approx(ratio ** (1 / (n - 1)), rel=2e-14)
+    assert quotients == close_to(ratio ** (1 / (n - 1)), rel=2e-14)
 
 
 def test_log_times_by_hand():
-    assert log_times(0.25, 16.0, 4).tolist() == pytest.approx([0, 0.25, 1, 4, 16], rel=1e-14)
+    assert log_times(0.25, 16.0, 4).tolist() == close_to([0, 0.25, 1, 4, 16], rel=1e-14)
 
 
 def test_a_single_log_step_goes_straight_to_the_end():

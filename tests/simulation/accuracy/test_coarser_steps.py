@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.simulation.accuracy.coarser_grids import coarser_grid
 from viscontact.simulation.accuracy.coarser_runs import usual_coarsening
 from viscontact.simulation.accuracy.coarser_steps import (
@@ -38,7 +38,7 @@ def test_first_steps_are_those_behind_jumps():
     assert (begins.tolist(), durations.tolist()) == ([1.0], [2.0])
     parts = parts_of_first_steps(np.array([0.0, 1.0, 2.0]), jumps=np.array([1.0]))
     progression = [1.001, 1.002, 1.004, 1.007, 1.012, 1.023, 1.043, 1.081, 1.152, 1.285, 1.534, 2.0]
-    assert parts == pytest.approx(progression, abs=5e-4)
+    assert parts == close_to(progression, abs=5e-4)
 
 
 def test_steps_that_are_shared_are_divided():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.meshing.cell_limit import with_small_cells
@@ -27,7 +28,7 @@ def test_cells_have_the_limit_where_the_tolerance_allows_larger_ones(part):
     own = grid_of(ball, load)
     limit = tuple(length * p for length, p in zip(own.cell_size, part, strict=True))
     grid = grid_of(ball, load, largest_cell=limit)
-    assert grid.cell_size == pytest.approx(np.minimum(own.cell_size, limit).tolist(), rel=1e-12)
+    assert grid.cell_size == close_to(np.minimum(own.cell_size, limit).tolist(), rel=1e-12)
     assert all(np.greater_equal(grid.size, np.multiply(own.size, 1 - 1e-6)))
     assert not any(count % 4 for count in grid.shape)
 
@@ -42,9 +43,9 @@ def test_limits_above_the_chosen_cells_change_nothing():
 def test_small_cells_end_where_the_body_ends():
     for limit in (260e-6, 110e-6):
         dx, dy = grid_of(ROLLER, vc.step(200.0), largest_cell=(limit, 8e-6)).cell_size
-        assert dy == pytest.approx(8e-6, rel=1e-12)
+        assert dy == close_to(8e-6, rel=1e-12)
         assert 0.9 * limit < dx <= limit
-        assert 8e-3 / (2 * dx) == pytest.approx(round(8e-3 / (2 * dx)), abs=1e-9)
+        assert 8e-3 / (2 * dx) == close_to(round(8e-3 / (2 * dx)), abs=1e-9)
 
 
 def test_equal_cells_give_equal_limits_of_rollers_on_any_load():
@@ -52,7 +53,7 @@ def test_equal_cells_give_equal_limits_of_rollers_on_any_load():
     dx, dy = grid_of(ROLLER, vc.step(75.0)).cell_size
     limit = (float(f"{dx:.9g}"), float(f"{dy:.9g}"))
     for force in (75.0, 400.0):
-        assert grid_of(ROLLER, vc.step(force), largest_cell=limit).cell_size == pytest.approx(
+        assert grid_of(ROLLER, vc.step(force), largest_cell=limit).cell_size == close_to(
             (dx, dy), rel=2e-9
         )
 

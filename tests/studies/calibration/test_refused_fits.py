@@ -11,6 +11,7 @@ import pytest
 from tests.studies.calibration.experiments import ELASTIC_BALL, MODULUS, hertz_depth, written
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.case import read_case
 from viscontact.studies.calibration.preparation import experiment_of
 from viscontact.studies.calibration.record import read_record
@@ -91,8 +92,8 @@ def test_a_table_is_read_and_its_faults_name_lines(tmp_path: Path) -> None:
     assert record.times[1] == 60.0
     assert record.force is not None
     assert record.approach is not None
-    assert record.force[5] == pytest.approx(5e-3)
-    assert record.approach[5] == pytest.approx(1e-5)
+    assert record.force[5] == close_to(5e-3)
+    assert record.approach[5] == close_to(1e-5)
     table.write_text(f"time [min], force [mN], depth [um]\n{rows}1, 2, 3\n")
     with pytest.raises(ValueError, match=r"line 8 of a\.csv: must not be before the row above"):
         read_record(table)

@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import ttest_1samp
 
+from closeness import close_to
 from viscontact.studies.calibration.fit_case import notes_on
 from viscontact.studies.calibration.search import (
     Evaluate,
@@ -74,7 +75,7 @@ def test_the_optimum_is_that_of_the_cells_of_the_case_and_the_shift_is_stated() 
     found = searched(evaluate_of(decay, decay(TRUE), error=0.02))
     np.testing.assert_allclose(found.point, TRUE, rtol=1e-4)
     coarse = ((1 + 2 * TRUE[0]) / 1.02 - 1) / 2
-    assert found.point[0] - found.shift[0] == pytest.approx(coarse, rel=1e-3)
+    assert found.point[0] - found.shift[0] == close_to(coarse, rel=1e-3)
 
 
 def test_values_without_a_run_are_avoided() -> None:
@@ -104,7 +105,7 @@ def test_interval_of_a_mean_is_students() -> None:
     ones = np.ones((4, 1))
     found = Optimum(np.array([values.mean()]), np.zeros(1), values.mean() - values, ones, True)
     (low, high) = ttest_1samp(values, 0.0).confidence_interval(0.95)
-    assert found.reach(0.95)[0] == pytest.approx((high - low) / 2, rel=1e-12)
+    assert found.reach(0.95)[0] == close_to((high - low) / 2, rel=1e-12)
 
 
 def test_spent_runs_leave_the_best_values_with_a_note() -> None:
@@ -125,7 +126,7 @@ def test_inseparable_parameters_are_named() -> None:
     found = searched(evaluate_of(product, product(TRUE) + scatter))
     notes = list(notes_on(UNKNOWNS, found, 0.95, 100))
     assert "material.shear_modulus and material.viscosity cannot be distinguished" in notes[0]
-    assert np.prod(1 + found.point) == pytest.approx(np.prod(1 + TRUE), rel=1e-3)
+    assert np.prod(1 + found.point) == close_to(np.prod(1 + TRUE), rel=1e-3)
 
 
 def test_a_value_at_its_bound_is_named_with_the_bound() -> None:

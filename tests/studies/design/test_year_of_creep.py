@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 
 WEEK, YEAR = 7 * 86400.0, 365.25 * 86400.0
 # Half of the creep happens within the first second, the other half within the first week.
@@ -48,7 +49,7 @@ def test_the_gain_over_a_year_follows_the_growing_contact(tmp_path: Path) -> Non
             creep = 0.5e-6 * (3 - np.exp(-time / 0.1) - np.exp(-time / 86400))
             exact = (3 * 5e-3 * force * 0.5 * creep / 4) ** (2 / 3) / 5e-3
             approach = float(run.approach.sel(time=time, method="nearest"))
-            assert approach == pytest.approx(exact, rel=0.01)
+            assert approach == close_to(exact, rel=0.01)
     found.report(tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     table = re.findall(r"<td>Approach</td><td>(.*?)</td>.*?</tr>", page)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from tests.studies.sensitivity.cases import HERTZ, written
 
+from closeness import close_to
 from viscontact.bodies.grid import Grid
 from viscontact.case import read_case
 from viscontact.studies.cells import coarser, covering, grid_setting
@@ -38,11 +39,11 @@ def test_the_grid_covers_all_others_on_cells_of_the_nominal_one(other: Grid) -> 
             assert edges(found, axis)[0] <= low + 1e-12
             assert edges(found, axis)[1] >= high - 1e-12
         ratio = NOMINAL.cell_size[axis] / found.cell_size[axis]
-        assert ratio == pytest.approx(round(ratio), rel=1e-12)
+        assert ratio == close_to(round(ratio), rel=1e-12)
         assert found.cell_size[axis] <= 1.5 * other.cell_size[axis] * (1 + 1e-9)
     # Cells end at the same places.
     shift = np.subtract(edges(found, 0)[0], edges(NOMINAL, 0)[0]) / found.cell_size[0]
-    assert shift == pytest.approx(round(float(shift)), abs=1e-9)
+    assert shift == close_to(round(float(shift)), abs=1e-9)
 
 
 def test_the_setting_of_a_grid_is_read_back(tmp_path: Path) -> None:
@@ -52,7 +53,7 @@ def test_the_setting_of_a_grid_is_read_back(tmp_path: Path) -> None:
 
 
 def test_coarser_cells_are_twice_as_long() -> None:
-    assert coarser(NOMINAL).cell_size == pytest.approx(2 * np.array(NOMINAL.cell_size))
+    assert coarser(NOMINAL).cell_size == close_to(2 * np.array(NOMINAL.cell_size))
 
 
 def test_all_runs_have_one_grid_and_coarse_ones_another(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from closeness import close_to
 from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.processes.child import Ended
@@ -125,9 +126,9 @@ def test_status_counts_runs_and_expects_the_time_left(tmp_path: Path) -> None:
         assert sweep_status(place / "runs.jsonl").counts == status.counts
     counts = {state.value: count for state, count in status.counts.items()}
     assert counts == {"waiting": 1, "running": 1, "stopped": 1, "failed": 1, "done": 2}
-    assert status.part == pytest.approx((2 + 0.5 + 0.75 + 1 + 0) / 6)
+    assert status.part == close_to((2 + 0.5 + 0.75 + 1 + 0) / 6)
     # half a run and a waiting one, one at a time
-    assert status.left == pytest.approx(15.0)
+    assert status.left == close_to(15.0)
     assert not status.has_ended
     assert [each.name for each in status.listed[State.FAILED]] == ["run 4"]
 

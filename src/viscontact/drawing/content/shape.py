@@ -52,7 +52,7 @@ class DrawnShape:
         """True if both sections are the same."""
         first, second = self.sections
         return first.position.shape == second.position.shape and bool(
-            np.allclose(first.position, second.position)
+            np.allclose(first.position, second.position, atol=1e-9 * first.position[-1])
             and np.allclose(first.gap, second.gap, rtol=1e-6, atol=1e-6 * first.top, equal_nan=True)
         )
 

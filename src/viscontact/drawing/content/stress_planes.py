@@ -59,8 +59,8 @@ class StressPlane:
         row, column = np.unravel_index(int(self.stress.argmax()), self.stress.shape)
         depth = float(self.depths[row])
         steps = np.diff(self.depths)[max(row - 1, 0) : row + 1]
-        if 0 < row < len(self.depths) - 1 and np.allclose(*steps):  # unequal at an interface
-            # Vertex of a parabola: discrete depths would give steps over time.
+        if 0 < row < len(self.depths) - 1 and np.ptp(steps) < 1e-5 * steps[0]:
+            # Not at an interface: vertex of a parabola; discrete depths would give steps over time.
             before, here, after = self.stress[row - 1 : row + 2, column]
             depth += float(steps[0] * (before - after) / (2 * (before - 2 * here + after)))
         return float(self.stress.max()), depth, float(self.across[column])

@@ -22,7 +22,7 @@ def compromises(count: int) -> list[tuple[float, ...]]:
     equal = (1 / count,) * count
     lattice = (row for row in product(range(1, _PARTS), repeat=count) if sum(row) == _PARTS)
     found = [tuple(each / _PARTS for each in row) for row in lattice]
-    return [*(row for row in found if not np.allclose(row, equal)), equal]
+    return [*(row for row in found if not np.allclose(row, equal, atol=0)), equal]
 
 
 def searched_trade_off(trials: Trials) -> list[Searched]:

@@ -12,6 +12,7 @@ from hypothesis.extra.numpy import arrays
 from mpmath import mp
 from scipy.special import exp1
 
+from closeness import close_to
 from viscontact.bodies.laws.interconversion.curve_transform import oscillating
 from viscontact.bodies.laws.interconversion.log_curve import LogCurve, mean_power
 from viscontact.laws import CreepSeries
@@ -45,7 +46,7 @@ def test_means_are_integrals_over_lengths_wherever_they_begin_and_end(curve, at,
     end = start + 10.0**over
     if end - start < 1e-6 * start:
         return  # the rounding of the interval itself would be seen
-    assert curve.mean(start, end) == pytest.approx(by_panels(curve, start, end), rel=1e-13)
+    assert curve.mean(start, end) == close_to(by_panels(curve, start, end), rel=1e-13)
 
 
 @each_curve
@@ -53,7 +54,7 @@ def test_means_are_integrals_over_lengths_wherever_they_begin_and_end(curve, at,
 def test_means_over_next_to_nothing_are_values(curve, at, width):
     start = 10.0**at
     mean = curve.mean(start, start * (1 + 10.0**width))
-    assert mean == pytest.approx(float(curve(start)), rel=1e-5 * 10.0 ** (width + 6) + 1e-13)
+    assert mean == close_to(float(curve(start)), rel=1e-5 * 10.0 ** (width + 6) + 1e-13)
 
 
 @given(st.floats(-0.95, 1.0), st.floats(-10, 10), st.floats(-14, 3))
@@ -67,7 +68,7 @@ def test_mean_of_a_power_keeps_its_digits(exponent, at, width):
     middle = (start + end) / 2
     relative = (end - start) / start
     if relative < 0.1:
-        assert mean == pytest.approx(middle**exponent, rel=relative**2 / 6 + 1e-14)
+        assert mean == close_to(middle**exponent, rel=relative**2 / 6 + 1e-14)
 
 
 @given(
@@ -168,4 +169,4 @@ def test_mean_of_a_steep_fall_is_that_of_its_integral(exponent, ratio):
     with np.errstate(over="raise", invalid="raise"):
         mean = mean_power(exponent, np.array(1.0), np.array(ratio))
     # The ratio as a difference from 1 has lost 1e-16 / 1e-9 of its digits before it comes here.
-    assert mean == pytest.approx(exact, rel=1e-12)
+    assert mean == close_to(exact, rel=1e-12)

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from closeness import close_to
 from viscontact.bodies.laws.interconversion.series import (
     RelaxationTerms,
     SeriesTerms,
@@ -113,7 +114,7 @@ def test_there_and_back_is_the_same_creep_function(spectrum, instant, fluidity):
     back = creep_from_relaxation(*relaxation_from_creep(*creep))
     t = np.logspace(-14, 14, 57)
     np.testing.assert_allclose(creep_function(back, t), creep_function(creep, t), rtol=1e-10)
-    assert back.fluidity == pytest.approx(fluidity, rel=1e-10)
+    assert back.fluidity == close_to(fluidity, rel=1e-10)
 
 
 @given(
@@ -127,7 +128,7 @@ def test_there_and_back_returns_every_term_of_a_separated_spectrum(
 ):
     times = 1e-4 * np.cumprod(ratios)
     back = creep_from_relaxation(*relaxation_from_creep(instant, strengths, times, fluidity))
-    assert back.instant == pytest.approx(instant, rel=1e-10)
+    assert back.instant == close_to(instant, rel=1e-10)
     np.testing.assert_allclose(back.times, times, rtol=1e-10)
     np.testing.assert_allclose(back.amplitudes, strengths, rtol=1e-10)
 
@@ -151,7 +152,7 @@ def test_pmma_relaxation_is_the_pair_published_for_its_creep():
     creep = SeriesTerms(5.545e-4, np.array([6.17e-5, 8.38e-5]), 1 / np.array([0.1, 7.47e-3]), 0.0)
     relaxation = relaxation_from_creep(*creep)
     # The printed digits: two decimals of the moduli, three of the times' first digits.
-    assert relaxation.equilibrium == pytest.approx(1428.57, abs=0.005)
+    assert relaxation.equilibrium == close_to(1428.57, abs=0.005)
     np.testing.assert_allclose(relaxation.moduli, [184.15, 190.71], atol=0.005)
     np.testing.assert_allclose(relaxation.times, [8.989, 117.97], rtol=1e-4)
 
@@ -184,7 +185,7 @@ def convolution(creep, relaxation, t):
 def test_convolution_of_modulus_and_compliance_is_time(creep, t):
     # Gauss-Legendre on graded panels resolves these integrands to rounding.
     relaxation = relaxation_from_creep(*creep)
-    assert convolution(creep, relaxation, t) == pytest.approx(t, rel=1e-11)
+    assert convolution(creep, relaxation, t) == close_to(t, rel=1e-11)
 
 
 def test_elastic_has_no_terms_either_way():
@@ -195,7 +196,7 @@ def test_elastic_has_no_terms_either_way():
 
 
 def test_flow_and_equilibrium_exclude_each_other():
-    assert creep_from_relaxation(0.0, [2.0, 3.0], [1.0, 4.0]).fluidity == pytest.approx(1 / 14)
+    assert creep_from_relaxation(0.0, [2.0, 3.0], [1.0, 4.0]).fluidity == close_to(1 / 14)
     assert creep_from_relaxation(1e-9, [2.0, 3.0], [1.0, 4.0]).fluidity == 0.0
     assert relaxation_from_creep(1.0, [2.0], [1.0], 1e-9).equilibrium == 0.0
 
@@ -209,7 +210,7 @@ def test_equal_times_add_up():
 def test_creep_shortly_after_the_step_keeps_its_digits():
     # 1 - exp(-x) = x - x²/2: in double precision the naive form has 4 digits left here.
     terms = SeriesTerms(0.0, np.array([1.0]), np.array([1e12]), 0.0)
-    assert creep_function(terms, np.array([1.0]))[0] == pytest.approx(1e-12 - 0.5e-24, rel=1e-15)
+    assert creep_function(terms, np.array([1.0]))[0] == close_to(1e-12 - 0.5e-24, rel=1e-15)
 
 
 def test_creep_without_instant_compliance_has_no_relaxation_series():
