@@ -54,6 +54,9 @@ INITIAL_STEP_LENGTH = 0.8
 #: longer one cuts off too many cells.
 TRIAL_STEP_FACTOR = 0.85
 
+#: Length of a step above which a direction counts as one without stiffness.
+LONGEST_STEP = 1e5
+
 #: A step of less than this part of the way to the trial pressure is not taken.
 MIN_STEP_FRACTION = 0.1
 
@@ -113,6 +116,9 @@ class BoundedCG:
             self._rim_stiffness.follow(active, self._active, self._spare)
         found = self.patch.preconditioner.apply(residual, into=self._spare)
         self._rim_stiffness.correct(found, residual)
+        if not self.problem.constraints.free[0] and active.all():
+            # The preconditioner drops the mean: that of the longest wave.
+            found += residual.mean() * np.float32(np.pi / self.patch.arm)
         # Step 3: project.
         self._project(found, active, inverse)
         # Step 4: conjugate; beta = max(<z, r - r_old> / <z_old, r_old>, 0) (Polak & Ribiere).
@@ -181,8 +187,10 @@ class BoundedCG:
         plane, direction = self.patch.plane, self._direction
         change = self._unit_displacement_of(direction)
         curvature, slope = _inner(plane, direction, change, self._residual)
-        if curvature <= 0:
+        if curvature <= -slope / LONGEST_STEP:
+            # A uniform pressure on a periodic grid displaces nothing: only a bound ends the step.
             self._slope = 0.0
+            self._step_to_first_bound(LONGEST_STEP)
             return
         self._length = length = -slope / curvature
         # Step 5: cut off tension; a plane factor restores the balances.
@@ -194,6 +202,7 @@ class BoundedCG:
         others = self.problem.constraints, plane, self.patch.cell_area
         self._ahead[...] = project_onto_balance(self.iterate.pressure, self._active, *others)
         if not self._project_to_feasible(is_ahead=True):
+            self._move(-length, self._direction)
             self._step_to_first_bound(length)
 
     def _is_projected_trial(self) -> bool:
@@ -257,12 +266,11 @@ class BoundedCG:
         return min(self.patch.plane.each(moved))
 
     def _step_to_first_bound(self, length: float) -> None:
-        """Go back, and step until the first cell loses its pressure, which keeps the balances."""
-        self._move(-length, self._direction)
+        """Step until the first cell loses its pressure, which keeps the balances."""
         pressure = self.iterate.pressure
         step = np.multiply(self._direction, length * self._force_unit, dtype=np.float64)
         room = np.divide(pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
-        part = float(room.min())
+        part = float(room.min(initial=1.0))
         self._move(length * part, self._direction)
         # Exactly zero: a remainder from rounding would keep all later steps as short.
         pressure[room == part] = 0.0
