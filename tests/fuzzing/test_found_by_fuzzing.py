@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pydantic
 import pytest
 
 import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.materials.cards import read_card
 from viscontact.case import CaseError, read_case
-from viscontact.case.loads.sentences import read_sentences, split_sentences
+from viscontact.case.loads.sentences import Sentences, split_sentences
 from viscontact.cli import main
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.fixed_steps import MAX_STEPS, plan_steps
@@ -77,7 +78,7 @@ def test_very_many_sentences_are_refused_at_once(tmp_path: Path) -> None:
 
 def test_refusal_of_many_sentences_names_the_first_ten() -> None:
     with pytest.raises(ValueError, match=r"sentence 10.*and 90 more") as caught:
-        read_sentences(["; ".join(["x"] * 100)])
+        pydantic.TypeAdapter(Sentences).validate_python("; ".join(["x"] * 100))
     assert "sentence 11" not in str(caught.value)
 
 
@@ -257,6 +258,22 @@ def test_mean_of_a_table_over_twenty_decades_follows_its_line() -> None:
     # Beyond the last row 1e-6 per decade: the mean of its logarithm from 100 to b is ln(b/100) - 1
     expected = 3e-6 + 1e-6 * (np.log(1e20 / 100) - 1) / np.log(10)
     assert compliance.mean(100.0, 1e20) == close_to(0.5 * expected, rel=1e-12)
+
+
+# --- cells as narrow as no grid that a person writes ---------------------------------------------
+
+
+def test_check_of_a_roller_under_next_to_no_load_is_an_estimate(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    roller = "{shape: roller, radius: 5 mm, half_length: 9.565 mm, crown_radius: 75 mm}"
+    case = CASE.replace("{shape: sphere, radius: 10 mm}", roller).replace("4 N", "1.5 nN")
+    (tmp_path / "case.yaml").write_text(case, encoding="utf-8")
+    # The cells of the estimate are 2e7 times as long as they are wide.
+    main(["check", str(tmp_path / "case.yaml")])
+    said = capsys.readouterr()
+    assert "unexpected" not in said.err
+    assert "peak pressure" in said.out
 
 
 # --- memory -----------------------------------------------------------------------------------

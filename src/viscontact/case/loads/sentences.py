@@ -49,11 +49,6 @@ def split_sentences(text: str) -> list[str]:
     return [part.strip(" \t\r,") for part in _ENDS.split(text) if part.strip(" \t\r,")]
 
 
-def read_sentences(texts: Sequence[str]) -> list[Sentence]:
-    """Parse sentences, each on its own."""
-    return [sentence for entry in _numbered_entries(texts) for sentence in _sentences_of(entry)]
-
-
 class _Entry(NamedTuple):
     """An entry of a list of sentences: its place, its first sentence's number, its parts."""
 

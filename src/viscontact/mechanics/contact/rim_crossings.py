@@ -121,7 +121,8 @@ def _by_gaps(
     slope = (behind - before) / (2 * (rise - base))
     # Ratios that differ by rounding share a law.
     dx, dy = grid.cell_size
-    laws = [edge_law(round(ratio, 6), periodic=all(grid.periodic)) for ratio in (dy / dx, dx / dy)]
+    ratios = (round(ratio, 6 if ratio > 1e-3 else 15) for ratio in (dy / dx, dx / dy))
+    laws = [edge_law(ratio, periodic=all(grid.periodic)) for ratio in ratios]
     split = intervals.count_along_x
     offset = np.concatenate([laws[0].offset(slope[:split]), laws[1].offset(slope[split:])])
     distance = laws[0].distance(near, far, farther) - offset
