@@ -65,20 +65,10 @@ def _law_panel(
         at, known = (np.asarray(each, dtype=np.float64) for each in rows)
         curves.append(Curve(at, known, ink=SECOND, look="points"))
     x = Axis("Time", ReadableUnit("s", 1.0), span, "log", span[0], in_clock_units=True)
-    return Panel(
-        x, _law_axis(quantity.split()[-1], si, values), tuple(curves), title=quantity, note=note
-    )
-
-
-def _law_axis(symbol: str, si: str, values: Floats) -> Axis:
-    """Axis of values above zero."""
     known = values[np.isfinite(values)]
-    low, high = float(known.min()), float(known.max())
-    if spans_decades(known[0], known[-1]):  # what flows; what relaxes goes to zero on a linear one
-        return Axis.over_decades(symbol, si, 0.8 * low, 1.2 * high)
-    top = 1.08 * high
-    # A curve that moves little is drawn around itself; others down to zero.
-    return Axis.between(symbol, si, low - 0.15 * (top - low) if low > 0.5 * top else 0.0, top)
+    # What flows; what relaxes goes to zero on a linear one.
+    y = _values_axis(quantity.split()[-1], si, known, spans_decades(known[0], known[-1]))
+    return Panel(x, y, tuple(curves), title=quantity, note=note)
 
 
 def _own_times(law: Law) -> tuple[float, ...]:
@@ -156,7 +146,9 @@ def _measured(
         curves.append(Curve(*fitted, ink=_FITTED))
     x = _positive_axis(oscillates, (points for points, _ in sets))
     values = np.concatenate([each for _, each in sets])
-    return Panel(x, _values_axis(name, values), tuple(curves), title=name)
+    si = "1/Pa" if name == "compliance" else "Pa"
+    y = _values_axis(name, si, values, spans_decades(values.min(), values.max()))
+    return Panel(x, y, tuple(curves), title=name)
 
 
 def _positive_axis(oscillates: bool, sets: Iterable[Floats]) -> Axis:
@@ -169,12 +161,14 @@ def _positive_axis(oscillates: bool, sets: Iterable[Floats]) -> Axis:
     return Axis("Time", ReadableUnit("s", 1.0), (low, high), "log", low, in_clock_units=True)
 
 
-def _values_axis(name: str, values: Floats) -> Axis:
-    si = "1/Pa" if name == "compliance" else "Pa"
+def _values_axis(quantity: str, si: str, values: Floats, is_log: bool) -> Axis:
+    """Axis of values above zero."""
     low, high = float(values.min()), float(values.max())
-    if spans_decades(low, high):
-        return Axis.over_decades(name, si, 0.8 * low, 1.2 * high)
-    return Axis.between(name, si, 0.0, 1.08 * high)
+    if is_log:
+        return Axis.over_decades(quantity, si, 0.8 * low, 1.2 * high)
+    top = 1.08 * high
+    # A curve that moves little is drawn around itself; others down to zero.
+    return Axis.between(quantity, si, low - 0.15 * (top - low) if low > 0.5 * top else 0.0, top)
 
 
 def _axis(quantity: str, si: str, values: Floats) -> Axis:
