@@ -258,3 +258,16 @@ def test_stresses_below_a_spot_are_those_of_a_free_half_space(where):
     found = stress_on_section(spot, grid, depths, 0.3, **where)
     assert found.components == close_to(alone.components, abs=1.5 * spot.mean())
     assert spot.mean() < 0.01
+
+
+@pytest.mark.parametrize("bonded", [True, False])
+def test_uniformly_pressed_layers_are_confined_by_their_periods(bonded):
+    """Uniaxial compression, p h/M with M = 2 G (1 - ν)/(1 - 2 ν), creeping as Φ = 1/(2 G) does."""
+    thickness, nu, mean = 3 * WAVE, 0.45, 1e6
+    law = vc.Zener(2e8, 1e8, 1e8)
+    layer = vc.Layered([vc.Layer(thickness, vc.Material(law, nu))], "rigid", bonded=bonded)
+    times = [0.0, 0.5, 2.0, 20.0]
+    first, *_, last = press(vc.Waviness(1e-12, WAVE), square(16), mean, layer, times)
+    for state, time in ((first, 0.0), (last, 20.0)):
+        compression = mean * thickness * (1 - 2 * nu) / (1 - nu) * law(time)
+        assert state.approach == close_to(compression, rel=1e-6)

@@ -151,15 +151,20 @@ def test_equal_layers_are_one():
 
 
 @pytest.mark.parametrize("nu", RATIOS)
-def test_long_waves_compress_layers_on_a_rigid_base(nu):
+def test_uniform_pressure_compresses_layers_on_a_rigid_base_without_lateral_strain(nu):
     own = (1 - nu) / 2  # compliance of the top, of G = 1
     stuck = ElasticStack((ElasticLayer(0.3, 1.0, nu), ElasticLayer(0.7, 4.0, 0.2)), None)
     # Uniaxial compression h/M of each layer, M = 2 G (1 - ν)/(1 - 2ν).
     squeezed = 0.3 * (1 - 2 * nu) / (2 - 2 * nu) + 0.7 / 4 * 0.6 / 1.6
     assert own * stuck.mean_displacement == close_to(squeezed, rel=1e-12)
-    # In plane strain and without lateral stress, h (1 - ν)/(2 G).
-    free = ElasticStack((ElasticLayer(0.3, 1.0, nu, bonded=False),), None)
-    assert free.mean_displacement == close_to(0.3, rel=1e-12)
+    # The limit of long waves where layers are bonded; those that slide spread between the waves, to
+    # h (1 - ν)/(2 G) of one layer in plane strain without lateral stress.
+    q = np.array(1e-7)
+    assert own * 2 / q * stuck.ratio(q) == close_to(squeezed, rel=1e-6, abs=1e-12)
+    layers = (ElasticLayer(0.3, 1.0, nu, bonded=False), ElasticLayer(0.7, 4.0, 0.2, bonded=False))
+    free = ElasticStack(layers, None)
+    assert free.mean_displacement == close_to(stuck.mean_displacement, rel=1e-12)
+    assert own * 2 / q * ElasticStack(layers[:1], None).ratio(q) == close_to(own * 0.3, rel=1e-6)
 
 
 def test_the_response_is_analytic_in_the_wave_number():

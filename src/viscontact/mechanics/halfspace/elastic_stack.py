@@ -34,9 +34,6 @@ from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 #: Wave number times thickness beyond which a layer is a half-space to rounding.
 DEEP = 20.0
 
-#: Wave number times thickness of a wave that is taken as infinitely long.
-LONG_WAVE = 1e-7
-
 #: Below this, ζ cosh ζ - sinh ζ is summed as a series.
 SHALLOW = 0.5
 
@@ -87,12 +84,14 @@ class ElasticStack(SurfaceResponse):
 
     @cached_property
     def mean_displacement(self) -> float:
-        """Displacement under a far extended pressure of 1 Pa per unit compliance of the top [m]."""
-        # Bonded layers are compressed without lateral strain, others slide outwards.
+        """Displacement under a uniform pressure of 1 Pa per unit compliance of the top [m]."""
         if self.base is not None:
             return math.inf
-        q = LONG_WAVE / sum(layer.thickness for layer in self.layers)
-        return float(2 / q * self.ratio(np.array(q)))
+        # Uniaxial compression: not even a layer that slides can spread between equal neighbours.
+        own = ((each.thickness / each.shear_modulus, each.poisson_ratio) for each in self.layers)
+        top = self.layers[0]
+        compressed = sum(part * _softness(ratio) for part, ratio in own)
+        return 2 * top.shear_modulus / (1 - top.poisson_ratio) * compressed
 
     def ratio(self, wave_number: Numbers) -> Numbers:
         """L at wave numbers [1/m]."""

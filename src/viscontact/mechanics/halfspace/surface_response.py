@@ -36,7 +36,7 @@ class SurfaceResponse(ABC):
     @property
     @abstractmethod
     def mean_displacement(self) -> float:
-        """Limit of 2 L(q)/q, the displacement per uniform p and J [m]; inf without a rigid base."""
+        """Displacement per uniform p and J, without strain across [m]; inf without a rigid base."""
 
 
 @dataclass(frozen=True)
