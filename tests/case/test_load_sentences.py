@@ -246,8 +246,23 @@ _WORDS = st.sampled_from(
 )
 
 
+#: By chance alone none of a hundred texts is a history.
+_SENTENCES = st.sampled_from(
+    [
+        *("step to 10 N", "ramp by 2 N in 1 s", "hold for 1 s", "unload in 1 s"),
+        *("repeat the last 2 sentences 3 times", "repeat 2 times", "jump to 3 N at 2 N/s", "½"),
+    ]
+)
+
+
 @given_few_or_many(
-    50, 400, st.one_of(st.text(max_size=60), st.lists(_WORDS, max_size=14).map(" ".join))
+    50,
+    400,
+    st.one_of(
+        st.text(max_size=60),
+        st.lists(_WORDS, max_size=14).map(" ".join),
+        st.lists(_SENTENCES, max_size=5).map(lambda more: "; ".join(["step to 10 N", *more])),
+    ),
 )
 @example("step to 1 / N")
 @example("repeat 999999999 times; repeat 9 times")

@@ -300,16 +300,24 @@ def test_written_numbers_are_read_back(
     )
 
 
+TABLE = "time [s];E' [MPa];T [°C]\n0.5;3.0;20\n1.5;2.0;20\n1e5;1.0;20\n"
 PIECES = st.sampled_from(
     ["time", "t", "f", "E'", "[s]", "(Pa)", " / ", "°C", "1/MPa", "MPa", "Set", "nan", "0,5", "1e5",
      "-", "#", '"', ";", ",", "\t", "\n", "\r", "x", "log_aT", "T", "[", "]", " in ", "Hz", "1.5"]
 )  # fmt: skip
+#: A table with a piece put in somewhere: by chance alone none of a hundred files is a table.
+DAMAGED = st.builds(
+    lambda at, piece: TABLE[:at] + piece + TABLE[at:], st.integers(0, len(TABLE)), PIECES
+)
 
 
 @given_few_or_many(
     150,
     400,
-    st.lists(PIECES, max_size=30).map("".join) | st.text(max_size=40) | st.binary(max_size=40),
+    st.lists(PIECES, max_size=30).map("".join)
+    | DAMAGED
+    | st.text(max_size=40)
+    | st.binary(max_size=40),
 )
 def test_any_file_is_a_finite_table_or_a_value_error(
     tmp_path_factory: pytest.TempPathFactory, content: str | bytes
