@@ -110,14 +110,19 @@ def shown(
 # --- numbers ----------------------------------------------------------------------------------
 
 
-@given(st.floats(1e-3, 1e5), st.floats(1e-6, 2.0), st.sampled_from([-1, 1]), st.integers(1, 6))
+@given(
+    st.floats(1e-3, 1e5),
+    st.floats(1e-6, 2.0) | st.floats(10.0, 200.0),
+    st.sampled_from([-1, 1]),
+    st.integers(1, 6),
+)
 def test_no_digit_is_printed_beyond_the_second_of_the_error(
     size: float, part: float, sign: int, digits: int
 ) -> None:
     value, error = sign * size, part * size
     printed = format_supported(value, error, digits)
     if printed == "0":
-        assert abs(value) < error
+        assert abs(value) <= 0.051 * error  # half a step of the error's second digit
         return
     # Zeros in front of the decimal point only hold places.
     number = Decimal(printed) if "." in printed else Decimal(printed).normalize()
