@@ -8,6 +8,7 @@ import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
+from returned import some
 from synthetic_results import maxwell_sphere
 from synthetic_sweeps import hertz_sweep
 from viscontact import plot
@@ -131,7 +132,7 @@ def test_responses_of_a_sweep_are_the_same_in_matplotlib_and_plotly() -> None:
         assert axes.get_xlabel() == page.layout.xaxis.title.text
         assert axes.get_xscale() == (page.layout.xaxis.type or "linear")
         lines = [line for line in axes.get_lines() if line.get_linestyle() != "None"]
-        for line, curve in zip(lines, page.data, strict=True):
+        for line, curve in some(zip(lines, page.data, strict=True)):
             assert line.get_label() == curve.name
             np.testing.assert_allclose(line.get_xdata(), curve.x, rtol=1e-6)
             np.testing.assert_allclose(line.get_ydata(), curve.y, rtol=1e-6)
@@ -159,7 +160,7 @@ def test_fits_are_the_same_in_matplotlib_and_plotly() -> None:
 
 def test_a_panel_is_the_same_alone_and_beside_others() -> None:
     run = RUNS["held"]
-    for name in drawn_scalars({"": run}):
+    for name in some(drawn_scalars({"": run})):
         alone = history_panel({"": run}, name)
         beside = history_panel({"one": run, "two": run}, name)
         assert alone.y == beside.y

@@ -14,6 +14,7 @@ import typer
 
 import viscontact as vc
 from project.documented import PAGES, ROOT, Reader, blocks, commands, pictures, why_not_run, words
+from returned import some
 from viscontact.cli.shell import app
 
 COMMANDS = typer.main.get_group(app).commands
@@ -119,18 +120,31 @@ def test_tasks_that_pages_name_exist(monkeypatch: pytest.MonkeyPatch) -> None:
     assert spec is not None
     go = module_from_spec(spec)
     loader.exec_module(go)
-    for page in PAGES:
-        for task in re.findall(r"\./go (\w+)", page.read_text(encoding="utf-8")):
-            assert task in go.TASKS, f"{page.name}: ./go {task}"
+    texts = [page.read_text(encoding="utf-8") for page in PAGES]
+    for task in some(re.findall(r"\./go (\w+)", "\n".join(texts))):
+        assert task in go.TASKS, f"./go {task}"
 
 
 def test_a_line_of_a_shell_is_run_or_has_its_reason() -> None:
-    for page in PAGES:
-        for text in kinds(page, "commands"):
-            for command in commands(text):
-                program = command.split()[0]
-                known = why_not_run(command) or program in ("viscontact", "./go", "python")
-                assert known, f"{page.name}: {command}"
+    shown = [
+        (page, command)
+        for page in PAGES
+        for text in kinds(page, "commands")
+        for command in commands(text)
+    ]
+    assert len(shown) > 100
+    for page, command in shown:
+        program = command.split()[0]
+        known = why_not_run(command) or program in ("viscontact", "./go", "python")
+        assert known, f"{page.name}: {command}"
+
+
+def test_pages_show_python_output_and_pictures() -> None:
+    """Of what a single page may have none."""
+    for kind, least in (("python", 40), ("output", 20)):
+        assert sum(len(kinds(page, kind)) for page in PAGES) > least, kind
+    drawn = [each for page in PAGES for each in pictures(page.read_text(encoding="utf-8"), page)]
+    assert len(drawn) > 40
 
 
 LIES = {

@@ -17,6 +17,7 @@ from sphinx.errors import ExtensionError
 
 import viscontact
 import viscontact.plot
+from returned import some
 from viscontact.case.sections import case_schema
 from viscontact.cli.shell import app
 
@@ -71,7 +72,7 @@ def test_the_python_reference_lists_every_public_name(module: ModuleType) -> Non
 
 
 def test_the_python_reference_lists_nothing_that_is_not_there() -> None:
-    for name in listed():
+    for name in some(listed()):
         assert pydoc.locate(name) is not None, name
 
 
@@ -91,7 +92,7 @@ def test_a_source_links_back_to_the_package_that_documents_a_name() -> None:
 
 
 def test_a_module_without_a_page_links_to_a_page_that_exists() -> None:
-    for module, page in extension("docstrings").MODULE_PAGES.items():
+    for module, page in some(extension("docstrings").MODULE_PAGES.items()):
         assert pydoc.locate(module) is not None, module
         assert list(DOCS.glob(f"{page}.*")), page
 
@@ -111,7 +112,7 @@ def test_the_reference_of_case_files_lists_every_key() -> None:
     page = extension("case_file").case_file_reference(schema)
     rows = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
     chosen = set(re.findall(r"^#+ `(\w+): ", page, re.MULTILINE))
-    for section, key in keys(schema):
+    for section, key in some(keys(schema)):
         assert key in rows | chosen, key
         # Each kind has its own place, under the words that the schema has for it.
         assert section in page or section == schema["description"], section
@@ -185,7 +186,7 @@ def entries(page: str) -> Iterator[str]:
 
 
 def test_every_page_is_in_one_table_of_contents() -> None:
-    for page in pages() - {"index"}:
+    for page in some(pages() - {"index"}):
         holders = {
             holder
             for holder in pages() - {page}

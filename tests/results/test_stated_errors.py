@@ -25,6 +25,7 @@ from matplotlib.figure import Figure
 import viscontact as vc
 from closeness import close_to
 from reports_without_pictures import without_pictures
+from returned import some
 from viscontact.cli import main
 from viscontact.cli.run.summary import print_summary
 from viscontact.plot import COMPARISONS, FIGURES
@@ -367,7 +368,7 @@ def test_band_ends_at_value_plus_and_minus_error(
     axes = panel(FIGURES["history"](ds), label)
     [corners] = bands(axes)
     value, error, time = ds[name].values / unit, ds[f"{name}_error"].values / unit, ds.time.values
-    for instant, middle, half_width in zip(time, value, error, strict=True):
+    for instant, middle, half_width in some(zip(time, value, error, strict=True)):
         at = corners[corners[:, 0] == instant, 1]
         assert at.min() == close_to(middle - half_width, rel=1e-12, abs=1e-15)
         assert at.max() == close_to(middle + half_width, rel=1e-12, abs=1e-15)
@@ -502,7 +503,7 @@ def test_legend_names_bands_only_where_they_can_be_seen(
 
 def test_figures_of_older_results_have_no_bands(bare: xr.Dataset) -> None:
     for name in ("history", "hysteresis"):
-        assert not any(bands(axes) for axes in FIGURES[name](bare).axes)
+        assert not any(bands(axes) for axes in some(FIGURES[name](bare).axes))
 
 
 def test_one_wild_error_does_not_flatten_the_curve(bare: xr.Dataset) -> None:

@@ -16,6 +16,7 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
+from returned import some
 
 L = 9.565e-3
 PMMA = vc.Material(
@@ -106,7 +107,7 @@ def test_pressure_rises_where_the_crown_begins_and_the_risers_fade(crown):
 
 @both_families
 def test_the_contact_has_the_outline_of_a_dog_bone(crown):
-    for each in profiles(crown, 0.0):
+    for each in some(profiles(crown, 0.0)):
         assert each.dog_bone > {7500: 0.008, 75: 0.05}[crown]
         assert abs(each.x[each.width.argmax()]) > 0.8 * L
 
@@ -136,7 +137,7 @@ def test_the_far_riser_fades_as_less_of_the_profiled_part_is_in_contact(crown):
 @pytest.mark.parametrize("eccentricity", ECCENTRICITIES)
 def test_creep_lowers_the_peak_and_spreads_the_contact(crown, eccentricity):
     states = [each.state for each in profiles(crown, eccentricity)]
-    for before, after in pairwise(states):
+    for before, after in some(pairwise(states)):
         assert after.peak_pressure < before.peak_pressure
         assert after.contact_area > before.contact_area
         assert after.contact_length > before.contact_length

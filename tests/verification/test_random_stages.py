@@ -15,6 +15,7 @@ import pytest
 
 import viscontact as vc
 from campaigns import tried
+from returned import some
 from verification import independent
 from verification.random_problems import random_problem
 
@@ -100,7 +101,7 @@ def worst_violation(stage, rounding=0.0):
     scale, worst = 1e-12 * max(problem.grid.cell_size), 0.0
     instants, fields, bends = [], [], np.append(load.kinks, load.touches)
     arguments = (problem.indenter, problem.material, load, problem.grid, times)
-    for state in vc.march(*arguments, tolerance=TOLERANCE):
+    for state in some(vc.march(*arguments, tolerance=TOLERANCE)):
         instants.append(state.time)
         fields.append(independent.deflection(state.pressure, problem.grid.cell_size))
         displacement = independent.superposed(compliance, instants, fields, bends)

@@ -10,6 +10,7 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
+from returned import some
 
 TOLERANCE = 1e-8
 
@@ -44,7 +45,7 @@ def distance(one, other):
 
 
 def assert_same(ours, theirs, picture=lambda field: field, names=SCALARS):
-    for one, other in zip(ours, theirs, strict=True):
+    for one, other in some(zip(ours, theirs, strict=True)):
         for name in ("pressure", "gap", "displacement"):
             assert distance(picture(getattr(one, name)), getattr(other, name)) < BOUND, name
         for name in names:
@@ -95,7 +96,7 @@ def test_moved_body_and_moved_force_move_the_field(original):
     other = vc.ForceHistory(load.times, load.force, 0.03 + shift, -0.05)
     wide = vc.Grid((51, 40), (51 * grid.cell_size[0], 1.0))
     theirs = run(moved, rubber, other, wide, times)
-    for one, state in zip(original, theirs, strict=True):
+    for one, state in some(zip(original, theirs, strict=True)):
         assert distance(one.pressure, state.pressure[6:]) < BOUND
         assert distance(one.displacement, state.displacement[6:]) < BOUND
         assert distance(one.tilt_x, state.tilt_x) < BOUND
@@ -144,7 +145,8 @@ def test_level_ball_on_a_grid_around_it_has_its_values_bars_and_place_anywhere()
 def test_softer_body_and_smaller_force_keep_the_contact(original, c):
     softer = vc.Material(vc.Zener(1e6 / c, 5e5 / c, 5e5 / c), 0.4)
     other = vc.ForceHistory(load.times, load.force / c, 0.03, -0.05)
-    for one, state in zip(original, run(lump, softer, other, grid, times), strict=True):
+    theirs = run(lump, softer, other, grid, times)
+    for one, state in some(zip(original, theirs, strict=True)):
         assert ((one.pressure > 0) == (state.pressure > 0)).all()
         assert distance(one.pressure, c * state.pressure) < BOUND
         for name in ("approach", "contact_area", "tilt_x", "tilt_y", "displacement"):

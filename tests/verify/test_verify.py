@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from closeness import close_to
+from returned import some
 from viscontact.backend.errors import ConvergenceError
 from viscontact.bodies.materials.material import Material
 from viscontact.cli import main
@@ -51,7 +52,9 @@ def off_by(error, name="a ball"):
     ],
 )
 def test_every_case_is_within_its_fast_bounds(case):
-    for result in run_case(case, fast=True):
+    results = run_case(case, fast=True)
+    assert len(results) == len(case.quantities) > 0
+    for result in results:
         assert result.passed, result
 
 
@@ -82,7 +85,7 @@ def test_every_law_has_its_case():
 
 def test_creep_and_relaxation_of_each_body_are_inverse():
     """∫ J(t - t') dM(t') = 1 (Boltzmann): what the cases trust, by a plain product rule."""
-    for body in all_bodies():
+    for body in some(all_bodies()):
         end = min(body.end, 300.0)
         edges = end * np.linspace(0, 1, 4001) ** 2
         modulus = body.relaxation(edges)
@@ -95,7 +98,7 @@ def test_a_law_that_is_one_percent_off_fails():
     wrong = Material(Zener(2.02 * G, 2.02 * G, 202 * G), 0.5)
     (case,) = (case for case in CASES if case.name == "ball under a sudden force, Zener")
     twisted = replace(case, compare=partial(_step, replace(zener(), material=wrong)))
-    assert not any(result.passed for result in run_case(twisted, fast=True)[:2])
+    assert not any(result.passed for result in some(run_case(twisted, fast=True)[:2]))
 
 
 def test_an_error_beyond_its_bound_fails_and_order_is_the_slope():

@@ -63,6 +63,7 @@ def test_the_page_chooses_the_units_of_the_package(tmp_path: Path) -> None:
             [list(SYSTEMS), quantities, SIZES],
         )
         assert watched.faults == []
+    assert list(chosen) == list(SYSTEMS)
     for system, of_quantities in chosen.items():
         for si, found in zip(quantities, of_quantities, strict=True):
             for size, unit in zip(SIZES, found, strict=True):

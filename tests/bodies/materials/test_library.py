@@ -11,6 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import viscontact as vc
+from returned import some
 from viscontact.bodies.materials import library
 from viscontact.bodies.materials.library.points import Points, read_points
 from viscontact.bodies.materials.library.unknown_names import nearest_names
@@ -127,7 +128,7 @@ def test_an_entry_says_all_that_is_asked_of_it(name: str) -> None:
 def test_points_lie_where_the_constants_rest_on_something(name: str) -> None:
     entry = library.entry(name)
     first, last = entry.measured
-    for points in entry.points:
+    for points in some(entry.points):
         times = points.at if points.over_time else 1 / points.at
         # The printings of formulas are compared a little beyond the range of their times, and
         # at once.

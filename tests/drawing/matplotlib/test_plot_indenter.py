@@ -13,6 +13,7 @@ from matplotlib.text import Text
 
 import viscontact as vc
 from closeness import close_to
+from returned import some
 from viscontact.cli import main
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.plot import draw_indenter
@@ -247,7 +248,7 @@ def test_headings_keep_apart(body: vc.Indenter) -> None:
     """Odd places are long to write, and a section across is narrow."""
     figure = draw_indenter(body, (4e-3, 1.5e-3), contact=(0.0, 0.0, 1.234e-3, 5.678e-4))
     figure.draw_without_rendering()
-    for axes in figure.axes[:3]:
+    for axes in some(figure.axes[:3]):
         left, right = (
             next(
                 each.get_window_extent()

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 import viscontact as vc
 from closeness import close_to
+from returned import some
 from synthetic_results import (
     ELLIPSE_AXES,
     ELLIPSE_MIDDLE,
@@ -252,7 +253,7 @@ def test_no_text_of_a_figure_in_space_is_cut_off(name: str, width: str | float, 
     for axes in figure.axes:
         names = ("xaxis", "yaxis", "zaxis")
         boxes += [getattr(axes, name).get_tightbbox() for name in names if hasattr(axes, name)]
-    for box in filter(None, boxes):
+    for box in some(filter(None, boxes)):
         assert box.x0 >= 0
         assert box.y0 >= 0
         assert box.x1 <= figure.bbox.x1

@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from closeness import close_to
+from returned import some
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.drawing.content.look import DARK, LIGHT
 from viscontact.drawing.content.map import maps_over
@@ -71,7 +72,7 @@ def test_the_map_contains_the_outline_of_the_reference() -> None:
     small, large = (maps_over(roller(times=times)) for times in ((0.0, 0.1), (100.0, 1000.0)))
     for one, other in ((small, large), (large, small)):
         figure = pressure_map(one.beside(other), LIGHT)
-        for frame in figure.frames:
+        for frame in some(figure.frames):
             for letter in "xy":
                 low, high = figure.layout[f"{letter}axis"].range
                 places = np.asarray(getattr(frame.data[2], letter), dtype=float)

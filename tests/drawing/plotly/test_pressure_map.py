@@ -27,6 +27,7 @@ def with_spots(count: int) -> Maps:
 def test_outlines_are_drawn_around_few_spots_and_not_over_many(count: int, has_lines: bool) -> None:
     fields = with_spots(count)
     figure = pressure_map(fields)
+    assert len(figure.frames) == len(TIMES)
     for frame in figure.frames:
         assert (len(frame.data[1].x) > 0) is has_lines
         assert np.count_nonzero(np.nan_to_num(frame.data[0].z)) == count**2

@@ -186,6 +186,7 @@ def test_a_stopped_run_continues():
     steps = iter(begun)
     next(steps)
     resumed = list(March(setup, begun.restart_data()))
+    assert resumed
     for one, other in zip(steps, resumed, strict=True):
         assert np.array_equal(one.pressure, other.pressure)
         assert math.isnan(other.work)

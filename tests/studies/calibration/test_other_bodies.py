@@ -20,6 +20,7 @@ LAW = "law: zener, shear_modulus: 4 MPa, delayed_modulus: 2 MPa, viscosity: 1 MP
 
 def require_recovered(found: vc.CaseFit) -> None:
     """Require the true values within intervals and discretisation errors."""
+    assert {key.rpartition(".")[2] for key in found.intervals} == set(ZENER)
     for key, (low, high) in found.intervals.items():
         error = found.discretisation_errors[key]
         value = ZENER[key.rpartition(".")[2]]

@@ -42,6 +42,7 @@ def test_each_input_is_exchanged_alone() -> None:
 )
 def test_the_values_follow_their_distribution(bounds: tuple[str, ...], quantile: Any) -> None:
     both = values_of(sampled({"load.force": bounds}, 256))[:2, :, 0]
+    assert both.shape == (2, 256)
     for each in both:
         # A quasi-random sample is closer to the distribution than a random one: 1.2 / 256.
         assert kstest(quantile(each), "uniform").statistic < 0.01
