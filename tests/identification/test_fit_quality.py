@@ -126,7 +126,7 @@ def test_weights_that_cannot_be_used_are_refused(weights, said):
 
 
 def test_the_section_of_a_misfit_carries_it_as_a_comment_and_a_warning(tmp_path):
-    with pytest.warns(AccuracyWarning):
+    with pytest.warns(AccuracyWarning, match="the terms are too few"):
         fit = fit_relaxation(T, SERIES.relaxation(T), data="shear", terms=1)
     section = material_section(fit)
     assert section.startswith("material:\n  # misfit: the terms are too few\n")

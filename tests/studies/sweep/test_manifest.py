@@ -235,7 +235,8 @@ def test_equal_quantities_are_the_same_run_however_they_are_written(tmp_path: Pa
     assert found[:2] == same.earlier
     for other in ({"size": "[1 mm, 3 mm]"}, {"law": "maxwell"}, {"size": "[1 mm, 2 um]"}):
         given = {"size": "[1 mm, 2mm]", "law": "zener"} | other
-        with pytest.raises(CommandError):
+        [key] = other
+        with pytest.raises(CommandError, match=f"its run a_1N has results with {key}="):
             recorded(tmp_path, "1N", "2N", **given).continued(resume=True)
 
 
