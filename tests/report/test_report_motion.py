@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -26,6 +27,7 @@ from viscontact.drawing.plotly.sections import draw_section
 from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.report.page import report_page
 from viscontact.report.result_chapters import lines_csv
+from viscontact.results.descriptions import describe
 
 __all__ = ["without_pictures"]  # a fixture
 
@@ -124,6 +126,23 @@ def test_area_of_the_last_loop_is_the_motion_work_of_a_cycle() -> None:
     # A polygon of 24 corners in an ellipse has this part of its area; the loop is nearly one.
     polygon = np.sinc(2 / 24)
     assert np.trapezoid(force, position) == close_to(polygon * work, rel=3e-3)
+
+
+@pytest.mark.parametrize(
+    ("end", "last"),
+    [(0.9, (0, 21)), (1.0, (0, 24)), (1.9, (0, 24)), (2.0, (24, 48)), (3.5, (48, 72))],
+)
+def test_last_loop_is_the_last_whole_cycle_of_the_motion(end: float, last: tuple[int, int]) -> None:
+    """Of three cycles of 1 s, in the way of the body and back, after which it rests."""
+    motion, times = vc.reciprocating(3e-4, 1.0, cycles=3), np.arange(0.0, end + 0.01, 1 / 24)
+    columns = {
+        "position_y": ("time", motion.position_at(times)[:, 1]),
+        "resistance_y": ("time", np.cos(2 * np.pi * times)),
+        "force": ("time", np.ones(times.size)),
+    }
+    case = json.dumps({"motion": describe(motion)})
+    (loop,) = loops_of(xr.Dataset(columns, {"time": times}, {"case": case}))
+    assert (loop.last, loop.end) == last
 
 
 def test_page_of_a_moving_contact_names_motion_and_edges(moved: xr.Dataset) -> None:

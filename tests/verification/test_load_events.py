@@ -192,6 +192,25 @@ def test_height_then_force_are_held():
     assert force.force[0] == close_to(float(height.force[-1]), rel=1e-5)
 
 
+def test_a_condition_that_is_met_at_the_end_of_a_step_is_met_there():
+    """In powers of 2 the approach has its value exactly after four steps of a sixteenth second."""
+    rising = vc.Segment(2.0**-13, until=vc.Condition("approach", 2.0**-15))
+    ds = run(LAWS["zener"], 17, 8, vc.LoadProgram([rising]))
+    assert ds.attrs["event_times"] == [0.25]
+    assert ds.time.values.tolist() == [0.0, 0.0625, 0.125, 0.1875, 0.25]
+
+
+@pytest.mark.parametrize("apart", [-1e-12, 0.0, 1e-12])
+def test_a_requested_time_beside_an_event_is_the_event(apart):
+    """20 µm are reached after 0.2 s."""
+    program = vc.LoadProgram("move at 0.1 mm/s until approach reaches 20 um; hold height for 0.1 s")
+    material, grid = vc.Material(LAWS["zener"], 0.5), vc.Grid((17, 17), (1.8e-3, 1.8e-3))
+    times = [0.0, 0.1, 0.2 * (1 + apart), 0.25, 0.3 * (1 + apart), 0.5]
+    ds = vc.simulate(BALL, material, program, grid, times, errors=False, fields=[times[2]])
+    assert ds.time.values == close_to([0.0, 0.1, 0.2, 0.25, 0.3], rel=1e-8)
+    assert ds.field_time.values == ds.time.values[2] == ds.attrs["event_times"][0]
+
+
 def test_a_stop_ends_the_run():
     area = 3e-7
     program = vc.LoadProgram("move at 0.1 mm/s for 5 s; stop when contact_area exceeds 0.3 mm^2")
@@ -206,6 +225,8 @@ def test_a_stop_ends_the_run():
     [
         ("move at 0.1 mm/s until force reaches 5 kN", "segment 1, .*comes closest at 100 ms with"),
         ("hold height until contact is lost", "segment begins without contact"),
+        # It begins with that value, which is not reached again.
+        ("move at 0.1 mm/s until approach reaches 0 mm", "segment 1, .*closest at 0 s with 0 m"),
         ("move at 0.1 mm/s for 50 ms; hold height until force reaches 1 N", "segment 2, .*50 ms"),
     ],
 )

@@ -110,22 +110,23 @@ def _turns_back(run: xr.Dataset, axis: str) -> bool:
 
 
 def _resistance(run: xr.Dataset, axis: str) -> Loop:
-    scalars, ends = (f"position_{axis}", f"resistance_{axis}"), (_start(run), run.sizes["time"] - 1)
-    return Loop(f"loop-{axis}", *scalars, "motion work", *ends)
+    scalars = f"position_{axis}", f"resistance_{axis}"
+    return Loop(f"loop-{axis}", *scalars, "motion work", *_ends(run))
 
 
 def _hysteresis(cycle: LoadCycle) -> Loop:
     return Loop("loop-force", "approach", "force", "loss", cycle.first, cycle.last)
 
 
-def _start(run: xr.Dataset) -> int:
-    """Index of the instant at which the last complete cycle of the motion begins, or 0."""
-    if not case_of(run).get("motion"):
-        return 0
+def _ends(run: xr.Dataset) -> tuple[int, int]:
+    """Indices of first and last instant of the motion's last complete cycle, or of the run."""
     times = run["time"].values
-    cycles = recorded_object(run, "motion", "resistance").cycles
-    begins = [begin for (begin, _), (end, _) in cycles if end <= times[-1] * (1 + 1e-9)]
-    return int(np.abs(times - begins[-1]).argmin()) if begins else 0
+    moves = case_of(run).get("motion")
+    cycles = recorded_object(run, "motion", "resistance").cycles if moves else ()
+    whole = [(begin, end) for (begin, _), (end, _) in cycles if end <= times[-1] * (1 + 1e-9)]
+    ends = whole[-1] if whole else times[[0, -1]]
+    first, last = (int(np.abs(times - each).argmin()) for each in ends)
+    return first, last
 
 
 def _last_loss(runs: list[xr.Dataset]) -> str:

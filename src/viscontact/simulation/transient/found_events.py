@@ -180,26 +180,25 @@ def _under_history(
     for event in history.events:
         _LOG.info("t = %.6g s: %s", event.time, event.condition)
     ends = np.array(history.times[1:])
-    end = float(ends[-1])
+    end, margin = float(ends[-1]), 3 * KINK_TOLERANCE * problem.end  # at most 2 in `_locate`
     times: Floats | AdaptiveTimes
     if problem.adaptive is None:
         kept = problem.instants[problem.instants < end * (1 - KINK_TOLERANCE)]
-        apart = np.abs(kept[:, None] - ends).min(axis=1) > KINK_TOLERANCE * end
-        times = np.union1d(kept[apart], ends)
+        beside = (np.abs(kept[:, None] - ends).min(axis=1) <= margin) & (kept > 0)
+        times = np.union1d(kept[~beside], ends)
     elif roughly:
         times = replace(problem.adaptive, end=end)
     else:
         times = np.array([state.time for state in search.states])
-    fields = _kept_until(problem.kept, end, ends)
+    fields = _kept_until(problem.kept, ends, margin)
     return replace(problem, load=history, grid=grid, times=times, kept=fields)
 
 
-def _kept_until(fields: KeptFields, end: float, ends: Floats) -> KeptFields:
-    """Instants whose fields are kept up to the end; one after it becomes the end."""
+def _kept_until(fields: KeptFields, ends: Floats, margin: float) -> KeptFields:
+    """Instants whose fields are kept, or ends beside them; one after the last becomes the last."""
     if isinstance(fields.requested, str):
         return fields
-    kept = []
-    for instant in fields.places:
-        near = ends[np.abs(ends - instant) <= KINK_TOLERANCE * end]
-        kept.append(float(near[0]) if near.size else min(float(instant), end))
-    return KeptFields(tuple(sorted(set(kept))))
+    instants = np.asarray(fields.places)
+    nearest = ends[np.abs(instants[:, None] - ends).argmin(axis=1)]
+    beside = (np.abs(instants - nearest) <= margin) | (instants > ends[-1])
+    return KeptFields(tuple(np.unique(np.where(beside, nearest, instants)).tolist()))
