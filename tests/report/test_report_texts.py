@@ -1,10 +1,17 @@
-"""Texts of the report: changes, measured tables, headings, title block."""
+"""Texts of the report: changes, limits of the theory, measured tables, headings, title block."""
 
 from __future__ import annotations
 
+import json
+from typing import Any
+
+import numpy as np
+import pytest
 import xarray as xr
 
+from synthetic_results import ellipse
 from viscontact.report.creep_gains import relative_change
+from viscontact.report.limits import assumptions
 from viscontact.report.measured import measured_text
 from viscontact.report.result_chapters import heading_of
 from viscontact.report.title_block import title_entries
@@ -33,3 +40,64 @@ def test_heading_has_the_label_unless_it_repeats_the_title() -> None:
 def test_title_block_has_the_known_entries() -> None:
     found = title_entries(xr.Dataset(attrs={"title_block": '{"project": "P-7", "revision": "B"}'}))
     assert found == [("Project", "P-7"), ("Revision", "B")]
+
+
+# --- limits of the theory -----------------------------------------------------------------------
+
+
+def said(ds: xr.Dataset) -> dict[str, str]:
+    return dict(assumptions(ds))
+
+
+def with_case(ds: xr.Dataset, **sections: Any) -> xr.Dataset:
+    """The same result of a case with other sections."""
+    case = json.loads(ds.attrs["case"])
+    return ds.assign_attrs(case=json.dumps({**case, **sections}))
+
+
+@pytest.mark.parametrize("transposed", [False, True])
+def test_contact_and_approach_are_stated_at_their_largest(transposed: bool) -> None:
+    """At last the ellipse is 0.6 mm by 1.5 mm, and the approach 2.25 µm."""
+    found = said(ellipse(transposed=transposed))
+    along = ("1.5 mm along x, 600 µm along y", "600 µm along x, 1.5 mm along y")
+    assert f"Largest contact here: {along[not transposed]}." in found["Half-space"]
+    largest = "Largest approach here: 2.25 µm, 0.0037 of the contact's shorter side."
+    assert found["Small slopes"].endswith(largest)
+
+
+def test_approach_is_not_stated_without_contact_or_datum() -> None:
+    open_gap, no_datum = ellipse(), ellipse()
+    for name in ("contact_length", "contact_width"):
+        open_gap[name][:] = 0.0
+    no_datum["approach"][:] = np.nan
+    for ds in (open_gap, no_datum):
+        assert "Largest approach" not in said(ds)["Small slopes"]
+
+
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_period_is_named_after_its_axis(axis: str) -> None:
+    grid = json.loads(ellipse().attrs["case"])["grid"]
+    along_one = with_case(ellipse(), grid=grid | {"periodic": [axis == "x", axis == "y"]})
+    assert f"one period of it along {axis} is pressed here" in said(along_one)["Half-space"]
+
+
+@pytest.mark.parametrize("transposed", [False, True])
+def test_strain_of_an_ellipse_is_the_larger_one_of_its_axes(transposed: bool) -> None:
+    """0.2 a/R (Tabor 1951): of 0.3 mm and 20 mm, and of 0.75 mm and 100 mm."""
+    found = said(ellipse(transposed=transposed))["Linear viscoelasticity"]
+    assert "curvature R of the body: 0.0030, at t = 5 s. Check" in found
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_strain_of_a_steady_contact_is_that_of_its_passage(along: str) -> None:
+    """Mean pressure times (1/G + t/η)/2 of a Maxwell body after the time of the passage t."""
+    shear, viscosity, speeds = 1e9, 1e8, np.array([4e-3, 5e-3, 1e-2])
+    law = {"type": "Maxwell", "shear_modulus": shear, "viscosity": viscosity}
+    material = {"type": "Material", "law": law, "poisson_ratio": 0.5, "bulk_modulus": None}
+    cone = {"type": "Cone", "half_angle": 1.4}
+    ds = with_case(ellipse(), indenter=cone, material=material).rename(time="speed")
+    ds = ds.assign_coords(speed=speeds).assign_attrs(along=along)
+    passage = ds["contact_length" if along == "x" else "contact_width"].values / speeds
+    strains = ds.mean_pressure.values * (1 / shear + passage / viscosity) / 2
+    stated = f"{strains.max():.2g}, at {1e3 * speeds[strains.argmax()]:g} mm/s"
+    assert f"creep compliance at the same instant: {stated}" in said(ds)["Linear viscoelasticity"]

@@ -87,6 +87,43 @@ def test_nominal_area_of_a_free_contact_converges_to_the_convex_hull() -> None:
     assert errors[0] / errors[2] > 16  # better than first order
 
 
+def in_cells(contact: np.ndarray, periodic: tuple[bool, bool]) -> Snapshot:
+    """Cells in contact that are twice as long along y."""
+    x, y = (
+        CELL * size * (np.arange(n) + 0.5) for size, n in zip((1, 2), contact.shape, strict=True)
+    )
+    fields = contact.astype(float), (~contact).astype(float), contact
+    return Snapshot(1.0, x, y, *fields, periodic=periodic)
+
+
+@pytest.mark.parametrize(
+    ("periodic", "cells"),
+    [((True, False), 8 * 2 * 7), ((False, True), 3 * 2 * 12), ((True, True), 8 * 2 * 12)],
+)
+def test_nominal_area_reaches_over_the_period_and_over_the_contact_across_it(
+    periodic: tuple[bool, bool], cells: int
+) -> None:
+    """Rows 2 and 4 of 8 along x, and columns 1 to 7 of 12 along y."""
+    contact = np.zeros((8, 12), bool)
+    contact[[2, 4], 1:8] = True
+    found = spots_of(result(28 * CELL**2), in_cells(contact, periodic))
+    assert found.number == 2
+    assert found.nominal_area == close_to(cells * CELL**2, rel=1e-12)
+    assert found.is_period
+    assert found.text.endswith(f"{100 * 28 / cells:#.3g} % of the period")
+
+
+@pytest.mark.parametrize("shape", [(1, 4), (3, 2)])
+def test_a_spot_of_few_cells_fills_its_hull_and_no_more(shape: tuple[int, int]) -> None:
+    """Between the centres of its cells lies less than its area."""
+    contact = np.zeros((8, 12), bool)
+    contact[2 : 2 + shape[0], 3 : 3 + shape[1]] = True
+    area = 2 * shape[0] * shape[1] * CELL**2
+    found = spots_of(result(area), in_cells(contact, (False, False)))
+    assert found.nominal_area == close_to(area, rel=1e-12)
+    assert found.text.endswith("100 % of its convex hull")
+
+
 def test_a_smooth_ball_is_one_spot_that_fills_its_hull() -> None:
     rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     grid = vc.Grid((48, 48), (2e-3, 2e-3))

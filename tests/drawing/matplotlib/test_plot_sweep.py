@@ -11,7 +11,7 @@ import viscontact as vc
 from synthetic_sweeps import hertz_sweep, listed
 from viscontact.drawing.content.look import RED
 from viscontact.plot import response
-from viscontact.results.largest_values import compared_scalars, largest_values
+from viscontact.results.largest_values import chief_scalars, compared_scalars, largest_values
 from viscontact.results.sweep_axes import varied_keys
 
 FORCES = ([1e3, 2e3, 8e3], "N")
@@ -63,6 +63,20 @@ def test_varied_force_and_equal_values_have_no_panel() -> None:
     ds["contact_area"][:] = 1e-6
     assert compared_scalars(ds) == ["approach", "peak_pressure"]
     assert compared_scalars(hertz_sweep(indenter__radius=RADII))[0] == "approach"
+
+
+def test_line_load_is_compared_where_one_contact_is_three_widths_long_along_x() -> None:
+    ds = hertz_sweep(indenter__radius=([0.01, 0.02, 0.03], "m"))
+    ds["peak_line_load"] = ds["force"]
+    for lengths, widths, compared in (
+        ([1.0, 3.0, 0.0], [1.0, 1.0, 0.0], True),
+        ([1.0, 2.9, 1.0], [1.0, 1.0, 1.0], False),
+        ([1.0, 1.0, 1.0], [1.0, 3.0, 1.0], False),  # long along y
+        ([1.0, 1.0, 0.0], [1.0, 1.0, 0.0], False),  # without contact in one run
+    ):
+        for name, each in (("contact_length", lengths), ("contact_width", widths)):
+            ds[name] = 0 * ds["force"] + 1e-3 * np.array(each)[:, None]
+        assert ("peak_line_load" in chief_scalars(ds)) is compared
 
 
 def test_allowable_value_is_a_line_and_what_exceeds_it_is_red() -> None:
