@@ -116,6 +116,25 @@ def test_files_of_layers_are_those_of_the_run(tmp_path: Path) -> None:
     assert read_case(copy / "case.yaml").material == case.material
 
 
+def test_file_of_a_layer_is_at_the_key_where_it_is_written(tmp_path: Path) -> None:
+    """Beside the thickness or under `material`, where it is replaced by that of a copy."""
+    text = "time [s], G [MPa]\n0, 3\n10, 2\n100, 1.5\n"
+    (tmp_path / "one.csv").write_text(text, encoding="utf-8")
+    text = "f [Hz], G' [MPa], G'' [MPa]\n0.01, 1, 0.2\n0.1, 1.5, 0.4\n1, 2, 0.2\n"
+    (tmp_path / "other.csv").write_text(text, encoding="utf-8")
+    one, other = (
+        {"law": "table", "file": name, "poisson_ratio": 0.4} for name in ("one.csv", "other.csv")
+    )
+    layers = [{"thickness": "5 mm", **one}, {"thickness": "2 mm", "material": other}]
+    case = read_case(written(tmp_path, {"layers": layers, "base": STEEL}))
+    assert {key: path.name for key, path in case.files.items()} == {
+        ("material", "layers", 0, "file"): "one.csv",
+        ("material", "layers", 1, "material", "file"): "other.csv",
+    }
+    [note] = case.notes
+    assert note.startswith("layers.1.material: the law is a relaxation series of ")
+
+
 def test_recorded_layers_are_rebuilt(tmp_path: Path) -> None:
     found = read_case(written(tmp_path, COVER)).material
     assert rebuild(json.loads(json.dumps(describe(found)))) == found

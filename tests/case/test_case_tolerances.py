@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+import viscontact as vc
 from viscontact.case import CaseError, read_case
+from viscontact.case.tolerances import nominal
 from viscontact.runs.execution.checked_run import filed_case
 
 BALL = """
@@ -68,3 +70,25 @@ def test_a_table_of_points_may_have_tolerances(ball: Path) -> None:
     case = read_case(ball)
     assert case.load.force_at(1.0) == 2.0  # type: ignore[union-attr]
     assert case.document.tolerances[("load", "points", 1, 1)] == "2 N ± 0.1 N"
+
+
+def test_both_bodies_and_the_motion_may_have_tolerances(ball: Path) -> None:
+    steel = "{law: elastic, shear_modulus: 80 GPa ± 2 GPa, poisson_ratio: 0.3}"
+    path = "{kind: travel, points: [[0 s, 0 mm], [1 s, 1 mm ± 0.1 mm]]}"
+    more = f"indenter_material: {steel}\nmotion: {path}\n"
+    more += "grid: {shape: [16, 24], size: [3 mm, 5 mm]}\n"
+    ball.write_text(BALL + more, encoding="utf-8")
+    case = read_case(ball)
+    assert case.indenter_material == vc.Material(vc.Elastic(80e9), 0.3)
+    assert case.motion.position_at(1.0).tolist() == [0.0, 1e-3]
+    written = case.document.tolerances
+    assert written[("indenter_material", "shear_modulus")] == "80 GPa ± 2 GPa"
+    assert written[("motion", "points", 1, 1)] == "1 mm ± 0.1 mm"
+
+
+def test_the_name_of_a_file_has_no_tolerance() -> None:
+    section = {"file": "23 +- 2 C.csv", "poisson_ratio": "0.4 +- 0.02"}
+    found = nominal({"material": section})
+    assert found.problems == ()
+    assert found.data == {"material": {**section, "poisson_ratio": 0.4}}
+    assert found.tolerances == {("material", "poisson_ratio"): "0.4 +- 0.02"}

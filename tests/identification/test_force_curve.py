@@ -168,6 +168,15 @@ def test_curves_without_a_contact_after_a_baseline_are_refused():
         )
 
 
+@pytest.mark.parametrize("indenter", FORCES, ids=["sphere", "cone", "punch"])
+def test_bending_of_ten_times_the_noise_is_a_contact_and_of_three_times_is_none(indenter):
+    most = float(exact_deflection(indenter, 500).max())
+    found = find_contact(elastic_curve(indenter, noise=most / 10), indenter, reach=1.0)
+    assert found.position == close_to(CONTACT, abs=4 * found.position_error)
+    with pytest.raises(ValueError, match="the bending is within the noise"):
+        find_contact(elastic_curve(indenter, noise=most / 3), indenter, reach=1.0)
+
+
 @pytest.mark.parametrize(
     ("change", "why"),
     [

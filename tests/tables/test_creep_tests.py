@@ -156,6 +156,12 @@ def test_isochronous_curves_of_a_nonlinear_material_give_the_secant_at_the_stres
     )
 
 
+def test_isochronous_curve_begins_at_the_origin(tmp_path):
+    text = "strain [%],stress at 1 h [MPa]\n0.5,4\n1,7\n"
+    table = read(tmp_path, text, stress=1e6)  # a quarter of the way to the first point
+    np.testing.assert_allclose(table["creep_compliance"], [0.00125 / 1e6], rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("text", "stress", "why"),
     [
@@ -165,6 +171,9 @@ def test_isochronous_curves_of_a_nonlinear_material_give_the_secant_at_the_stres
         ("strain [mm],stress at 1 h [MPa]\n1,5\n", 3e6, "a strain has one of the units"),
         ("strain [%],stress at 1 h [mm]\n1,5\n", 3e6, "cannot read 'mm' as a pressure"),
         ("strain [%],stress at 1 h [MPa]\n1,x\n", 3e6, "creep.csv:2: column 'stress at 1 h [MPa]'"),
+        # A point beside decimal commas may separate thousands: 7.500 may be 7500.
+        ("strain [%];stress at 1 h [MPa]\n0.5;4\n1;7,5\n", 3e6, "got '0.5' in a file of decimal"),
+        ("strain [%];stress at 1 h [MPa]\n+,5e0;7.500\n", 3e6, "got '7.500' in a file of decimal"),
     ],
 )
 def test_faulty_isochronous_curves_are_refused(text, stress, why, tmp_path):

@@ -17,6 +17,7 @@ import viscontact as vc
 from viscontact.case import read_case
 from viscontact.studies.sweep.design_table import read_design
 from viscontact.tables import read_line, read_table
+from viscontact.tables.sheets import read_sheet
 
 CREEP = [("time [s]", "D [1/GPa]"), (1, 0.1), (10, 1 / 3), (100.5, 0.7)]
 
@@ -123,6 +124,16 @@ def test_the_first_sheet_with_numbers_is_read_and_named_or_the_chosen_one(tmp_pa
         read_table(tmp_path / "creep.xlsx#60C")
     with pytest.raises(ValueError, match=r"creep\.xlsx#Cover: none of the columns 'Report'"):
         read_table(tmp_path / "creep.xlsx#Cover")
+
+
+def test_a_table_is_found_by_numbers_below_the_row_of_names(tmp_path: Path) -> None:
+    """A year beside a title is none; units and remarks belong to one."""
+    sheets = {
+        "Cover": [("Report", 2026), ("Mr X", "")],
+        "Remarks": [("time", "D", "remark"), ("s", "1/GPa", ""), (1, 0.5, "first"), (10, 0.6, "")],
+    }
+    found = read_sheet(workbook(tmp_path / "creep.xlsx", sheets))
+    assert (found.name, found.others) == ("Remarks", ())
 
 
 def test_hidden_sheets_are_read_only_by_name(tmp_path: Path) -> None:

@@ -116,6 +116,15 @@ def test_every_answer_forbids_requests_to_elsewhere(client: TestClient, fault: R
         assert answer.headers["cross-origin-resource-policy"] == "same-origin"
 
 
+def test_a_drawing_that_is_opened_by_itself_has_its_styles_and_neither_scripts_nor_requests(
+    client: TestClient,
+) -> None:
+    answer = client.get("/static/icon.svg")
+    assert answer.headers["content-type"].startswith("image/svg+xml")
+    # What is not named falls back to default-src (Content Security Policy Level 3, 6.8.4).
+    assert set(_policy(answer.headers)) == {"default-src 'none'", "style-src 'unsafe-inline'"}
+
+
 def _policy(headers: dict[str, str]) -> list[str]:
     return [part.strip() for part in headers["content-security-policy"].split(";")]
 

@@ -13,7 +13,9 @@ import sys
 import time as clock
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -27,7 +29,9 @@ from viscontact.cli import main
 from viscontact.drawing.content.look import LIGHT
 from viscontact.results.run_axis import TIME
 from viscontact.units.formatting import format_quantity
+from viscontact.web.runs import queue
 from viscontact.web.runs.live_scalars import LiveScalars
+from viscontact.web.workspace.folder import RunEntry
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
 
 
@@ -200,6 +204,42 @@ def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_pa
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="there, sizes of files have no such limit")
+class PlannedRun:
+    """Run that is started and computes nothing."""
+
+    is_over = is_deleted = is_starting = False
+
+    def __init__(self, folder: object, name: str, entry: RunEntry) -> None:
+        self.entry = entry
+
+    @property
+    def is_at_work(self) -> bool:
+        return self.entry.state == "running"
+
+    def poll(self) -> None:
+        """Nothing happens."""
+
+    def start(self, spare: object) -> None:
+        self.entry, self.is_starting = replace(self.entry, state="running"), True
+
+
+def test_a_run_waits_for_the_memory_that_starting_ones_will_take(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of 10 bytes, 6 are promised to the first run; once it has them, 10 are free beside it."""
+    monkeypatch.setattr(queue, "ManagedRun", PlannedRun)
+    monkeypatch.setattr(queue, "available_memory", lambda: 10.0)
+    runs: Any = queue.RunQueue(SimpleNamespace(runs=list), at_once=3)  # type: ignore[arg-type]
+    plan = RunEntry("", "full", "", (), 1, 1.0, 1.0, 6.0, errors=False)
+    first = runs.add("first", plan)
+    second = runs.add("second", replace(plan, memory=5.0))
+    assert (first.is_at_work, second.is_at_work) == (True, False)
+    first.is_starting = False
+    runs.poll()
+    third = runs.add("third", replace(plan, memory=5.0))
+    assert (second.is_at_work, third.is_at_work) == (True, True)
+
+
 def test_a_run_that_met_a_full_disk_goes_on_once_there_is_room(client: TestClient) -> None:
     import resource
 
