@@ -274,3 +274,24 @@ def test_speeds_whose_contacts_differ_much_in_size_are_reported():
     wider = vc.Material(vc.CreepSeries(1e-8, [1e-2], [10.0]), poisson_ratio=0.5)
     with pytest.raises(vc.DomainError, match=r"cells lie across .* different runs"):
         steady([1e8, 1e-5], material=wider, grid=grid)
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_a_law_is_extrapolated_where_the_passage_is_longer_than_its_data(along):
+    """An elastic contact is as at rest, here three times as long along y as along x."""
+    body, grid = vc.Paraboloid(RADIUS, 5 * RADIUS), vc.Grid((24, 40), (0.9, 2.0))
+
+    def at_2_metres_a_second(measured_until):
+        measured = vc.Material(vc.Elastic(1000), 0.5, measured_until=measured_until)
+        return steady(2.0, body=body, material=measured, grid=grid, along=along)
+
+    free = at_2_metres_a_second(1e9)
+    assert float(free.contact_width[0] / free.contact_length[0]) == close_to(3.0, rel=0.1)
+    # Longer than the passage along x, and shorter than that along y.
+    middle = np.sqrt(4 / np.pi * float(free.contact_area[0])) / 2.0
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        at_2_metres_a_second(middle)
+    assert any("where the material's data end" in str(each.message) for each in found) == (
+        along == "y"
+    )

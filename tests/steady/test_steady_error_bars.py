@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.simulation.steady_motion.error_bars import WITH_ERROR
 
 COMPLIANCE, RADIUS, FORCE, TIME = 1 / 2000, 10.0, 10.0, 10.0
@@ -100,3 +101,18 @@ def test_bars_hold_the_values_on_finer_cells_in_95_of_100(campaign):
     for name, each in ratios.items():
         if len(each) >= FEWEST:
             assert np.mean(np.array(each) >= 1) >= COVERED_EACH, name
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_extents_are_less_certain_along_the_motion_where_two_grids_agree(along):
+    """The surface behind the contact is almost closed: its rear is known to half a cell."""
+    grid = vc.Grid((32, 40), (1.0, 1.0))
+    elastic, level = vc.Material(vc.Elastic(1000), 0.5), vc.step(FORCE, tilt_x=0.0, tilt_y=0.0)
+    ds = vc.steady(vc.Paraboloid(RADIUS, RADIUS), elastic, level, 1.0, along=along, grid=grid)
+    cells = {
+        way: float(ds[f"contact_{extent}_error"][0]) / cell
+        for way, extent, cell in zip("xy", ("length", "width"), grid.cell_size, strict=True)
+    }
+    across = cells["y" if along == "x" else "x"]
+    assert cells[along] == close_to(0.5, rel=1e-9)
+    assert 0.1 < across < 0.4

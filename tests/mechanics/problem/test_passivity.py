@@ -1,6 +1,7 @@
 """Effective kernels of layers gain no energy and are symmetric."""
 
 import numpy as np
+import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
@@ -8,6 +9,7 @@ import viscontact as vc
 from closeness import close_to
 from random_examples import given_few_or_many
 from viscontact.mechanics.halfspace.layered_influence import layered_influence_table
+from viscontact.mechanics.problem import passivity
 from viscontact.mechanics.problem.creeping_stack import CreepingStack
 from viscontact.mechanics.problem.passivity import passive_share
 from viscontact.mechanics.problem.separation import separate, transformed
@@ -101,6 +103,47 @@ def test_a_sum_that_gains_energy_is_made_passive_at_little_cost():
     assert np.abs(after / before - 1).max() < 10 * gain
     # Nothing is added to what is passive.
     assert passive_share(harmonic, np.eye(2), at_points) == close_to(np.zeros((2, 2)))
+
+
+KELVINS = np.array([[1.0, 0.0], [-1.0, 0.9]])  # weights of two Kelvin bodies of 1 s and 10 s
+
+
+def harmonic_kelvins(omega):
+    return np.stack([1 + 1 / (1 + 1j * omega), 1 + 1 / (1 + 10j * omega)], axis=1)
+
+
+def elastic_parts(q):
+    """Two functions that fall over the wave number, the second one less."""
+    return np.array([1 + np.exp(-q), 0.9 + 0.1 * np.exp(-3 * q)])
+
+
+@pytest.mark.parametrize("points", [9, 17, 33])
+def test_a_sum_made_passive_loses_energy_between_the_points_as_well(points):
+    omega, q = np.geomspace(1e-3, 1e3, points), np.linspace(0.0, 3.0, points)
+    share = passive_share(harmonic_kelvins(omega), KELVINS, elastic_parts(q))
+    between = harmonic_kelvins(np.geomspace(1e-3, 1e3, 501)), elastic_parts(np.linspace(0, 3, 401))
+    before, after = (between[0] @ weights @ between[1] for weights in (KELVINS, KELVINS + share))
+    assert before.imag.max() > 0.05
+    assert after.imag.max() <= 0
+
+
+@pytest.mark.parametrize("part", [0.0, 0.5, 0.999])
+def test_a_sum_is_passive_even_where_the_linear_program_leaves_a_gain(part, monkeypatch):
+    harmonic, at_points = harmonic_kelvins(np.geomspace(1e-3, 1e3, 61)), elastic_parts(np.arange(3))
+    least = passivity._least_share
+    monkeypatch.setattr(passivity, "_least_share", lambda *given: part * least(*given))
+    after = harmonic @ (KELVINS + passive_share(harmonic, KELVINS, at_points)) @ at_points
+    assert after.imag.max() <= 1e-12
+
+
+def test_a_gain_too_small_for_a_linear_program_is_balanced_too():
+    harmonic = harmonic_kelvins(np.geomspace(1e-3, 1e3, 61))
+    at_points, weights = elastic_parts(np.arange(3)), np.array([[1.0, 0.0], [-4e-10, 0.0]])
+    weights[0, 0] = 1e-10
+    before = harmonic @ weights @ at_points
+    assert before.imag.max() > 0
+    after = harmonic @ (weights + passive_share(harmonic, weights, at_points)) @ at_points
+    assert after.imag.max() <= 1e-13 * np.abs(before).max()
 
 
 def test_influence_coefficients_of_every_term_are_reciprocal():

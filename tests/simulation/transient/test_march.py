@@ -93,6 +93,16 @@ RUNS = {
             vc.uniform_times(6.0, 18),
         )
     ),
+    "moving punch that is lifted": lambda: prepare_run(
+        Problem(
+            vc.FlatPunch(3e-4),
+            ZENER,
+            vc.ForceHistory([0, 2, 2.5, 4], [0.1, 0.1, 0, 0], tilt_x=0.0, tilt_y=0.0),
+            SMALL,
+            vc.uniform_times(4.0, 8),
+            motion=vc.Travel([0, 1, 4], y=[0.0, 4e-4, 4.4e-4]),
+        )
+    ),
 }
 
 
@@ -169,6 +179,21 @@ def test_run_continues_from_restart_data_after_any_step(run: RunSetup) -> None:
         if count < 3 or count % every == 0:
             resumed = steps_of(March(run, through_a_file(march.restart_data())))
             assert differing(whole[count:], resumed) == []
+
+
+def test_a_resumed_run_issues_the_warnings_of_the_whole_one() -> None:
+    """Of long steps and of an end of the body in contact before: with the last state."""
+    march = March(RUNS["moving punch that is lifted"]())
+    for _, _ in zip(march, range(6), strict=False):
+        restart_data = through_a_file(march.restart_data())
+    *_, last = March(RUNS["moving punch that is lifted"](), restart_data)
+    assert last is not None
+    assert not last.in_contact.any()
+    for text in (
+        "for an error of the resistance of 1 % move at most",
+        "reaches an end of the body",
+    ):
+        assert any(text in each for each in last.warnings)
 
 
 def test_what_was_carried_is_what_is_carried_on(run: RunSetup) -> None:

@@ -16,6 +16,7 @@ from viscontact.cli import main
 from viscontact.cli.sweep.recorded_sweep import RecordedSweep, recorded_runs
 from viscontact.cli.terminal.messages import CommandError
 from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME, STATE_NAME
+from viscontact.studies.sweep.continuation import continued
 from viscontact.studies.sweep.manifest import DESIGNS, SweepRun, read_manifest, write_manifest
 
 CASE = """\
@@ -251,6 +252,21 @@ def test_settings_of_a_single_run_are_kept(tmp_path: Path) -> None:
     assert [each.settings["size"] for each in found.runs] == ["1 mm", "3 mm", "1 mm"]
     found.write()
     assert list(read_manifest(tmp_path / MANIFEST_NAME)) == found.runs
+
+
+def test_settings_of_a_single_run_are_kept_where_those_of_all_change(tmp_path: Path) -> None:
+    first = recorded(tmp_path, "1N", "2N", size="1 mm", load="5")
+    own = {KEY: "2N", "size": "3 mm", "load": "5"}
+    changed = replace(first.runs[1], settings=own, changed=("size",))
+    write_manifest(tmp_path, [first.runs[0], changed])
+    found = recorded(tmp_path, "1N", "2N", size="2 mm", load="6").continued(resume=True).runs
+    assert [each.settings["size"] for each in found] == ["2 mm", "3 mm"]
+    assert [each.settings["load"] for each in found] == ["6", "6"]
+    assert [each.changed for each in found] == [(), ("size",)]
+    # A key that is varied now is no longer that of a run alone.
+    varied = replace(first.runs[1], varied=(KEY, "size"), settings=own | {"size": "4 mm"})
+    [kept] = continued(tmp_path, [varied], [changed])
+    assert (kept.settings["size"], kept.changed) == ("4 mm", ())
 
 
 def test_a_damaged_manifest_is_refused_when_the_sweep_is_resumed(

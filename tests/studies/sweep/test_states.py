@@ -23,7 +23,7 @@ from viscontact.studies.sweep.states import (
     run_state,
     state_at_end,
 )
-from viscontact.studies.sweep.status import LISTED, sweep_status
+from viscontact.studies.sweep.status import LISTED, SweepStatus, sweep_status
 
 
 def made(directory: Path, *names: str, part: float | None = None, failure: object = None) -> Path:
@@ -131,6 +131,15 @@ def test_status_counts_runs_and_expects_the_time_left(tmp_path: Path) -> None:
     assert status.left == close_to(15.0)
     assert not status.has_ended
     assert [each.name for each in status.listed[State.FAILED]] == ["run 4"]
+
+
+def test_time_left_is_shared_by_the_runs_at_a_time() -> None:
+    """Two and a half runs are left, each of 12 s, as the middle one of three."""
+    status = SweepStatus(remaining=2.5, durations=[60.0, 10.0, 12.0])
+    assert status.left is None
+    for running in (1, 2, 3):
+        status.counts[State.RUNNING] = running
+        assert status.left == close_to(30.0 / running)
 
 
 def test_status_lists_few_of_many_failed_runs(tmp_path: Path) -> None:
