@@ -211,6 +211,16 @@ def test_a_requested_time_beside_an_event_is_the_event(apart):
     assert ds.field_time.values == ds.time.values[2] == ds.attrs["event_times"][0]
 
 
+def test_the_begin_of_a_run_remains_beside_an_event():
+    first, then = (
+        vc.Segment(1e-4, until=vc.Condition("approach", 1e-15)),
+        "move at 0.1 mm/s for 0.2 s",
+    )
+    ds = run(LAWS["zener"], 17, 5, vc.LoadProgram([first, then]))
+    assert ds.time.values[0] == 0
+    assert 0 < ds.attrs["event_times"][0] < 1e-9
+
+
 def test_a_stop_ends_the_run():
     area = 3e-7
     program = vc.LoadProgram("move at 0.1 mm/s for 5 s; stop when contact_area exceeds 0.3 mm^2")
