@@ -11,6 +11,7 @@ from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.contact.steady_equilibrium import solve_steady_contact
+from viscontact.mechanics.halfspace.elastic_stack import ElasticLayer, ElasticStack
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
 from viscontact.mechanics.halfspace.moving_surface import MovingSurface
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE
@@ -54,6 +55,22 @@ def dissipation(solution, grid, compliance):
     pressure = solution.values[0]
     lost = MovingDomain(grid, MovingSurface(((HALF_SPACE, compliance),)), 0).loss.apply(pressure)
     return float((pressure * lost).sum() / pressure.sum())
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("thickness", [np.inf, 0.1])
+def test_local_compliance_is_that_of_the_top_material_for_the_longest_wave_along_the_motion(
+    thickness, axis
+):
+    """|J0 + J1/(1 + i q l)| at the retardation length l; short waves do not feel the base."""
+    layer = ElasticStack((ElasticLayer(thickness, 1.0, 0.45),), None)
+    response = HALF_SPACE if thickness == np.inf else layer
+    grid, length, ratio = vc.Grid((8, 12), (1.0, 6.0)), 0.5, 10.0
+    domain = MovingDomain(grid, MovingSurface(((response, zener(length, ratio)),)), axis)
+    q = 2 * np.pi / (1.0, 6.0)[axis]
+    wave = INSTANT * abs(1 + (ratio - 1) / (1 + 1j * q * length))
+    short = float(response.ratio(np.array(1e6)))
+    assert domain.local_compliance == close_to(wave * short, rel=1e-9)
 
 
 @pytest.mark.parametrize(("length", "compliance"), [(1e-6, 10 * INSTANT), (1e9, INSTANT)])

@@ -18,6 +18,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, history_of
 from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.simulation.accuracy.error_bars import error_bars_from
+from viscontact.simulation.accuracy.least_bars import entry_rise, least_resistance_bar
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 from viscontact.simulation.transient.state_generator import march_run
 
@@ -295,8 +296,8 @@ def test_bars_of_moments_are_at_least_what_the_tolerance_allows(tolerance: float
 
     Grids that agree by symmetry do not show it.
     """
-    egg = vc.Paraboloid(0.02, 0.01)
-    grid, load = vc.Grid((32, 40), (2.7e-3, 2.4e-3)), vc.step(0.1)
+    egg = vc.Paraboloid(0.08, 0.005)  # the contact is six times as long as wide
+    grid, load = vc.Grid((32, 40), (6e-3, 1.6e-3)), vc.step(0.1)
     times = vc.uniform_times(3.0, 5)
     run = prepare_run(Problem(egg, vc.Material(ZENER, 0.5), load, grid, times, tolerance=tolerance))
     history = history_of(list(march_run(run)))
@@ -312,3 +313,36 @@ def test_bars_of_moments_are_at_least_what_the_tolerance_allows(tolerance: float
         slope = tolerance * history["approach"] / history[extent]
         assert np.all(bars[f"tilt_{axis}"] >= slope)
         assert np.all(bars[f"tilt_{axis}"] <= 10 * slope)
+
+
+def test_bar_of_motion_work_adds_up_over_the_whole_path() -> None:
+    """There and back, with the friction coefficient tolerance times slope of the indentation."""
+    path = vc.Travel([0.0, 1.0, 2.0], x=[0.0, 3e-3, 0.0], y=[0.0, 4e-3, 0.0])
+    ball, grid = vc.Paraboloid(0.01, 0.01), vc.Grid((40, 40), (12e-3, 12e-3))
+    problem = Problem(ball, vc.Material(ZENER, 0.5), vc.step(0.1), grid, [0.0], motion=path)
+    run = prepare_run(problem)
+    history = {
+        "time": np.array([0.0, 0.5, 1.0, 1.2, 2.0]),
+        "force": np.array([0.1, 0.1, 0.1, 0.2, 0.2]),
+        "approach": np.full(5, 1e-5),
+        "contact_length": np.full(5, 4e-4),
+        "contact_width": np.full(5, 5e-4),
+    }
+    coefficient = run.problem.solver_error * 1e-5 / 5e-4
+    assert least_resistance_bar(run, "friction_coefficient", history) == close_to([coefficient] * 5)
+    along = coefficient * np.array([0.1, 0.1, 0.1, 0.2, 0.2])
+    assert least_resistance_bar(run, "resistance_x", history) == close_to(along)
+    ways = 5e-3 * np.array([0.0, 0.5, 0.5, 0.2, 0.8])
+    assert least_resistance_bar(run, "motion_work", history) == close_to(np.cumsum(along * ways))
+
+
+def test_pressure_where_a_body_enters_may_rise_with_the_root_of_the_stiffness() -> None:
+    """On cells of 0.1 mm and 0.3 mm, at 1 mm/s and at rest, of a Maxwell body, J = (1 + t/τ)/G."""
+    path = vc.Travel([0.0, 1.0, 2.0], y=[0.0, 1e-3, 1e-3])
+    ball, grid = vc.Paraboloid(0.01, 0.01), vc.Grid((30, 30), (3e-3, 9e-3))
+    maxwell = vc.Material(vc.Maxwell(1e6, 5e4), 0.5)
+    run = prepare_run(Problem(ball, maxwell, vc.step(0.1), grid, [0.0], motion=path))
+    rises = entry_rise(run, np.array([0.5, 1.0, 2.0]))
+    assert rises == close_to([np.sqrt(1 + 0.1 / 0.05) - 1] * 2 + [0.0])
+    # A body that has been there for less time than it takes to pass a cell has crept for that.
+    assert entry_rise(run, np.array([0.01])) == close_to([np.sqrt(1 + 0.01 / 0.05) - 1])
