@@ -16,7 +16,7 @@ from viscontact import plot
 from viscontact.bodies.loads.motion import Motion
 from viscontact.drawing.content.history import load_names, response_names
 from viscontact.drawing.content.look import LIGHT
-from viscontact.drawing.content.loop import loops_of
+from viscontact.drawing.content.loop import cycle_panel, loops_of
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.content.section import section
 from viscontact.drawing.matplotlib.histories.hysteresis import loops as printed_loops
@@ -141,8 +141,11 @@ def test_last_loop_is_the_last_whole_cycle_of_the_motion(end: float, last: tuple
         "force": ("time", np.ones(times.size)),
     }
     case = json.dumps({"motion": describe(motion)})
-    (loop,) = loops_of(xr.Dataset(columns, {"time": times}, {"case": case}))
+    run = xr.Dataset(columns, {"time": times}, {"case": case})
+    (loop,) = loops_of(run)
     assert (loop.last, loop.end) == last
+    is_part = last != (0, times.size - 1)
+    assert cycle_panel(run, loop).note.startswith("Bold: the last cycle. ") is is_part
 
 
 def test_page_of_a_moving_contact_names_motion_and_edges(moved: xr.Dataset) -> None:

@@ -69,7 +69,7 @@ def cycle_panel(
     curves = tuple(Curve(whole.x[part], whole.y[part], ink=ink) for part, ink in parts)
     if reference is not None:
         curves = (_curve(reference, loop, "", SECOND), *curves)
-    bold = "Bold: the last cycle. " if loop.last else ""
+    bold = "Bold: the last cycle. " if loop.last or -1 < loop.end < whole.x.size - 1 else ""
     return _panel(loop, curves, units, f"{bold}The area inside is the {loop.area} of a cycle.")
 
 
