@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from closeness import close_to
+from returned import some
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.series_fits.columns import positive_column
 from viscontact.bodies.series_fits.conventions import bulk_arguments
@@ -71,6 +72,16 @@ def test_scatter_of_a_fifth_is_named_as_scatter(seed):
     with pytest.warns(AccuracyWarning, match="the data scatter"):
         one = fit_relaxation(T, scattered(SERIES.relaxation(T), 0.2, seed), data="shear")
     assert (reason_of(both), reason_of(one)) == (Reason.SCATTER, Reason.SCATTER)
+
+
+def test_the_root_mean_square_of_each_column_is_printed():
+    storage, loss = scattered(MODULUS.real, 0.2, 1), scattered(MODULUS.imag, 0.3, 2)
+    with pytest.warns(AccuracyWarning, match="the data scatter"):
+        fit = oscillation(storage, loss)
+    for name, missed in some(fit.residuals.items()):
+        rms = float(np.sqrt(np.mean(missed**2)))
+        assert f"{rms:.2e} of {name}" in repr(fit)
+        assert f"{name} by {100 * rms:.2g} % (root mean square" in fit.misfit.message
 
 
 def test_one_wrong_row_is_named():

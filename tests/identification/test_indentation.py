@@ -169,6 +169,8 @@ def test_the_elastic_interval_is_that_of_linear_regression():
     assert fit.parameters["shear_modulus"] == close_to(k, rel=1e-5)
     low, high = fit.intervals["shear_modulus"]
     assert (high - low) / 2 == close_to(half, rel=1e-3)
+    rms = np.sqrt(np.mean((record.force - k * x)[np.isfinite(fit.residuals)] ** 2))
+    assert fit.residual == close_to(rms / record.force.max(), rel=1e-5)
 
 
 @pytest.mark.slow

@@ -47,6 +47,8 @@ def test_contact_point_and_machine_stiffness_are_recovered(tmp_path: Path) -> No
             contact_point=("-9 um", "9 um"),
             machine_stiffness=("2 N/mm", "200 N/mm", "log"),
         )
+    missed = (found.curves.fitted - found.curves.measured) / record.approach.max()
+    assert found.residual == close_to(float(np.sqrt(np.mean(missed**2))), rel=1e-9)
     assert found.parameters["material.shear_modulus"] == close_to(2e6, rel=0.02)
     assert found.parameters["contact_point"] == close_to(-3e-6, abs=1e-7)
     assert found.parameters["machine_stiffness"] == close_to(20e3, rel=0.05)
