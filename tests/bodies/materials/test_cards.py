@@ -432,14 +432,12 @@ def test_table_is_written_as_test_data_and_read_back(
     t = np.array([0.0, 0.3, 0.5, 1.0, 5.0, 10.0, 50.0])
     assert type(found.law) is type(law)
     assert found.poisson_ratio == volume["poisson_ratio"]
-    # What is measured is the same to the digits; what is interconverted, to the error it tells,
-    # which depends on where the table begins.
-    inverted = 1e-9 + 2 * (law.inversion_error + found.law.inversion_error)
+    # A table is the same to the digits, and what is interconverted from creep. Creep by relaxation
+    # has the error it tells, some 1e-5, which depends on where the table begins.
+    inverted = 2 * (law.inversion_error + found.law.inversion_error)
     creep = isinstance(law, vc.TabulatedCreep)
     np.testing.assert_allclose(found.law(t), law(t), rtol=1e-9 if creep else inverted)
-    np.testing.assert_allclose(
-        found.law.relaxation(t), law.relaxation(t), rtol=inverted if creep else 1e-9
-    )
+    np.testing.assert_allclose(found.law.relaxation(t), law.relaxation(t), rtol=1e-9)
 
 
 def test_what_is_no_series_is_refused_with_a_remedy() -> None:
