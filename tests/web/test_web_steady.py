@@ -133,6 +133,7 @@ def test_run_over_speed_is_followed_and_shown(client: TestClient) -> None:
     arrows = [frame["layout"]["annotations"][0] for frame in shown["frames"]]
     assert [(arrow["xshift"], arrow["yshift"]) for arrow in arrows] == [(0, close_to(34))] * 3
     edges = [frame["data"][-1]["x"] for frame in along["frames"]]
+    assert len(edges) == 3
     assert all(leading > trailing for leading, trailing in edges)
 
     rows = list(csv.DictReader(io.StringIO(client.get(f"/api/runs/{run}/history.csv").text)))

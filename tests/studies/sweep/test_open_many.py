@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from returned import some
 from swept_runs import sweep_of
 from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, STATE_NAME
 from viscontact.results.variables import ERRORS, SCALARS, scalars_of
@@ -116,7 +117,7 @@ def test_different_times_are_filled_up_and_not_interpolated(listed: Path) -> Non
     assert ds["time.steps"].values.tolist() == [4.0, 2.0, 3.0]
     assert ds["grid.shape"].dims == ("run",)
     assert ds["grid.shape"].values.tolist()[1] == "[24, 20]"
-    for number, place in enumerate(places(listed)):
+    for number, place in some(enumerate(places(listed))):
         with vc.open_results(place) as run:
             count = run.sizes["time"]
             for name in ("time", "approach", "approach_error"):
@@ -144,7 +145,7 @@ def test_fields_at_every_step_of_runs_with_different_times(tmp_path: Path) -> No
     sweep = sweep_of(tmp_path, rows, "table")
     ds = vc.open_many(sweep)
     assert ds.pressure.dims == ("run", "step", "x", "y")
-    for number, place in enumerate(places(sweep)):
+    for number, place in some(enumerate(places(sweep))):
         with vc.open_results(place) as run:
             count = run.sizes["time"]
             np.testing.assert_array_equal(ds.pressure[number, :count], run.pressure)
@@ -282,8 +283,8 @@ def test_several_cases_are_a_dimension_of_a_grid() -> None:
 def test_combinations_that_lack_one_lie_along_run() -> None:
     rows = [{"f": f, "r": r} for f in ("1 N", "2 N") for r in ("1 m", "2 m")]
     assert sweep_axes(rows_of("grid", *rows)).dims == ("f", "r")
-    for some in (rows[:3], [rows[1], rows[0], *rows[2:]]):
-        axes = sweep_axes(rows_of("grid", *some))
+    for part in (rows[:3], [rows[1], rows[0], *rows[2:]]):
+        axes = sweep_axes(rows_of("grid", *part))
         assert axes.dims == ("run",)
         assert axes.coords["f"].dims == ("run",)
     assert sweep_axes(rows_of("sample", *rows)).dims == ("run",)
