@@ -346,6 +346,15 @@ def test_valleys_below_a_plateau_may_be_an_upside_down_map() -> None:
     assert not any("plateau" in each for each in surface_doubts(flipped(honed)))
 
 
+@pytest.mark.parametrize(("ratio", "is_named"), [(1.9, False), (2.1, True)])
+def test_a_tilt_is_warned_about_from_twice_the_other_heights_on(ratio: float, is_named: bool):
+    """The heights of a ramp have a standard deviation of its rise over the root of 12."""
+    flat = levelled(self_affine())
+    slope = ratio * flat.rms_height * math.sqrt(12) / flat.size[0]
+    tilted = flat.with_heights(flat.heights + polynomial(flat, 0, slope, 0))
+    assert any("is tilted" in each for each in surface_doubts(tilted)) == is_named
+
+
 def test_tilt_spike_and_steep_heights_are_warned_about() -> None:
     surface = self_affine()
     tilted = surface.with_heights(surface.heights + polynomial(surface, 0, 0.2, 0.0))
