@@ -210,3 +210,23 @@ def test_tolerances_of_the_case_scatter(tmp_path: Path) -> None:
     nominal = float(table["value"])
     assert low * nominal < float(table["percentile"][0]) < 0.97 * nominal
     assert 1.03 * nominal < float(table["percentile"][-1]) < high * nominal
+
+
+def test_intervals_are_those_of_points_drawn_anew() -> None:
+    """Efron (1979): percentiles of the indices of as many points, drawn with replacement."""
+    first, second = np.random.default_rng(0).standard_normal((2, 64, 2))
+    mixed = [np.where([n == 0, n == 1], second, first) for n in (0, 1)]
+    values = np.array([points @ [1.0, 2.0] for points in (first, second, *mixed)])
+    found = indices_of(values, 1)
+    again = np.random.default_rng(2).integers(64, size=(1000, 64))
+    a, b, *exchanged = values[:, again]
+    both = np.concatenate([a, b], axis=1)
+    middle, variance = both.mean(axis=1, keepdims=True), both.var(axis=1)
+    for n, each in enumerate(exchanged):
+        # Saltelli and others (2010); that of Jansen (1999) for the total index.
+        alone = ((b - middle) * (each - a)).mean(axis=1) / variance
+        total = ((a - each) ** 2).mean(axis=1) / (2 * variance)
+        for index, drawn in ((found.first_order, alone), (found.total_order, total)):
+            low, high = np.percentile(drawn, [2.5, 97.5])
+            # An end of 1000 draws is known within a tenth of the width.
+            assert index[1:, n] == close_to(np.array([low, high]), abs=0.1 * (high - low))
