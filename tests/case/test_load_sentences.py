@@ -263,7 +263,8 @@ _WORDS = st.sampled_from(
 _SENTENCES = st.sampled_from(
     [
         *("step to 10 N", "ramp by 2 N in 1 s", "hold for 1 s", "unload in 1 s"),
-        *("repeat the last 2 sentences 3 times", "repeat 2 times", "jump to 3 N at 2 N/s", "½"),
+        *("ramp to 3 N at 2 N/s", "oscillate by 1 N with a period of 2 s for 3 cycles"),
+        *("repeat the last 2 sentences 3 times", "repeat 2 times"),
     ]
 )
 
@@ -274,10 +275,11 @@ _SENTENCES = st.sampled_from(
     st.one_of(
         st.text(max_size=60),
         st.lists(_WORDS, max_size=14).map(" ".join),
-        st.lists(_SENTENCES, max_size=5).map(lambda more: "; ".join(["step to 10 N", *more])),
+        st.lists(_SENTENCES, max_size=5).map(lambda more: "; ".join(["ramp to 9 N in 1 s", *more])),
     ),
 )
 @example("step to 1 / N")
+@example("step to 1 N; hold for 1 s; repeat 3 times")
 @example("repeat 999999999 times; repeat 9 times")
 def test_any_text_is_a_history_or_refused_in_one_line(text: str) -> None:
     try:

@@ -307,7 +307,9 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 #: A table with a piece put in somewhere: by chance alone none of a hundred files is a table.
 DAMAGED = st.builds(
-    lambda at, piece: TABLE[:at] + piece + TABLE[at:], st.integers(0, len(TABLE)), PIECES
+    lambda at, piece: TABLE[:at] + piece + TABLE[at:],
+    st.integers(0, len(TABLE)),
+    st.sampled_from(["", "1", " "]) | PIECES,
 )
 
 
