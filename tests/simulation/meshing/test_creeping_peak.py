@@ -148,6 +148,15 @@ def test_ring_that_cells_cannot_resolve_is_reported_with_the_error():
     assert "9 % of its largest value" in mesh.warnings["ring"]
 
 
+@pytest.mark.parametrize("material", [relaxing(2.0), vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.4)])
+def test_grid_beyond_the_cells_that_a_ring_may_take_stays_as_it_is(material, monkeypatch):
+    load = vc.step(0.5)
+    monkeypatch.setattr(mesh_choice, "MAX_CELLS_EARLY", 2)
+    limited = chosen(material, load, 2.0, tolerance=2e-3)
+    monkeypatch.setattr(mesh_choice, "contact_growth", lambda *_: None)
+    assert limited.grid.shape == chosen(material, load, 2.0, tolerance=2e-3).grid.shape
+
+
 def test_cells_remain_as_large_as_the_steps_of_a_height_map():
     lines = np.linspace(-1e-3, 1e-3, 81)
     ball = vc.HeightMap(lines, lines, -BALL.gap(lines[:, None], lines[None, :]))

@@ -37,7 +37,7 @@ def resolve_ring(
     # hardly reduce the error.
     errors = _errors(growth, across, np.minimum(most[:2], most[2]))
     steps = [_fewest(each, tolerance) for each in errors]
-    while STEP ** sum(steps) > most[2]:
+    while any(steps) and STEP ** sum(steps) > most[2]:
         steps = [min(each, max(steps) - 1) for each in steps]
     at_first = max(float(each[0]) for each in errors)
     error = max(float(each[step]) for each, step in zip(errors, steps, strict=True))
