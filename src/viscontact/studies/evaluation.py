@@ -14,7 +14,8 @@ from typing import Any, Protocol
 import xarray as xr
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.studies.executors.executor_choice import BEHIND_MAIN, IN_THIS_PROCESS, ChosenWorkers
+from viscontact.studies.executors.executor_choice import IN_THIS_PROCESS, ChosenWorkers
+from viscontact.studies.executors.local import BEHIND_MAIN
 from viscontact.studies.journal import Entry, Journal
 
 #: Called with the numbers of runs, done and allowed, after each run.
@@ -150,7 +151,7 @@ def evaluating(
     progress: Progress | None,
 ) -> Iterator[Evaluation]:
     """Evaluation of a study, with its journal open and its workers started during a block."""
-    with journal as kept, workers as chosen:
+    with workers as chosen, journal as kept:
         yield Evaluation(budget, chosen, kept, progress)
 
 

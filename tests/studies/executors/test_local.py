@@ -6,6 +6,8 @@ import json
 import os
 import random
 import signal
+import subprocess
+import sys
 import threading
 import time as clock
 from concurrent.futures import BrokenExecutor
@@ -344,3 +346,41 @@ def test_file_requests_a_task_to_stop_and_no_further_one_begins(
     assert perform(Task(request, case.parent / "b", "", stop)) == TaskEnd("not begun", 130)
     assert not (case.parent / "b").exists()
     assert not (case.parent / "a" / FAILURE_NAME).exists()
+
+
+UNGUARDED = """\
+import viscontact as vc
+
+RUN = {"indenter": vc.Sphere(0.01), "material": vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5),
+       "load": vc.step(0.1), "grid": vc.Grid((16, 16), (3e-3, 3e-3)), "times": [0.0, 1.0]}
+FORCE = {'load.force': ('1 N', '2 N')}
+SPRING = {'material.shear_modulus': ('1 MPa', '9 MPa')}
+RECORD = vc.ContactRecord(range(5), force=[4.0] * 5, approach=[1e-5, 2e-5, 3e-5, 4e-5, 5e-5])
+"""
+
+
+@pytest.mark.slow  # three processes that import everything
+@pytest.mark.parametrize(
+    "call",
+    [
+        "simulate_many([RUN] * 3, workers=2)",
+        "simulate_many([RUN] * 3, workers=2, directory='many')",
+        "sensitivity('case.yaml', 'approach', workers=2)",
+        "design('case.yaml', FORCE, minimise='approach', workers=2)",
+        "design_profile('roller.yaml', workers=2, runs=8)",
+        "fit_case('case.yaml', [RECORD] * 2, SPRING, workers=2)",
+    ],
+)
+def test_script_without_a_guard_ends_with_one_message(call: str, tmp_path: Path) -> None:
+    (tmp_path / "case.yaml").write_text(CASE, encoding="utf-8")
+    roller = "{shape: roller, radius: 5 mm, half_length: 10 mm}"
+    case = CASE.replace("{shape: sphere, radius: 10 mm}", roller)
+    case = case.replace("[3 mm, 3 mm]", "[21.6 mm, 1.1 mm]").replace("4 N", "40 N")
+    (tmp_path / "roller.yaml").write_text(case, encoding="utf-8")
+    (tmp_path / "script.py").write_text(f"{UNGUARDED}vc.{call}", encoding="utf-8")
+    ended = subprocess.run(
+        [sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, timeout=100
+    )
+    assert ended.returncode == 1
+    assert ended.stderr.count("Traceback") == 1
+    assert 'make this call behind `if __name__ == "__main__":`' in ended.stderr

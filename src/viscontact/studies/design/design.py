@@ -28,7 +28,7 @@ from viscontact.studies.design.scenarios import Scenario, scenarios_of
 from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, evaluating
-from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import chosen_workers
 from viscontact.studies.journal import journal_of
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
@@ -157,7 +157,6 @@ def design(  # noqa: PLR0913
     >>> abs(force / (4 / 3 * 4e6 * 0.6e-3**3 / 5e-3) - 1) < 0.1  # Hertz: F = 4/3 E* a^3 / R
     True
     """
-    refuse_import_by_a_worker()
     path, fixed = case_path(case), texts(settings)
     goals, limits = goals_of(minimise, maximise, at), constraints_of(constraints)
     space = space_of(change)

@@ -13,9 +13,6 @@ from viscontact.runs.machine.cores import usable_cores
 from viscontact.studies.executors.local import LocalWorkers
 from viscontact.units.numbers import whole
 
-#: Advice for a process that has ended without an answer.
-BEHIND_MAIN = 'in a script, call simulate_many behind `if __name__ == "__main__":`'
-
 
 @dataclass(frozen=True)
 class ChosenWorkers:
@@ -79,6 +76,9 @@ def number_of_workers(workers: int | None) -> int:
 
 def require_executor(executor: object, client: object, workers: object) -> None:
     """Raise TypeError or ValueError for an executor or a client that is none, or for several."""
+    # Set by multiprocessing in a new process that is importing the script; its parent says why.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise SystemExit(1)
     given = {"executor": executor, "client": client, "workers": workers}
     named = [name for name, value in given.items() if value is not None]
     if len(named) > 1:
@@ -92,13 +92,4 @@ def require_executor(executor: object, client: object, workers: object) -> None:
         raise TypeError(
             "client: must be a Client of dask.distributed, as Client('tcp://10.0.0.1:8786'), got "
             f"{client!r}"
-        )
-
-
-def refuse_import_by_a_worker() -> None:
-    """Raise RuntimeError in a new process that is importing the calling script."""
-    # Set by multiprocessing, which refuses to start processes meanwhile.
-    if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise RuntimeError(
-            f"a new process has imported this file and would start others: {BEHIND_MAIN}"
         )

@@ -17,6 +17,9 @@ from typing import Any
 from viscontact.studies.executors.task import ATTEMPTS, RecordedTask, TaskEnd
 from viscontact.studies.executors.worker import GROUP_SIGNALS, begin_worker, perform_in_worker
 
+#: Advice for a process that has ended without an answer.
+BEHIND_MAIN = 'in a script, make this call behind `if __name__ == "__main__":`'
+
 #: A fork would copy threads' locks.
 _SPAWN = multiprocessing.get_context("spawn")
 
@@ -43,6 +46,7 @@ class LocalWorkers(Executor):
         self._waiting: deque[_Call] = deque()
         self._closed = self._unawaited = self._killed = self._stopping = False
         self._changed = threading.Condition(threading.RLock())
+        self._unstartable: RuntimeError | None = None  # why no process can be started
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Call a function in the next worker that is free."""
@@ -94,6 +98,8 @@ class LocalWorkers(Executor):
     def _start(self, call: _Call) -> None:
         call.attempts += 1
         try:
+            if self._unstartable is not None:
+                raise self._unstartable
             worker = self._idle.pop() if self._idle else _Worker(stopping=self._stopping)
             running = worker.submit(call.run)
         except BrokenExecutor:  # killed while it was idle
@@ -109,13 +115,15 @@ class LocalWorkers(Executor):
     def _end(self, worker: _Worker, call: _Call, running: Future[Any]) -> None:
         error = running.exception()
         is_killed = isinstance(error, BrokenExecutor)
+        if is_killed and worker.failed_to_start:
+            error = self._unstartable = RuntimeError(f"a new process failed: {BEHIND_MAIN}")
         with self._changed:
             self._busy.remove(worker)
             if is_killed:
                 worker.close(wait=False)
             else:
                 self._idle.append(worker)
-            if is_killed and call.attempts < ATTEMPTS and not self._killed:
+            if is_killed and call.attempts < ATTEMPTS and not (self._killed or self._unstartable):
                 self._waiting.appendleft(call)
             elif error is not None:
                 call.future.set_exception(error)
@@ -139,6 +147,13 @@ class _Worker:
             1, mp_context=_SPAWN, initializer=begin_worker, initargs=(self._receiver,)
         )
         self._process: Any = None
+
+    @property
+    def failed_to_start(self) -> bool:
+        """True if the process has ended by itself, as if the script that it imports has failed."""
+        if self._process is not None:
+            self._process.join(1.0)  # it is over, but may not have been waited for
+        return self._process is not None and self._process.exitcode == 1
 
     def submit(self, run: Callable[[], Any]) -> Future[Any]:
         """Start a call; the first one starts the process."""

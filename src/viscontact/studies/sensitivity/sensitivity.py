@@ -23,7 +23,7 @@ from viscontact.studies.case_values import (
     texts,
 )
 from viscontact.studies.evaluation import Progress
-from viscontact.studies.executors.executor_choice import refuse_import_by_a_worker, require_executor
+from viscontact.studies.executors.executor_choice import require_executor
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
@@ -154,7 +154,6 @@ def sensitivity(  # noqa: PLR0913
     >>> round(float(one.elasticity), 2)  # Hertz: F^(2/3)
     0.67
     """
-    refuse_import_by_a_worker()
     require_executor(executor, client, workers)
     path, fixed = case_path(case), texts(settings)
     outputs, length = checked_outputs(of), positive("step", step)

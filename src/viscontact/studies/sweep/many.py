@@ -19,13 +19,11 @@ from viscontact.simulation.transient.progress_bar import ProgressBar, reported
 from viscontact.studies.executors.dask import dask_executor
 from viscontact.studies.executors.driver import Workers
 from viscontact.studies.executors.executor_choice import (
-    BEHIND_MAIN,
     chosen_workers,
     number_of_workers,
-    refuse_import_by_a_worker,
     require_executor,
 )
-from viscontact.studies.executors.local import LocalTasks, LocalWorkers
+from viscontact.studies.executors.local import BEHIND_MAIN, LocalTasks, LocalWorkers
 from viscontact.studies.executors.remote import RemoteTasks
 from viscontact.studies.sweep.open_many import open_many
 from viscontact.studies.sweep.recorded_many import Progress, record_many
@@ -148,10 +146,9 @@ def simulate_many(
     >>> round(float(eight.approach[0] / one.approach[0]), 2)  # 8**(2/3)  # doctest: +SKIP
     4.0
     """
-    refuse_import_by_a_worker()
     report = reported(progress, ProgressBar("run"))
-    recipes = checked_recipes(runs)
     require_executor(executor, client, workers)
+    recipes = checked_recipes(runs)
     if directory is not None:
         place = Path(directory)
         with tasks_of(recipes, place, executor, client, workers) as tasks:

@@ -29,7 +29,7 @@ from viscontact.studies.design.profiles.result_files import write_profile_design
 from viscontact.studies.design.profiles.tables import deviating, finite_table, tabulated
 from viscontact.studies.design.scenarios import scenarios_of
 from viscontact.studies.evaluation import Budget, evaluating
-from viscontact.studies.executors.executor_choice import chosen_workers, refuse_import_by_a_worker
+from viscontact.studies.executors.executor_choice import chosen_workers
 from viscontact.studies.journal import journal_of
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
@@ -134,7 +134,6 @@ def design_profile(  # noqa: PLR0913
     >>> round(found.peak_pressure / even, 2)
     1.03
     """
-    refuse_import_by_a_worker()
     path, fixed = case_path(case), texts(settings)
     count = whole("knots", knots, FEWEST_KNOTS, MOST_KNOTS)
     tolerance = non_negative("drop_tolerance", drop_tolerance, "m")
