@@ -1,6 +1,10 @@
 """Public names of viscontact, for type checkers, editors and the lazy loading in `__init__.py`."""
 
+from . import case as case
 from . import figures as figures
+from . import indenters as indenters
+from . import laws as laws
+from . import loads as loads
 from . import notebook as notebook
 from . import plot as plot
 from . import reference as reference

@@ -6,6 +6,8 @@ import fnmatch
 import importlib.util
 import pydoc
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 from types import ModuleType
@@ -32,6 +34,21 @@ def extension(name: str) -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+# --- names in the text ----------------------------------------------------------------------------
+
+
+def test_names_in_the_manual_are_found_after_import_viscontact() -> None:
+    pages = [*DOCS.rglob("*.md"), DOCS.parent / "README.md"]
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
+    # In code spans, with at least a module and a name in it, as `viscontact.case.read_case`.
+    names = set(re.findall(r"`(?:vc|viscontact)((?:\.[a-z]\w*){2,})\(?[^`]*`(?! is not)", text))
+    assert ".case.read_case" in names
+    # In a new process: in this one, other tests have imported the modules.
+    program = "import operator, sys, viscontact\nfor name in sys.argv[1:]:\n"
+    program += "    operator.attrgetter(name[1:])(viscontact)\n"
+    subprocess.run([sys.executable, "-c", program, *sorted(names)], check=True)
 
 
 # --- the Python reference -----------------------------------------------------------------------
