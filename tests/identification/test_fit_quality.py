@@ -13,7 +13,9 @@ from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.series_fits.columns import positive_column
 from viscontact.bodies.series_fits.conventions import bulk_arguments
 from viscontact.bodies.series_fits.quality import Reason
-from viscontact.bodies.series_fits.weights import given_weights
+from viscontact.bodies.series_fits.responses import DynamicResponse
+from viscontact.bodies.series_fits.spectrum import unweighted
+from viscontact.bodies.series_fits.weights import given_weights, weighted
 from viscontact.case import read_material
 from viscontact.identification import Fit, fit_dynamic, fit_relaxation, material_section
 from viscontact.laws import RelaxationSeries
@@ -157,3 +159,8 @@ def test_arguments_of_a_fit_are_checked_by_name_and_row():
     assert bulk == {"poisson_ratio": 0.4, "bulk_modulus": None}
     weights = given_weights("fit_dynamic", {"storage": 3}, ("storage", "loss"))
     assert weights == {"storage": 3.0, "loss": 1.0}
+    # Of root mean square 1, so that a residual is compared with the same tolerance as without.
+    values = np.concatenate([MODULUS.real, MODULUS.imag])
+    observed = weighted(unweighted(DynamicResponse(OMEGA, fluid=False), values), weights)
+    assert np.mean(observed.weights**2) == close_to(1.0, rel=1e-14)
+    assert observed.weights[0] == close_to(3.0 * observed.weights[-1], rel=1e-14)

@@ -12,6 +12,7 @@ from viscontact.units.formatting import (
     format_compact,
     quoted,
     readable_unit,
+    time_labels,
     without_trailing_zeros,
 )
 from viscontact.units.parsing import (
@@ -52,6 +53,26 @@ def test_ticks_over_hours_are_times_that_clocks_show():
     hours = clock_ticks(ReadableUnit("h", 3600.0), 0.1, 30.0)
     assert hours == {1 / 6: "10 min", 1.0: "1 h", 10.0: "10 h", 24.0: "1 d"}
     assert clock_ticks(readable_unit("s", [1000.0]), 1.0, 1000.0) == {}
+    # Beyond four decades 10 h would be too close to 1 d.
+    assert "10 h" not in clock_ticks(ReadableUnit("h", 3600.0), 0.02, 1000.0).values()
+
+
+def test_long_times_are_in_hours_from_10000_s_on_and_in_days_from_three_days_on():
+    symbols = [readable_unit("s", time).symbol for time in (1e4, 1.1e4, 2.5e5, 2.7e5)]
+    assert symbols == ["s", "h", "h", "d"]
+
+
+def test_instants_of_long_runs_are_in_the_largest_unit_that_they_have_two_of():
+    assert time_labels([90.0, 5400.0, 1.5 * 86400, 4 * 86400]) == ("90 s", "90 min", "36 h", "4 d")
+
+
+def test_compliance_is_below_a_thousand_in_the_largest_unit_of_modulus_that_leaves_it_so():
+    assert [readable_unit("1/Pa", size).symbol for size in (5e-7, 2e-6)] == ["1/GPa", "1/MPa"]
+
+
+def test_length_less_than_a_thousandth_below_a_millimetre_is_in_millimetres():
+    assert readable_unit("m", 0.9995e-3).symbol == "mm"
+    assert readable_unit("m", 0.998e-3).symbol == "µm"
 
 
 def test_digits_of_a_number_stay_in_its_si_value():

@@ -17,6 +17,7 @@ from viscontact.units.tolerances import read_toleranced
         ("50 % ± 5 %", "50 %", "45 %", "55 %"),
         ("0 mm ± 0.5 mm", "0 mm", "-0.5 mm", "0.5 mm"),
         ("-2 mrad ± 1 mrad", "-2 mrad", "-3 mrad", "-1 mrad"),
+        ("-2 mrad ± 10 %", "-2 mrad", "-2.2 mrad", "-1.8 mrad"),
         ("5e-4 / MPa ± 1e-5 / MPa", "5e-4 / MPa", "0.00049 / MPa", "0.00051 / MPa"),
         ("23 degC ± 2 degC", "23 degC", "21 degC", "25 degC"),
         ("± 20 um", "0 um", "-20 um", "20 um"),

@@ -137,6 +137,14 @@ def test_rounded_chamfer_is_tangent_to_both_lines() -> None:
     assert sharp.drop([9.0, 10.0], half_length=12.0) == close_to([0.0, math.tan(angle)])
 
 
+def test_largest_corner_radius_of_a_chamfer_is_the_one_that_its_refusal_names() -> None:
+    """Its arc ends with the roller: the tangent R tan(α/2) along the flank spans the length."""
+    largest = 1e-3 / (math.cos(1.0) * math.tan(0.5))  # 3.388 mm
+    vc.Chamfer(angle=1.0, length=1e-3, corner_radius=0.9999 * largest)
+    with pytest.raises(ValueError, match=r"make it smaller than 3\.39 mm"):
+        vc.Chamfer(angle=1.0, length=1e-3, corner_radius=1.0001 * largest)
+
+
 # -- logarithmic -------------------------------------------------------------------------------
 
 
@@ -275,6 +283,14 @@ def test_table_is_measured_from_its_highest_point_on_the_roller() -> None:
     line = vc.TabulatedProfile([-2, -1, 0, 2], [3.0, 1.0, 2.0, 0.0], "linear")
     assert line.drop([-1.0, 1.0], half_length=1.0).tolist() == [0.0, 0.0]
     assert line.drop([-1.0, 1.0, 2.0], half_length=2.0).tolist() == [1.0, 1.0, 0.0]
+    # Where the roller ends between two points, its highest one may be there.
+    assert line.drop([-1.0, 1.5], half_length=1.5).tolist() == [0.5, 0.0]
+
+
+def test_table_with_unequal_ends_ends_at_the_farther_one() -> None:
+    line = vc.TabulatedProfile([-2, 0, 5], [1.0, 0.0, 1.0], "linear")
+    assert [line.end(half_length) for half_length in (1.0, 4.0, 9.0)] == [1.0, 4.0, 5.0]
+    assert np.isfinite(line.drop([-2.0, 4.0], 4.0)).all()
 
 
 @given(st.floats(-1.2, 1.2))

@@ -13,6 +13,7 @@ import viscontact as vc
 from closeness import close_to
 from verification.pressing import ELASTIC, MODULUS, grid_around, press
 from viscontact import reference
+from viscontact.bodies.indenters.cross_section import lines_through
 from viscontact.indenters import PlacedIndenter
 from viscontact.results.descriptions import describe, rebuild
 
@@ -114,6 +115,15 @@ def test_pyramid_looks_along_x_with_a_face_and_has_its_angle_there() -> None:
     # 148.11° between opposite edges of a Vickers pyramid, of its drawing in ISO 6507.
     across = 2 * math.degrees(math.atan(math.sqrt(2) / float(edge)))
     assert across == close_to(148.11, abs=0.005)
+
+
+def test_pyramid_of_a_thousand_faces_is_the_cone_within() -> None:
+    """Its edges are (π/1000)²/2 = 5e-6 farther from the axis than the cone."""
+    x, y = np.cos(np.arange(7.0)), np.sin(np.arange(7.0))
+    pyramid, cone = vc.Pyramid(1.0, faces=1000).gap(x, y), vc.Cone(1.0).gap(x, y)
+    assert pyramid == close_to(cone, rel=5e-6)
+    with pytest.raises(ValueError, match="from 3 to 1000"):
+        vc.Pyramid(1.0, faces=1001)
 
 
 @pytest.mark.filterwarnings("ignore:the largest pressure lies at a tip:viscontact.AccuracyWarning")
@@ -316,6 +326,14 @@ def test_body_turned_by_30_degrees_has_its_long_axis_there() -> None:
         h = 1e-4
         measured = [2 * float(body.gap(*at)) / h**2 for at in ((h, 0.0), (0.0, h))]
         assert body.curvatures == close_to(measured, rel=1e-6)
+
+
+def test_drawn_sections_of_a_moved_body_pass_through_its_tip() -> None:
+    x = np.linspace(-5.0, 5.0, 21)
+    sphere = vc.Sphere(4.0).shifted(x=2.0)
+    assert lines_through(sphere, x, x, sphere.gap(x[:, None], x)) == (2.0, 0.0)
+    sphere = vc.Sphere(4.0).shifted(y=-3.0)
+    assert lines_through(sphere, x, x, sphere.gap(x[:, None], x)) == (0.0, -3.0)
 
 
 def test_quarter_turns_are_exact() -> None:

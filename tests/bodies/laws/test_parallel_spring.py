@@ -115,6 +115,13 @@ def test_measured_law_with_a_parallel_spring_is_the_table_of_the_sum(kind):
     assert 0 < beside.inversion_error < 1e-3
 
 
+def test_conversion_error_of_a_measured_modulus_is_stated_beside_a_stiff_spring_too():
+    times = np.geomspace(1e-2, 1e4, 7)
+    law = TabulatedRelaxation(times, 1e6 * (1 + 9 / (1 + times)))
+    # The spring takes nearly all of the load, and its own part of the error is far smaller.
+    assert 0 < law.creep_error <= BesideSpring(law, 1e10).creep_error
+
+
 def test_a_slowed_pair_is_the_pair_at_shorter_times():
     beside = BesideSpring(PowerLaw(1.0, 0.3, 1.0), 0.7)
     np.testing.assert_allclose(beside.slowed(50.0)(T), beside(T / 50.0), rtol=2e-5)

@@ -43,6 +43,19 @@ def test_mean_deviation_and_rms_height_of_a_sine_are_2a_over_pi_and_a_over_root_
     assert np.log2(errors[1] / errors[2]) == close_to(2, abs=0.1)
 
 
+def test_developed_area_is_the_mean_of_both_ways_to_split_a_cell_into_triangles() -> None:
+    """ISO 25178-2 as measured: a corner lifted by the cell's edge, areas by cross products."""
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 1]])
+
+    def area(*triangle: int) -> float:
+        a, b, c = corners[list(triangle)]
+        return float(np.linalg.norm(np.cross(b - a, c - a))) / 2
+
+    either = [area(0, 1, 3) + area(0, 2, 3), area(0, 1, 2) + area(3, 1, 2)]
+    surface = vc.Surface(corners[:, 2].reshape(2, 2), 1.0)
+    assert surface.developed_ratio == close_to(sum(either) / 2 - 1, rel=1e-14)
+
+
 @pytest.mark.parametrize("amplitude", [1e-8, 2e-7, 1e-6])
 def test_developed_area_and_rms_slope_of_a_sine_converge_to_their_closed_forms(
     amplitude: float,

@@ -337,6 +337,9 @@ def test_a_bowl_looks_upside_down_and_a_cap_does_not(sign: int) -> None:
     said = " ".join(surface_doubts(form))
     assert ("is hollow" in said) == (sign == 1)
     assert "is hollow" not in " ".join(surface_doubts(flipped(form) if sign == 1 else form))
+    # A saddle touches at two of its borders whichever way it lies: neither is upside down.
+    saddle = surface.heights + sign * polynomial(surface, 0, 0, 0, 2e3, 0, -1e3)
+    assert "is hollow" not in " ".join(surface_doubts(surface.with_heights(saddle)))
 
 
 def test_valleys_below_a_plateau_may_be_an_upside_down_map() -> None:

@@ -103,6 +103,8 @@ def test_units_of_a_system_are_those_of_its_standard() -> None:
     assert unit_in("us", "N/m", 1.0).factor == close_to(175.1268, rel=1e-6)
     assert unit_in("us", "m2", 1.0).factor == close_to(6.4516e-4, rel=1e-12)
     assert unit_in("us", "J", 1.0).factor == close_to(0.1129848, rel=1e-6)
+    # A horsepower of 550 ft·lbf/s is 745.69987 W.
+    assert 6600 * unit_in("us", "W", 1.0).factor == close_to(745.69987, rel=1e-8)
     for system in set(SYSTEMS) - {"auto"}:
         force, length, area, line = (
             unit_in(system, si, 1.0).factor for si in ("N", "m", "m2", "N/m")
