@@ -132,7 +132,7 @@ def test_weights_are_those_given_for_a_table_and_for_a_master_curve(
     [
         ("storage", "--weight: 'storage' is not a weight; write e.g. storage=2"),
         ("compliance=2", "weights are those of storage and loss, got one of 'compliance'"),
-        ("storage=-1", "the weight of storage must be above 0, got -1.0"),
+        ("storage=-1", "the weight of storage must be a positive finite number, got -1"),
     ],
 )
 def test_weights_that_cannot_be_used_are_refused(weight, said, contradiction, capsys):

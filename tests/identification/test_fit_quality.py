@@ -129,8 +129,8 @@ def test_weights_found_are_the_inverse_scatter_of_each_column_also_where_they_di
     ("weights", "said"),
     [
         ({"G'": 2.0}, 'weights are those of storage and loss, got one of "G\'"'),
-        ({"loss": 0.0}, "the weight of loss must be above 0, got 0.0"),
-        ({"loss": "heavy"}, "the weight of loss must be above 0, got 'heavy'"),
+        ({"loss": 0.0}, "the weight of loss must be a positive finite number, got 0"),
+        ({"loss": "heavy"}, "the weight of loss must be a positive finite number, got 'heavy'"),
     ],
 )
 def test_weights_that_cannot_be_used_are_refused(weights, said):

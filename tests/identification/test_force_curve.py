@@ -180,7 +180,7 @@ def test_bending_of_ten_times_the_noise_is_a_contact_and_of_three_times_is_none(
 @pytest.mark.parametrize(
     ("change", "why"),
     [
-        ({"spring_constant": 0.0}, "spring_constant must be a positive number in N/m, got 0.0"),
+        ({"spring_constant": 0.0}, "spring_constant must be a positive finite number, got 0 N/m"),
         ({"times": np.zeros(19)}, "got 19 times, 20 position, 20 deflection"),
         ({"times": -np.arange(20.0)}, "times, row 1: must not be before the row above"),
         ({"deflection": np.full(20, np.nan)}, "ForceCurve: deflection, row 0: must be finite"),

@@ -207,8 +207,14 @@ NAN = float("nan")
         (lambda: fit_creep([1, 2, NAN, 4], RISING, data="shear"), "times, row 2: .*got nan"),
         (lambda: fit_creep([1, -2, 3, 4], RISING, data="shear"), r"times, row 1: .*got -2\.0"),
         (lambda: fit_creep(RISING, [1, 2, 0, 4], data="shear"), r"compliance, row 2: .*got 0\.0"),
-        (lambda: fit_creep(RISING, [1, 2, 3, "x"], data="shear"), "column of numbers in 1/Pa"),
-        (lambda: fit_creep(RISING, [RISING], data="shear"), "one column, got shape"),
+        (
+            lambda: fit_creep(RISING, [1, 2, 3, "x"], data="shear"),
+            "numbers in 1/Pa, got 'x' at",
+        ),
+        (
+            lambda: fit_creep(RISING, [RISING], data="shear"),
+            "a list of numbers in 1/Pa, got",
+        ),
         (lambda: fit_creep(RISING, [1, 2, 3], data="shear"), "got 4 times, 3 compliance"),
         (lambda: fit_creep([1, 2], [1, 2], data="shear"), "at least 3 rows, got 2"),
         (lambda: fit_creep(RISING, FALLING, data="shear"), "falls .*can only rise"),

@@ -238,9 +238,9 @@ T, D = triangle(21)
         ),
         (lambda: IndentationRecord(SPHERE, T[::-1], D, D), "times, row 1: must not be before"),
         (lambda: IndentationRecord(SPHERE, T, D[:-1], D), "21 times, 20 approach, 21 force"),
-        (lambda: IndentationRecord(SPHERE, T[:3], D[:3], D[:3]), "needs 5 rows"),
+        (lambda: IndentationRecord(SPHERE, T[:3], D[:3], D[:3]), "needs at least 5 rows"),
         (lambda: IndentationRecord(SPHERE, T, -D, D), "approach and force must be positive"),
-        (lambda: IndentationRecord(SPHERE, T, D, "x"), "force must be a column"),
+        (lambda: IndentationRecord(SPHERE, T, D, "x"), "force must be numbers in N, got 'x'"),
         (
             lambda: fit_indentation(RECORD, "kelvin", poisson_ratio=0.5),
             "one of elastic, .*'kelvin'",

@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field
 from decimal import Decimal
 
 import numpy as np
+import pint
 import pytest
+import xarray as xr
 
+from closeness import close_to
 from viscontact.units.numbers import (
     as_real,
     check_fields,
     finite,
+    finite_array,
     non_negative,
     positive,
     real,
+    real_array,
     unit_of,
     whole,
 )
+
+UREG = pint.UnitRegistry()
 
 
 @dataclass(frozen=True)
@@ -66,6 +74,47 @@ def test_whole_numbers_are_refused_outside_their_bounds(given: object) -> None:
     with pytest.raises(ValueError, match="n must be a whole number from 1 to 10, got "):
         whole("n", given, 1, 10)
     assert whole("n", 4.0, 1, 10) == 4
+
+
+@pytest.mark.parametrize(
+    ("given", "unit", "message"),
+    [
+        ([0.0, [1.0, "2"]], "s", "must be numbers in s, got '2' at [1] at [1]"),
+        ([0.0, "1"], "s", "must be numbers in s, got '1' at [1]"),
+        ([[0.0], [1.0, 2.0]], "1", "must be numbers, got rows of unequal length"),
+        (UREG.Quantity([1.0], "m"), "s", "must be numbers in s, got a length in m"),
+        # A frequency counts turns; 1 Hz is 2 pi rad/s, and 0 degC is 273.15 K.
+        (UREG.Quantity([1.0], "Hz"), "rad/s", "numbers in rad/s, got a frequency or a rate in Hz"),
+        (UREG.Quantity([1.0], "degC"), "K", "must be numbers in K, got a temperature in °C"),
+        (
+            xr.DataArray([1.0], attrs={"units": "m."}),
+            "m",
+            "numbers in m, got the unknown unit 'm.'",
+        ),
+    ],
+)
+def test_an_array_is_refused_with_its_name_and_what_was_given(
+    given: object, unit: str, message: str
+) -> None:
+    with pytest.raises(ValueError, match=re.escape(message)) as refusal:
+        real_array("x", given, unit)
+    assert str(refusal.value).startswith("x must be numbers")
+
+
+def test_arrays_of_floats_are_taken_as_they_are_and_copied_where_they_are_kept() -> None:
+    given = np.array([1.0, math.nan])
+    assert real_array("x", given, "m") is given
+    assert finite_array("x", given[:1]).base is not given
+    with pytest.raises(ValueError, match="x must be finite, got nan"):
+        finite_array("x", given)
+
+
+def test_single_numbers_have_units_too() -> None:
+    assert as_real(UREG.Quantity(5, "mm"), "m") == close_to(5e-3, rel=1e-15)
+    assert as_real(xr.DataArray(10.0, attrs={"units": "mm"}), "m") == close_to(1e-2, rel=1e-15)
+    assert as_real(UREG.Quantity(5, "s"), "m") is None
+    assert as_real(np.ma.masked, "m") is None
+    assert Ball(UREG.Quantity(5, "mm")) == Ball(UREG.Quantity(5e3, "um"))  # type: ignore[arg-type]
 
 
 def test_fields_are_checked_in_their_units_and_optional_ones_may_be_none() -> None:

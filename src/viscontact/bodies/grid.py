@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from viscontact.backend.arrays import Field, Floats
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.display import Displayable
-from viscontact.units.numbers import as_real, finite, positive, whole
+from viscontact.units.numbers import as_real, finite, positive, store, whole
 
 #: Quantities that a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
@@ -89,20 +89,16 @@ class Grid(Displayable):
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        cells, extents = _pair("shape", self.shape), _pair("size", self.size)
         periodic = AxisFlags(self.periodic, "grid.periodic")
-        for name, count, repeats in zip(("nx", "ny"), cells, periodic, strict=True):
-            if not (repeats and as_real(count) == 1):
-                whole(f"grid.shape: {name}", count, 4)
-        for name, extent in zip(("lx", "ly"), extents, strict=True):
-            positive(f"grid.size: {name}", extent, "m")
-        middle = _pair("centre", self.centre)
-        for name, place in zip("xy", middle, strict=True):
-            finite(f"grid.centre: {name}", place, "m")
-        object.__setattr__(self, "centre", (float(middle[0]), float(middle[1])))
-        object.__setattr__(self, "periodic", periodic)
-        object.__setattr__(self, "shape", (int(cells[0]), int(cells[1])))
-        object.__setattr__(self, "size", (float(extents[0]), float(extents[1])))
+        shape = tuple(
+            whole(f"grid.shape: {name}", count, 1 if repeats and as_real(count) == 1 else 4)
+            for name, count, repeats in zip(
+                ("nx", "ny"), _pair("shape", self.shape), periodic, strict=True
+            )
+        )
+        size = _lengths("size", ("lx", "ly"), self.size, positive)
+        centre = _lengths("centre", ("x", "y"), self.centre, finite)
+        store(self, shape=shape, size=size, periodic=periodic, centre=centre)
 
     def __repr__(self) -> str:
         centre = f", centre={self.centre}" if any(self.centre) else ""
@@ -286,12 +282,10 @@ class AutomaticGrid(Displayable):
                 f"quantities must name some of {', '.join(MESH_QUANTITIES)}, got {named!r}; the "
                 "errors of other results follow from the whole history: see their error bars"
             )
-        object.__setattr__(self, "tolerance", allowed)
-        object.__setattr__(self, "quantities", tuple(dict.fromkeys(names)))
+        store(self, tolerance=allowed, quantities=tuple(dict.fromkeys(names)))
         if self.largest_cell is not None:
-            pairs = zip(("dx", "dy"), _pair("largest_cell", self.largest_cell), strict=True)
-            cell = tuple(positive(f"grid.largest_cell: {name}", each, "m") for name, each in pairs)
-            object.__setattr__(self, "largest_cell", cell)
+            cell = _lengths("largest_cell", ("dx", "dy"), self.largest_cell, positive)
+            store(self, largest_cell=cell)
 
 
 def _pair(name: str, given: Any) -> tuple[Any, Any]:
@@ -300,6 +294,13 @@ def _pair(name: str, given: Any) -> tuple[Any, Any]:
     except (TypeError, ValueError):
         raise ValueError(f"grid.{name} needs two entries, along x and y, got {given!r}") from None
     return along_x, along_y
+
+
+def _lengths(
+    name: str, parts: tuple[str, str], given: Any, check: Callable[[str, object, str], float]
+) -> tuple[float, ...]:
+    pairs = zip(parts, _pair(name, given), strict=True)
+    return tuple(check(f"grid.{name}: {part}", each, "m") for part, each in pairs)
 
 
 def _centres(cells: int, extent: float, middle: float) -> Floats:

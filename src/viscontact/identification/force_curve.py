@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.identification.record import finite_column
+from viscontact.bodies.series_fits.columns import columns_over_time
 from viscontact.tables import Table
-from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import positive, store
 
 _LEAST_ROWS = 20
 
@@ -53,35 +52,17 @@ class ForceCurve:
     spring_constant: float
 
     def __post_init__(self) -> None:
-        columns = {
-            name: finite_column("ForceCurve", name, getattr(self, name), unit)
-            for name, unit in (("times", "s"), ("position", "m"), ("deflection", "m"))
-        }
-        lengths = {name: column.size for name, column in columns.items()}
-        if len(set(lengths.values())) > 1 or min(lengths.values()) < _LEAST_ROWS:
-            found = ", ".join(f"{count} {name}" for name, count in lengths.items())
-            raise ValueError(
-                f"ForceCurve: needs {_LEAST_ROWS} rows or more with a value in each column, got "
-                f"{found}"
-            )
-        back = np.flatnonzero(np.diff(columns["times"]) < 0)
-        if back.size:
-            row = int(back[0]) + 1
-            raise ValueError(
-                f"ForceCurve: times, row {row}: must not be before the row above, got "
-                f"{format_quantity(columns['times'][row], 's', 6)}"
-            )
-        stiffness = as_real(self.spring_constant)
-        if stiffness is None or not 0 < stiffness < np.inf:
-            raise ValueError(
-                "ForceCurve: spring_constant must be a positive number in N/m, got "
-                f"{self.spring_constant!r}"
-            )
+        columns = columns_over_time(
+            "ForceCurve",
+            _LEAST_ROWS,
+            times=(self.times, "s"),
+            position=(self.position, "m"),
+            deflection=(self.deflection, "m"),
+        )
+        stiffness = positive("ForceCurve: spring_constant", self.spring_constant, "N/m")
         if _is_falling(columns["position"], columns["deflection"]):
             columns["position"] = -columns["position"]
-        for name, column in columns.items():
-            object.__setattr__(self, name, column)
-        object.__setattr__(self, "spring_constant", stiffness)
+        store(self, **columns, spring_constant=stiffness)
 
     @property
     def loading_rows(self) -> int:

@@ -9,9 +9,10 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.bodies.series_fits.columns import columns_over_time
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
 from viscontact.units.display import Displayable
-from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array, store
 
 _LEAST_ROWS = 5
 
@@ -51,32 +52,19 @@ class IndentationRecord(Displayable):
     force: Floats
 
     def __post_init__(self) -> None:
-        columns = {
-            name: finite_column("IndentationRecord", name, getattr(self, name), unit)
-            for name, unit in (("times", "s"), ("approach", "m"), ("force", "N"))
-        }
-        lengths = {name: column.size for name, column in columns.items()}
-        if len(set(lengths.values())) > 1 or min(lengths.values()) < _LEAST_ROWS:
-            found = ", ".join(f"{count} {name}" for name, count in lengths.items())
-            raise ValueError(
-                f"IndentationRecord: needs {_LEAST_ROWS} rows or more with a value in each "
-                f"column, got {found}"
-            )
-        back = np.flatnonzero(np.diff(columns["times"]) < 0)
-        if back.size:
-            row = int(back[0]) + 1
-            raise ValueError(
-                f"IndentationRecord: times, row {row}: must not be before the row above, got "
-                f"{format_quantity(columns['times'][row], 's', 6)} after "
-                f"{format_quantity(columns['times'][row - 1], 's', 6)}"
-            )
+        columns = columns_over_time(
+            "IndentationRecord",
+            _LEAST_ROWS,
+            times=(self.times, "s"),
+            approach=(self.approach, "m"),
+            force=(self.force, "N"),
+        )
         if not (columns["approach"].max() > 0 and columns["force"].max() > 0):
             raise ValueError(
                 "IndentationRecord: approach and force must be positive in some row, as they are "
                 "when the bodies are pressed together"
             )
-        for name, column in columns.items():
-            object.__setattr__(self, name, column)
+        store(self, **columns)
         _ = self.profile  # refuses other indenters
 
     @property
@@ -97,7 +85,7 @@ class IndentationRecord(Displayable):
         ndarray
             4/3 sqrt(R) d^1.5 (Hertz), 2/π tan(half angle) d² (Sneddon) or 2 a d (Boussinesq).
         """
-        return elastic_force(self.indenter, approach)
+        return elastic_force(self.indenter, real_array("approach", approach, "m"))
 
 
 def indenter_profile(indenter: Indenter) -> SphereProfile | ConeProfile | PunchProfile:
@@ -124,18 +112,3 @@ def elastic_force(indenter: Indenter, approach: Floats) -> Floats:
             return np.asarray(2 / math.pi * math.tan(half_angle) * approach**2)
         case PunchProfile(radius=radius):
             return np.asarray(2 * radius * approach)
-
-
-def finite_column(owner: str, name: str, values: Floats, unit: str) -> Floats:
-    """Column of finite numbers; ValueError with the name of its owner and the row."""
-    try:
-        column = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        column = np.zeros((0, 0))
-    if column.ndim != 1:
-        raise ValueError(f"{owner}: {name} must be a column of numbers in {unit}")
-    wrong = ~np.isfinite(column)
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        raise ValueError(f"{owner}: {name}, row {row}: must be finite, got {float(column[row])!r}")
-    return column

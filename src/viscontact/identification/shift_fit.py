@@ -142,7 +142,7 @@ def _check(
     owner: str, temperatures: ArrayLike, factors: ArrayLike, reference: float, least: int
 ) -> tuple[Floats, Floats]:
     T = positive_column(owner, "temperatures", temperatures, "K")
-    a_T = positive_column(owner, "factors", factors, "(a_T)")
+    a_T = positive_column(owner, "factors", factors, "1")
     require_rows(owner, least, temperatures=T, factors=a_T)
     positive_column(owner, "reference_temperature", [reference], "K")
     if np.unique(T).size < least:

@@ -13,6 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.profiles import Profile, arcsine
 from viscontact.reference.values import Values
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +101,7 @@ class AxisymmetricContact:
         >>> print(f"{contact.pressure(0.0, 0.0) / 1e6:.3f} MPa")  # Hertz: 42.617
         42.617 MPa
         """
-        distance = np.abs(np.asarray(r, dtype=np.float64))
+        distance = np.abs(real_array("r", r, "m"))
         chi, a = self._at(t, self.transformed_pressure), float(self._at(t, self.contact_radius))
         if np.isfinite(self.profile.edge):
             return _under_punch(distance, self.profile.edge, float(chi[0]))
@@ -144,7 +145,7 @@ class AxisymmetricContact:
         >>> print(f"{contact.displacement(2e-5, 0.0) * 1e6:.4f} um")  # 10 um - r cot(1.4)
         6.5505 um
         """
-        distance = np.abs(np.asarray(r, dtype=np.float64))[..., None]
+        distance = np.abs(real_array("r", r, "m"))[..., None]
         v = self._at(t, self.transformed_displacement)
         if np.isfinite(self.profile.edge):
             places, values = np.array([0.0, self.profile.edge]), np.array([v[0], v[0]])

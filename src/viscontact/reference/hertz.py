@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class SphereContact:
         >>> print(f"{contact.pressure(0.0) / 1e6:.4f} MPa")
         42.6174 MPa
         """
-        ratio = np.asarray(r, dtype=np.float64) / self.contact_radius
+        ratio = real_array("r", r, "m") / self.contact_radius
         return self.peak_pressure * _hemisphere(ratio**2)
 
 
@@ -151,8 +152,8 @@ class EllipticalContact:
         >>> print(f"{contact.pressure(0.0, 0.0) / 1e6:.4f} MPa")
         26.6592 MPa
         """
-        along = np.asarray(x, dtype=np.float64) / self.semi_axis_x
-        across = np.asarray(y, dtype=np.float64) / self.semi_axis_y
+        along = real_array("x", x, "m") / self.semi_axis_x
+        across = real_array("y", y, "m") / self.semi_axis_y
         return self.peak_pressure * _hemisphere(along**2 + across**2)
 
 

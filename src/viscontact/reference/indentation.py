@@ -23,6 +23,7 @@ from viscontact.reference.indentation_march import (
 from viscontact.reference.lag_means import instant_compliance, lag_mean
 from viscontact.reference.profiles import Profile
 from viscontact.reference.rods import Rods, placed_rods
+from viscontact.units.numbers import real_array
 
 _COARSE_ELEMENTS = 24  # of a first solution that finds the largest approach under a force
 
@@ -114,10 +115,13 @@ def press_axisymmetric(
     >>> print(f"{contact.lost[0]:.4f} s, exactly {np.log(2 * np.e - 1):.4f} s")
     1.4899 s, exactly 1.4899 s
     """
-    instants = np.asarray(times, dtype=np.float64)
+    if (approach is None) == (force is None):
+        raise ValueError("press_axisymmetric: wanted either approach= or force=, not both or none")
+    instants = real_array("times", times, "s")
     controlled: Literal["approach", "force"] = "force" if approach is None else "approach"
-    load = np.asarray(force if approach is None else approach, dtype=np.float64)
-    _require_history(instants, load, controlled, one=(approach is None) != (force is None))
+    given, unit = (force, "N") if approach is None else (approach, "m")
+    load = real_array(controlled, given, unit)
+    _require_history(instants, load, controlled)
     _require_counts(elements=elements, substeps=substeps)
     steps = load_steps(instants, load, by_approach=approach is not None, substeps=substeps)
     law = LagCompliance(lag_mean(creep_compliance), instant_compliance(creep_compliance))
@@ -241,17 +245,15 @@ def clustered_times(corners: ArrayLike, count: int) -> Floats:
     >>> clustered_times([0.0, 1.0], 4).round(6).tolist()
     [0.0, 0.103516, 0.5, 0.896484, 1.0]
     """
-    ends = np.asarray(corners, dtype=np.float64)
+    ends = real_array("corners", corners, "s")
     x = np.arange(count) / count
     placed = x**3 * (10 - 15 * x + 6 * x**2)  # the quintic with three flat derivatives at each end
     between = ends[:-1, None] + np.diff(ends)[:, None] * placed
     return np.append(between.ravel(), ends[-1])
 
 
-def _require_history(times: Floats, load: Floats, controlled: str, *, one: bool) -> None:
+def _require_history(times: Floats, load: Floats, controlled: str) -> None:
     """Check the times and the load history."""
-    if not one:
-        raise ValueError("press_axisymmetric: wanted either approach= or force=, not both or none")
     if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
         raise ValueError("times: wanted finite instants [s], one or more, in one dimension")
     backwards = np.flatnonzero(np.diff(times) < 0)

@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 #: Wave number times thickness beyond which L - 1 is below rounding.
 SHORTEST_WAVE = 22.0
@@ -80,7 +81,7 @@ class LayerContact:
         >>> print(f"{ball.pressure(0.0) * 2 * math.pi * 1e-6 / (3 * ball.force):.6f}")
         1.000000
         """
-        r, a = np.abs(np.asarray(r, dtype=np.float64))[..., None], self.contact_radius
+        r, a = np.abs(real_array("r", r, "m"))[..., None], self.contact_radius
         # φ is smooth: a polynomial in t/a through its values at Gauss nodes and at the rim.
         fitted = np.polynomial.Chebyshev.fit(
             np.append(self.places, a),

@@ -14,6 +14,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.reference.growing_load import GrowingLoad
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
 from viscontact.reference.values import Values
+from viscontact.units.numbers import real_array
 
 _PAIRS_AT_ONCE = 64  # (r, t) pairs evaluated together: some 10 MB of intermediate arrays
 
@@ -161,7 +162,7 @@ class LeeRadokContact:
         >>> print(f"{centre:.4f} MPa, {half_way:.4f} MPa")
         8.6514 MPa, 8.9234 MPa
         """
-        distance, times = np.broadcast_arrays(np.abs(np.asarray(r, np.float64)), _times(t))
+        distance, times = np.broadcast_arrays(np.abs(real_array("r", r, "m")), _times(t))
         self._require_growth(times)
         pairs = np.stack([distance.ravel(), times.ravel()])
         blocks = np.array_split(pairs, range(_PAIRS_AT_ONCE, pairs.shape[1], _PAIRS_AT_ONCE), 1)
@@ -224,7 +225,7 @@ class LeeRadokContact:
 
 
 def _times(t: ArrayLike) -> Floats:
-    times = np.asarray(t, dtype=np.float64)
+    times = real_array("t", t, "s")
     wrong = times[~(np.isfinite(times) & (times >= 0))]
     if wrong.size:
         raise ValueError(f"t: wanted finite times of at least 0 s, got {wrong.flat[0]!r}")

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class LineContact:
         >>> print(f"{hertz_line(1e5, 0.005, 2e9).pressure(0.0) / 1e6:.4f} MPa")
         112.8379 MPa
         """
-        square = (np.asarray(y, dtype=np.float64) / self.half_width) ** 2
+        square = (real_array("y", y, "m") / self.half_width) ** 2
         p: Values = self.peak_pressure * np.sqrt(np.maximum(1 - square, 0.0))
         return p
 

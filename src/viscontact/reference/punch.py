@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class FlatPunchContact:
         >>> print(f"{punch.pressure(0.0) / 1e6:.6f} MPa")
         0.636620 MPa
         """
-        x, y = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))
+        x, y = np.broadcast_arrays(real_array("x", x, "m"), real_array("y", y, "m"))
         a = self.contact_radius
         square = a**2 - (x**2 + y**2)
         lean = 1 + 3 * self.eccentricity * x / a**2
@@ -171,7 +172,7 @@ class ConeContact:
         115.2189 MPa
         """
         with np.errstate(divide="ignore"):
-            ratio = self.contact_radius / np.abs(np.asarray(r, dtype=np.float64))
+            ratio = self.contact_radius / np.abs(real_array("r", r, "m"))
         p: Values = self.mean_pressure * np.arccosh(np.maximum(ratio, 1.0))
         return p
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.reference.hereditary import TimeFunction, evaluate
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -147,7 +148,9 @@ def series_complex_compliance(
     """
     require_positive("rad/s", angular_frequency=angular_frequency)
     turn = 1j * angular_frequency
-    delayed = np.asarray(amplitudes) / (1 + turn * np.asarray(times))
+    delayed = real_array("amplitudes", amplitudes, "1/Pa") / (
+        1 + turn * real_array("times", times, "s")
+    )
     return complex(instant + delayed.sum() + fluidity / turn)
 
 
@@ -204,11 +207,13 @@ def punch_harmonic_start(  # noqa: PLR0913
     """
     require_positive("rad/s", angular_frequency=angular_frequency)
     require_positive("m", radius=radius)
-    now = np.asarray(t, dtype=np.float64)
+    now = real_array("t", t, "s")
     sine, cosine = np.sin(angular_frequency * now), np.cos(angular_frequency * now)
     held = instant + fluidity * now
     oscillating = instant * sine + fluidity * (1 - cosine) / angular_frequency
-    for compliance, tau in np.broadcast(np.asarray(amplitudes), np.asarray(times)):
+    for compliance, tau in np.broadcast(
+        real_array("amplitudes", amplitudes, "1/Pa"), real_array("times", times, "s")
+    ):
         x, decayed = angular_frequency * tau, np.exp(-now / tau)
         held = held + compliance * (1 - decayed)
         oscillating = oscillating + compliance * (
@@ -260,7 +265,8 @@ def punch_staircase(
     [1.  1.4]
     """
     require_positive("m", radius=radius)
-    instants, levels = np.asarray(jump_times, np.float64), np.asarray(forces, np.float64)
+    instants = real_array("jump_times", jump_times, "s")
+    levels = real_array("forces", forces, "N")
     if not (instants.shape == levels.shape and np.all(np.diff(instants) > 0)):
         raise ValueError(
             "jump_times: wanted ascending instants, as many as forces, got "
@@ -268,7 +274,7 @@ def punch_staircase(
         )
     if levels.min(initial=0.0) < 0:
         raise ValueError(f"forces: wanted 0 N or more, got {levels.tolist()!r}; nothing adheres")
-    lags = np.asarray(t, dtype=np.float64)[..., None] - instants
+    lags = real_array("t", t, "s")[..., None] - instants
     crept = np.where(lags >= 0, evaluate(creep_compliance, np.maximum(lags, 0.0)), 0.0)
     approach: Values = crept @ np.diff(levels, prepend=0.0) / (2 * radius)
     return approach

@@ -5,16 +5,16 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.reference.values import Values
+from viscontact.units.numbers import real_array
 
 
 def over_times(function: Callable[[Floats], Floats], t: ArrayLike) -> Values:
     """Values of a function of one-dimensional times at times of any shape [s]."""
-    times = np.asarray(t, dtype=np.float64)
+    times = real_array("t", t, "s")
     values: Values = function(times.ravel()).reshape(times.shape)[()]
     return values
 

@@ -13,6 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.reference.ting import GrowingProfile
 from viscontact.reference.ting_contact import TingContact
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 _GAUSS, _WEIGHTS = legendre.leggauss(60)
 
@@ -65,7 +66,7 @@ class TingCycles(TingContact):
         float or ndarray
             Approach [m].
         """
-        share = np.mod(np.asarray(t, dtype=np.float64) / self.rise, 2.0)
+        share = np.mod(real_array("t", t, "s") / self.rise, 2.0)
         approach: Values = self.peak * np.minimum(share, 2 - share)
         return approach
 

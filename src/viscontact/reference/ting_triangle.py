@@ -14,6 +14,7 @@ from viscontact.reference.profiles import SphereProfile
 from viscontact.reference.ting import GrowingProfile
 from viscontact.reference.ting_contact import SinglePress
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ class TingTriangle(SinglePress):
         float or ndarray
             Approach [m].
         """
-        times = np.asarray(t, dtype=np.float64)
+        times = real_array("t", t, "s")
         return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
 
     def _earlier_instants(self, t: Floats) -> Floats:
@@ -154,7 +155,8 @@ def ting_triangle(
     require_positive("m", peak=peak)
     require_positive("s", rise=rise)
     terms = [
-        tuple(np.atleast_1d(np.asarray(a, dtype=np.float64)).tolist()) for a in (moduli, times)
+        tuple(np.atleast_1d(real_array(*each)).tolist())
+        for each in (("moduli", moduli, "Pa"), ("times", times, "s"))
     ]
     valid = len(terms[0]) == len(terms[1]) and all(tau > 0 for tau in terms[1])
     if not (valid and min([equilibrium, *terms[0]]) >= 0 and max([equilibrium, *terms[0]]) > 0):

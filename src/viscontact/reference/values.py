@@ -16,4 +16,5 @@ Values: TypeAlias = np.float64 | Floats
 def require_positive(unit: str, **arguments: float) -> None:
     """Raise ValueError for an argument in `unit` that is not positive and finite."""
     for name, value in arguments.items():
-        positive(name, value, unit)
+        # The value itself is used: one with a unit is refused.
+        positive(name, str(value) if hasattr(value, "units") else value, unit)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ class WavyContact:
         >>> print(f"{contact.pressure(0.0) / 1e6:.4f} MPa")
         3.5449 MPa
         """
-        angle = math.pi * np.asarray(x, dtype=np.float64) / self.wavelength
+        angle = math.pi * real_array("x", x, "m") / self.wavelength
         if self.mean_pressure >= self.full_pressure:
             full: Values = self.mean_pressure + self.full_pressure * np.cos(2 * angle)
             return full

@@ -16,6 +16,7 @@ from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.units.formatting import format_number, format_quantity
+from viscontact.units.numbers import real_array
 
 _NAME = "contact-spots"
 
@@ -130,7 +131,7 @@ def contact_spots(ds: xr.Dataset, times: ArrayLike | None = None) -> xr.Dataset:
     stored, read, axis = field_times(ds, _NAME), snapshot_reader(ds), run_axis(ds)
     rows: Sequence[int] = range(stored.size)
     if times is not None:
-        wanted = np.atleast_1d(np.asarray(times, dtype=np.float64))
+        wanted = np.atleast_1d(real_array(f"{axis.name}s", times, axis.unit))
         rows = sorted({int(np.argmin(np.abs(stored - each))) for each in wanted})
     found = [spots_of(ds, read(row)) for row in rows]
     columns: dict[str, tuple[str, str, list[float]]] = {

@@ -17,6 +17,7 @@ from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import time_labels
+from viscontact.units.numbers import finite_array
 
 #: Relative change of the contact area below which it is final, and share of the time at which it is
 #: final so early that most instants are chosen before.
@@ -144,10 +145,9 @@ def _body_end(results: xr.Dataset, grid: Grid) -> Outline | None:
 
 
 def _nearest(stored: Floats, times: ArrayLike, figure: str, axis: RunAxis) -> Sequence[int]:
-    wanted = np.atleast_1d(np.asarray(times, dtype=np.float64))
-    if wanted.size == 0 or not np.all(np.isfinite(wanted)):
-        unit = "seconds" if axis.unit == "s" else axis.unit
-        raise ValueError(f"{figure}: {axis.name}s must be finite numbers of {unit}, got {times!r}")
+    wanted = finite_array(f"{figure}: {axis.name}s", times, axis.unit).ravel()
+    if not wanted.size:
+        raise ValueError(f"{figure}: {axis.name}s must be finite numbers, got none")
     found = {int(np.argmin(np.abs(stored - instant))) for instant in wanted}
     return sorted(found, key=lambda index: stored[index])
 

@@ -30,6 +30,7 @@ from viscontact.results.recorded_case import (
     recorded_poisson_ratio,
 )
 from viscontact.results.run_axis import run_axis
+from viscontact.units.numbers import real_array
 
 #: The bodies of a result, by the names of the arguments of `simulate`.
 Body = Literal["material", "indenter_material"]
@@ -75,7 +76,8 @@ class StressSource:
         """Indices of the stored instants nearest to some times, of all if None."""
         if times is None:
             return list(range(self.stored.size))
-        return [int(np.abs(self.stored - time).argmin()) for time in times]
+        wanted = np.atleast_1d(real_array("times", times, run_axis(self.results).unit))
+        return [int(np.abs(self.stored - time).argmin()) for time in wanted]
 
     def time(self, places: Sequence[int]) -> Any:
         """Coordinate of some stored instants, with its attributes."""

@@ -14,6 +14,7 @@ from viscontact.mechanics.halfspace.stress import Stress
 from viscontact.mechanics.halfspace.stress_influence import COMPONENTS
 from viscontact.results.recorded_case import across_period
 from viscontact.results.stress_source import Body, stress_source
+from viscontact.units.numbers import finite, real_array
 
 #: Largest default depth, in half widths of the contact.
 REACH = 2.0
@@ -86,7 +87,10 @@ def section_stresses(
     if depths is None:
         below = source.depths(_usual_depth(results, source.grid))
     else:
-        below = np.atleast_1d(np.asarray(depths, float))
+        below = np.atleast_1d(real_array("depths", depths, "m"))
+    x, y = (
+        each if each is None else finite(name, each, "m") for name, each in (("x", x), ("y", y))
+    )
     if x is None and y is None and across_period(results) == "y":
         x = source.grid.centre[0]
     places = source.places(times)

@@ -3,25 +3,76 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import Field, fields
 from decimal import Decimal
 from numbers import Real
-from typing import Any
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from viscontact.units.formatting import format_quantity
+from viscontact.units.parsing import unit_factor
+
+Array: TypeAlias = NDArray[np.float64]
 
 
-def as_real(value: object) -> float | None:
-    """Real number or array without dimensions as a float, inf beyond floats; None for others."""
-    if getattr(value, "shape", None) == () and hasattr(value, "item"):
-        value = value.item()
-    if isinstance(value, bool) or not isinstance(value, Real | Decimal):
-        return None
+#: Upper limit on extents and spacings [m].
+_LONGEST = 1e6
+
+#: Types of the numbers of a list that are plain floats.
+_PLAIN = {float, int, np.float64}
+
+
+def real_array(name: str, given: object, unit: str = "1", ndim: int | None = None) -> Array:
+    """Return numbers of any shape, or `ndim` axes, as floats in an SI unit; ValueError for others.
+
+    Every array that a user gives passes here, or `finite_array`. What has a unit (of pint, or as
+    the attribute of an xarray) is converted. NaN and inf are numbers; masked values, dates, complex
+    numbers, truth values and texts are not. An array of floats is returned as it is.
+    """
+    array = given
+    if type(array) is not np.ndarray or array.dtype != np.float64:
+        try:
+            array = _as_floats(given, unit)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise ValueError(f"{name} must be numbers{_in(unit)}, got {error}") from None
+    if ndim is not None and array.ndim != ndim:
+        wanted = {1: "a list", 2: "a map [x, y]"}[ndim]
+        raise ValueError(f"{name} must be {wanted} of numbers{_in(unit)}, got shape {array.shape}")
+    return array
+
+
+def finite_array(name: str, given: object, unit: str = "1", ndim: int | None = None) -> Array:
+    """Return finite numbers as `real_array`, in a read-only copy."""
+    array = np.array(real_array(name, given, unit, ndim))
+    for wrong in array[~np.isfinite(array)][:1]:
+        raise ValueError(f"{name} must be finite, got {wrong}")
+    array.flags.writeable = False
+    return array
+
+
+def both_lengths(name: str, given: object) -> tuple[float, float]:
+    """Return a positive length, or one along x and one along y, as these two; else ValueError."""
+    lengths = real_array(name, given, "m")
+    if lengths.shape not in ((), (2,)) or not ((lengths > 0) & (lengths < _LONGEST)).all():
+        raise ValueError(
+            f"{name} must be a length in m, or one along x and one along y, got {given!r}"
+        )
+    along, across = np.broadcast_to(lengths, 2).tolist()
+    return along, across
+
+
+def as_real(value: object, unit: str = "1") -> float | None:
+    """Real number or array without axes as a float, inf beyond floats; None for others."""
     try:
-        return float(value)
+        number = _as_floats(value, unit)
     except OverflowError:
         return math.inf
+    except (TypeError, ValueError):
+        return None
+    return float(number) if number.ndim == 0 else None
 
 
 def real(name: str, value: object, unit: str = "1") -> float:
@@ -56,9 +107,9 @@ def whole(name: str, value: object, least: int, most: int | None = None) -> int:
 
 def shown(value: object, unit: str = "1") -> str:
     """Write a refused value: a finite number in readable units, anything else as Python does."""
-    number = as_real(value)
+    number = as_real(value, unit)
     is_finite = number is not None and math.isfinite(number)
-    return format_quantity(number or 0.0, unit, 9) if is_finite else repr(value)
+    return format_quantity(number or 0.0, unit, 9) if is_finite else _as_written(value)
 
 
 def check_fields(
@@ -93,9 +144,62 @@ def _fields(owner: type) -> dict[str, Field[Any]]:
 def _check_number(
     name: str, value: object, unit: str, wanted: str, accepts: Callable[[float], bool]
 ) -> float:
-    number = as_real(value)
+    number = as_real(value, unit)
     if number is None or not accepts(number):
         is_finite = number is not None and math.isfinite(number)
-        of_unit = "" if is_finite or unit == "1" else f" in {unit}"
+        of_unit = "" if is_finite else _in(unit)
         raise ValueError(f"{name} must be {wanted}{of_unit}, got {shown(value, unit)}")
     return number
+
+
+def _as_floats(given: Any, unit: str) -> Array:
+    """Numbers as floats in an SI unit; the message of the error is what was given instead."""
+    if type(given) in _PLAIN:
+        return np.array(given, dtype=np.float64)
+    numbers, factor = _without_unit(given, unit)
+    if np.ma.is_masked(numbers):
+        raise ValueError("masked values; leave them out, or fill them with numbers")
+    array = np.asarray(None if isinstance(numbers, list | tuple) else numbers)
+    if array.dtype.kind == "O" and array.ndim:
+        numbers = array.tolist()
+    if isinstance(numbers, list | tuple):
+        is_plain = _PLAIN.issuperset(map(type, numbers))
+        rows = numbers if is_plain else list(_each_as_floats(numbers, unit))
+        if not is_plain and len({row.shape for row in rows}) > 1:
+            raise ValueError("rows of unequal length")
+        array = np.array(rows, dtype=np.float64)
+    elif array.dtype.kind == "O" and isinstance(numbers, Real | Decimal):
+        array = np.array(float(numbers))
+    if array.dtype.kind in "mM":
+        raise ValueError("dates or durations; seconds are (t - t[0]) / np.timedelta64(1, 's')")
+    if array.dtype.kind not in "iuf":
+        raise ValueError(_as_written(given))
+    return np.asarray(array.astype(np.float64) * factor)
+
+
+def _each_as_floats(items: Sequence[object], unit: str) -> Iterator[Array]:
+    for index, item in enumerate(items):
+        try:
+            yield _as_floats(item, unit)
+        except ValueError as error:
+            raise ValueError(f"{error} at [{index}]") from None
+
+
+def _without_unit(given: Any, unit: str) -> tuple[Any, float]:
+    """Numbers without a unit of their own, and its factor to `unit`."""
+    inner = getattr(given, "data", given) if hasattr(given, "attrs") else given
+    places = ((of, name) for of in (inner, given) for name in ("units", "unit"))
+    units = next((found for of, name in places if (found := getattr(of, name, None))), None)
+    if units is None:
+        return given, 1.0
+    text = f"{units:~D}" if hasattr(inner, "magnitude") else str(units)
+    return getattr(inner, "magnitude", given), unit_factor(text, unit)
+
+
+def _in(unit: str) -> str:
+    return "" if unit == "1" else f" in {unit}"
+
+
+def _as_written(value: object) -> str:
+    """Refused value as Python writes it, in a line."""
+    return " ".join(repr(value).split())

@@ -25,6 +25,9 @@ _DEGREES = {
 
 _OFFSET = " above another zero"
 
+#: Units of a plain ratio.
+_NO_UNIT = ("", "1", "dimensionless")
+
 #: Units that an unknown one may have been meant to be.
 _SUGGESTED_UNITS = (
     *("nm", "um", "µm", "mm", "cm", "m", "in"),
@@ -115,6 +118,20 @@ def parse_unit(text: str, dimension: str) -> float:
 def parse_scale(text: str, dimension: str) -> UnitScale:
     """Return the conversion of a unit to SI, as `parse_unit`; temperatures may have an offset."""
     return _scale(text.strip(), text, dimension)
+
+
+def unit_factor(unit: str, wanted: str) -> float:
+    """Factor of a unit to an SI unit, "1" for ratios; ValueError with the dimension it has."""
+    bases = []
+    for each in (unit, wanted):
+        try:
+            bases.append((1.0, "dimensionless") if each in _NO_UNIT else _conversion(each))
+        except Exception as error:  # as in `_factor`
+            raise ValueError(f"the unknown unit {quoted(each)}") from error
+    (factor, base), (_, target) = bases
+    if base != target:
+        raise ValueError(f"{_dimension_name(base)} in {unit}")
+    return factor
 
 
 def _scale(unit: str, text: str, dimension: str) -> UnitScale:

@@ -412,7 +412,7 @@ def test_flat_punch_is_either_round_or_rectangular(arguments):
         ([0, math.nan], [0, 1], np.zeros((2, 2)), "x must be finite"),
         ([0, 1], [0, 1, 2], np.zeros((3, 2)), r"height .*\(2, 3\), got \(3, 2\); transpose"),
         ([0, 1], [0, 1, 2], np.zeros(6), r"height .*\(2, 3\), got \(6,\)"),
-        ([0, 1], [0, 1], [[0, 1], [2]], "height must have rows of equal length"),
+        ([0, 1], [0, 1], [[0, 1], [2]], "height must be numbers in m, got rows of unequal length"),
         ([0], [0, 1], np.zeros((1, 2)), "x must be one-dimensional with at least 2"),
         ([[0, 1]], [0, 1], np.zeros((2, 2)), "x must be one-dimensional"),
         (
@@ -422,8 +422,8 @@ def test_flat_punch_is_either_round_or_rectangular(arguments):
             "y must increase strictly, got 2 m followed by 2 m",
         ),
         ([1, 0], [0, 1], np.zeros((2, 2)), "x must increase strictly"),
-        ([0, 1], [0, 1], [["a", "b"], ["c", "d"]], "height must hold numbers"),
-        ([False, True], [0, 1], np.zeros((2, 2)), "x must hold numbers"),
+        ([0, 1], [0, 1], [["a", "b"], ["c", "d"]], "height must be numbers in m, got 'a'"),
+        ([False, True], [0, 1], np.zeros((2, 2)), "x must be numbers in m, got False"),
     ],
 )
 def test_bad_height_map_is_refused(x, y, height, message):

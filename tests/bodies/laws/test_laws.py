@@ -220,7 +220,7 @@ def test_moduli_and_viscosities_that_are_not_positive_are_refused_by_name(law, b
         (lambda: CreepSeries(1.0, [1.0], [0.0]), r"CreepSeries: times\[0\] .*got 0 s"),
         (lambda: CreepSeries(1.0, [1.0], [np.nan]), r"CreepSeries: times\[0\]"),
         (lambda: CreepSeries(1.0, [1.0], [1.0, 2.0]), "got 1 amplitudes and 2 times"),
-        (lambda: CreepSeries(1.0, 1.0, 2.0), r"CreepSeries: amplitudes must be a sequence"),
+        (lambda: CreepSeries(1.0, 1.0, 2.0), r"CreepSeries: amplitudes must be a list of numbers"),
         (lambda: CreepSeries(1.0, [1.0], [1.0], -0.1), r"CreepSeries: fluidity"),
         (lambda: CreepSeries(0.0, [0.0], [1.0]), "CreepSeries: .*all 0"),
         (lambda: RelaxationSeries(np.inf, [1.0], [1.0]), r"RelaxationSeries: equilibrium"),

@@ -212,8 +212,8 @@ BAD_TIMES = [
     (([1.0, 3.0, 2.0],), r"times, row 2: must be after row 1, got 2\.0 s after 3\.0 s"),
     (([1.0, 1.0, 2.0],), r"times, row 1: must be after row 0"),
     (([-1.0, 1.0, 2.0],), r"times, row 0: must be >= 0 s, got -1\.0 s"),
-    (([1.0, "2", 3.0],), r"times, row 1: must be a finite number in s"),
-    (([[1.0], [2.0], [3.0]],), r"times: must be a sequence of numbers"),
+    (([1.0, "2", 3.0],), r"times must be numbers in s, got '2' at \[1\]"),
+    (([[1.0], [2.0], [3.0]],), r"times must be a list of numbers in s"),
     (([1.0, 2.0],), r"times and .* equal lengths, got 2 times and 3 values"),
 ]
 

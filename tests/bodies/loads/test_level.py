@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from viscontact.bodies.loads.history_points import instants, numbers
+from viscontact.bodies.loads.history_points import instants
 from viscontact.bodies.loads.level import prescribed_level
 from viscontact.bodies.loads.program import Segment
 from viscontact.bodies.loads.program_sentences import parsed_condition, parsed_sentences
@@ -10,7 +10,6 @@ from viscontact.bodies.loads.program_sentences import parsed_condition, parsed_s
 
 def test_a_repeated_instant_is_a_jump():
     assert instants([0, 1, 1]).tolist() == [0.0, 1.0, 1.0]
-    assert numbers("times", [0, 2], "s").tolist() == [0.0, 2.0]
 
 
 def test_force_or_approach_is_prescribed():

@@ -191,7 +191,7 @@ def test_npz_carries_its_units(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arrays", "said"),
     [
-        ({"spacing": np.nan}, "spacing must be the distance"),
+        ({"spacing": np.nan}, "spacing must be a length"),
         ({"spacing": [1.0, 2.0, 3.0]}, "spacing must be one number or two"),
         ({"spacing": []}, "spacing must be one number or two"),
         ({"spacing": "a"}, "spacing must be one number or two"),

@@ -76,8 +76,8 @@ def test_slopes_along_x_and_y_count_by_their_own_spacings() -> None:
 @pytest.mark.parametrize(
     ("heights", "spacing", "said"),
     [
-        ([[0.0, 1.0], [2.0]], 1.0, "rows of equal length"),
-        ([0.0, 1.0], 1.0, r"map \[x, y\], got shape \(2,\)"),
+        ([[0.0, 1.0], [2.0]], 1.0, "rows of unequal length"),
+        ([0.0, 1.0], 1.0, r"map \[x, y\] of numbers in m, got shape \(2,\)"),
         (np.full((2, 2), np.nan), 1.0, "all 4 heights are missing"),
         ([[0.0, np.inf]], 1.0, "lengths in m, got inf"),
         ([[0.0, 1.0]], 0.0, "spacing must be"),

@@ -13,7 +13,7 @@ from viscontact.bodies.indenters.arc import arc_drop
 from viscontact.bodies.indenters.position_checks import acute_angle
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import check_fields, non_negative
+from viscontact.units.numbers import check_fields, non_negative, real_array
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Chamfer(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the rounding and of the chamfer; see `Profile.drop`."""
-        distance = np.abs(np.asarray(x, dtype=np.float64))
+        distance = np.abs(real_array("x", x, "m"))
         beyond = np.maximum(distance - (half_length - self.length - self._tangent), 0.0)
         on_arc = beyond <= self.corner_radius * math.sin(self.angle)
         # A sharp corner has no arc, and R = 0 would end at s = 0.

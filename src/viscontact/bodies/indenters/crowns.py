@@ -12,7 +12,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.arc import arc_drop
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import check_fields
+from viscontact.units.numbers import check_fields, real_array
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class CylindricalProfile(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return zero on the line and +inf beyond; see `Profile.drop`."""
-        return np.where(np.abs(x) <= half_length, 0.0, np.inf)
+        return np.where(np.abs(real_array("x", x, "m")) <= half_length, 0.0, np.inf)
 
     def end(self, half_length: float) -> float:
         """Return the half length [m]."""
@@ -65,7 +65,7 @@ class FullCrown(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the arc; see `Profile.drop`."""
-        distance = np.abs(x)
+        distance = np.abs(real_array("x", x, "m"))
         return np.where(distance <= half_length, arc_drop(distance, self.crown_radius), np.inf)
 
     def end(self, half_length: float) -> float:
@@ -115,7 +115,7 @@ class PartialCrown(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the arc beyond the straight part; see `Profile.drop`."""
-        distance = np.abs(np.asarray(x, dtype=np.float64))
+        distance = np.abs(real_array("x", x, "m"))
         drop = arc_drop(np.maximum(distance - half_length, 0.0), self.crown_radius)
         return np.where(distance <= self.end(half_length), drop, np.inf)
 
@@ -181,7 +181,7 @@ class TwoRadiiCrown(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the sum of the arcs' drops; see `Profile.drop`."""
-        distance = np.abs(np.asarray(x, dtype=np.float64))
+        distance = np.abs(real_array("x", x, "m"))
         beyond = np.maximum(distance - half_length, 0.0)
         on_second = np.maximum(beyond - self.crown_length, 0.0)
         sine_1 = self.crown_length / self.crown_radius

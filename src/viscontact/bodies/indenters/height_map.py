@@ -12,6 +12,7 @@ from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.bodies.indenters.indenter import Indenter
 from viscontact.bodies.indenters.position_checks import positions
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 #: Largest height, whose square is still a finite number [m].
 _HIGHEST = 1e30
@@ -111,9 +112,8 @@ def _interpolate_between(near: Floats, far: Floats, along: Floats) -> Floats:
     return np.where(along == 0, near, np.where(along == 1, far, value))
 
 
-def _locate(lines: Floats, positions: ArrayLike) -> tuple[Integers, Floats, Bools]:
+def _locate(lines: Floats, positions: Floats) -> tuple[Integers, Floats, Bools]:
     """Interval of each position, its fraction (0 to 1), and whether the map covers it."""
-    positions = np.asarray(positions, dtype=np.float64)
     # The grid's rim may coincide with the map's up to the rounding of a converted unit.
     slack = 1e-9 * (lines[-1] - lines[0])
     within = (positions >= lines[0] - slack) & (positions <= lines[-1] + slack)
@@ -131,9 +131,7 @@ def _mesh_lines(name: str, values: ArrayLike) -> Floats:
             f"got shape {lines.shape}"
         )
     _require_finite(name, lines)
-    falls = np.flatnonzero(np.diff(lines) <= 0)
-    if falls.size:
-        i = int(falls[0])
+    for i in np.flatnonzero(np.diff(lines) <= 0)[:1]:
         raise ValueError(
             f"HeightMap: {name} must increase strictly, got {format_quantity(lines[i], 'm', 9)} "
             f"followed by {format_quantity(lines[i + 1], 'm', 9)} at index {i + 1}; sort the "
@@ -173,13 +171,6 @@ def _require_finite(name: str, values: Floats) -> None:
 
 
 def _read_only(name: str, values: ArrayLike) -> Floats:
-    try:
-        given = np.asarray(values)
-    except ValueError as error:
-        raise ValueError(f"HeightMap: {name} must have rows of equal length") from error
-    if given.dtype.kind not in "iuf":
-        first = given.flat[0] if given.size else None
-        raise ValueError(f"HeightMap: {name} must hold numbers in m, got {first!r} first")
-    copy = given.astype(np.float64)
+    copy = np.array(real_array(f"HeightMap: {name}", values, "m"))
     copy.flags.writeable = False
     return copy

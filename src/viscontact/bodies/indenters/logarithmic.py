@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import check_fields, positive, real
+from viscontact.units.numbers import check_fields, positive, real, real_array
 
 #: Profile of ISO/TS 16281: amplitude over roller diameter on short and on long rollers, and largest
 #: length of a short roller in diameters; a crown on a long roller takes half of it at either end.
@@ -258,7 +258,7 @@ class LogarithmicProfile(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop of the logarithmic crown; see `Profile.drop`."""
-        distance, crown = np.abs(np.asarray(x, dtype=np.float64)), self.crown_ratio * half_length
+        distance, crown = np.abs(real_array("x", x, "m")), self.crown_ratio * half_length
         u = np.clip((distance - (half_length - crown)) / crown, 0.0, 1.0)
         to_end = np.clip((half_length - distance) / crown, 0.0, 1.0)
         last = self._remainder

@@ -7,8 +7,6 @@ from collections.abc import Callable, Mapping
 from inspect import signature
 from typing import Any
 
-import numpy as np
-
 from viscontact.bodies.indenters.chamfer import Chamfer
 from viscontact.bodies.indenters.crowns import (
     CylindricalProfile,
@@ -19,6 +17,7 @@ from viscontact.bodies.indenters.crowns import (
 from viscontact.bodies.indenters.logarithmic import LogarithmicProfile
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.bodies.indenters.tabulated import TabulatedProfile
+from viscontact.units.numbers import real_array
 
 #: Constructors of profiles by name; some of their arguments come from the roller.
 PROFILES: dict[str, Callable[..., Profile]] = {
@@ -68,10 +67,7 @@ def named_profile(name: str, of_roller: Mapping[str, Any], arguments: Mapping[st
 
 def profile_from_table(table: object) -> Profile:
     """Make a smooth `TabulatedProfile` from rows of (x, drop), shape (n, 2) [m]."""
-    try:
-        rows = np.asarray(table)
-    except ValueError as error:
-        raise ValueError(f"roller profile: rows of (x, drop) are wanted, {error}") from error
+    rows = real_array("roller profile: rows of (x, drop)", table, "m")
     if rows.ndim != 2 or rows.shape[1] != 2:
         raise ValueError(
             "roller profile must be a name, a profile, or rows of (x, drop) in m, got "

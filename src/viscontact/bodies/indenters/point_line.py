@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 #: Interpolation between points.
 Interpolation = Literal["smooth", "linear"]
@@ -87,7 +88,7 @@ class TableLine:
 
     def __call__(self, position: ArrayLike) -> Floats:
         """Return the drop at positions, +inf outside the points [m]."""
-        x = np.asarray(position, dtype=np.float64)
+        x = real_array("position", position, "m")
         first, last = self.position[0], self.position[-1]
         within = (x >= first) & (x <= last)
         if self.interpolation == "linear":
@@ -118,16 +119,7 @@ def mirrored(
 
 def numbers(name: str, values: ArrayLike) -> tuple[float, ...]:
     """Return a one-dimensional column of finite lengths [m] as floats, or raise ValueError."""
-    try:
-        given = np.asarray(values)
-    except ValueError as error:
-        raise ValueError(f"{name} must be a list of lengths in m: {error}") from error
-    if given.dtype.kind not in "iuf" or given.ndim != 1:
-        raise ValueError(f"{name} must be a list of lengths in m, got {values!r:.60}")
-    column = given.astype(np.float64)
-    wrong = np.flatnonzero(~(np.abs(column) <= _LARGEST))
-    if wrong.size:
-        raise ValueError(
-            f"{name} must hold finite lengths in m, got {column[wrong[0]]} at point {wrong[0] + 1}"
-        )
+    column = real_array(name, values, "m", 1)
+    for i in np.flatnonzero(~(np.abs(column) <= _LARGEST))[:1]:
+        raise ValueError(f"{name} must hold finite lengths in m, got {column[i]} at point {i + 1}")
     return tuple(column.tolist())

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.units.numbers import real, shown
+from viscontact.units.numbers import real, real_array, shown
 
 
 def positions(x: ArrayLike, y: ArrayLike) -> tuple[Floats, Floats]:
     """Return coordinates [m] as arrays of floats, or raise ValueError."""
-    try:
-        return np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"x and y must be positions in m: {error}") from None
+    return real_array("x", x, "m"), real_array("y", y, "m")
 
 
 def acute_angle(name: str, value: object, unit: str = "rad") -> float:

@@ -102,7 +102,7 @@ class Paraboloid(Indenter):
 
 def _radius(name: str, value: object, unit: str) -> float:
     """Positive radius, which may be infinite."""
-    return math.inf if as_real(value) == math.inf else positive(name, value, unit)
+    return math.inf if as_real(value, unit) == math.inf else positive(name, value, unit)
 
 
 @dataclass(frozen=True)

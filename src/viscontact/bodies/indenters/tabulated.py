@@ -12,6 +12,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters.point_line import Interpolation, TableLine, mirrored, numbers
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True, init=False)
@@ -75,7 +76,7 @@ class TabulatedProfile(Profile):
 
     def drop(self, x: ArrayLike, half_length: float) -> Floats:
         """Return the drop below the highest point; see `Profile.drop`."""
-        x = np.asarray(x, dtype=np.float64)
+        x = real_array("x", x, "m")
         left, right = self._ends(half_length)
         # The mirrored half gives the same bits.
         drop = self._line(np.abs(x) if self._is_half else x) - self._line.lowest(left, right)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.units.numbers import real_array
 
 
 class CreepFunction(ABC):
@@ -122,16 +123,9 @@ class CreepFunction(ABC):
     def _mean_creep(self, start: Floats, end: Floats) -> Floats: ...
 
 
-def _as_times(name: str, given: ArrayLike) -> Floats:
-    try:
-        return np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"{name} must be times in s: {error}") from None
-
-
 def _over_times(function: Callable[[Floats], Floats], t: ArrayLike) -> float | Floats:
     """Return `function` at checked times `t` [s]: a float for one time, else an array."""
-    times = _as_times("t", t)
+    times = real_array("t", t, "s")
     wrong = ~(times >= 0)  # true for NaN as well
     if wrong.any():
         raise ValueError(
@@ -148,7 +142,7 @@ def _over_intervals(
     end: ArrayLike,
 ) -> float | Floats:
     """Return `function` over checked intervals of time [s]: a float for one, else an array."""
-    starts, ends = np.broadcast_arrays(_as_times("start", start), _as_times("end", end))
+    starts, ends = np.broadcast_arrays(real_array("start", start, "s"), real_array("end", end, "s"))
     wrong = ~((starts >= 0) & (ends >= starts) & (ends < np.inf))
     if wrong.any():
         raise ValueError(

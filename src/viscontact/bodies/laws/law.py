@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Complexes, Floats
 from viscontact.bodies.laws.creep_function import CreepFunction
 from viscontact.units.display import Displayable
-from viscontact.units.numbers import positive
+from viscontact.units.numbers import positive, real_array
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,7 +60,7 @@ class Law(Displayable, CreepFunction):
         G*(ω) = i ω L[G](i ω) = 1 / (2 i ω L[Phi](i ω)) (Tschoegl 1989,
         The Phenomenological Theory of Linear Viscoelastic Behavior, section 2.2).
         """
-        omega = np.asarray(angular_frequency, dtype=np.float64)
+        omega = real_array("angular_frequency", angular_frequency, "rad/s")
         wrong = ~(np.isfinite(omega) & (omega > 0))
         if wrong.any():
             raise ValueError(

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
-import numpy as np
-
-from viscontact.units.numbers import non_negative, positive, real, store, unit_of
+from viscontact.units.numbers import non_negative, positive, real, real_array, store, unit_of
 
 
 def exponent(name: str, value: object, unit: str = "1") -> float:
@@ -27,15 +25,12 @@ def one_of(name: str, word: str, words: tuple[str, ...]) -> None:
 
 def check_series(instance: object, name: str) -> None:
     """Check the strengths `name` (each >= 0) and the times (each > 0) of a series, as tuples."""
-    owner = type(instance).__name__
-    strengths, times = (_sequence(instance, column) for column in (name, "times"))
+    strengths, times = check_items(instance, name, non_negative), check_items(instance, "times")
     if len(strengths) != len(times):
         raise ValueError(
-            f"{owner}: {name} and times must have equal lengths, got {len(strengths)} {name} "
-            f"and {len(times)} times; give one time for each term"
+            f"{type(instance).__name__}: {name} and times must have equal lengths, got "
+            f"{len(strengths)} {name} and {len(times)} times; give one time for each term"
         )
-    check_items(instance, name, strengths, check=non_negative)
-    check_items(instance, "times", times, check=positive)
 
 
 def compressibility(
@@ -60,21 +55,11 @@ def compressibility(
 
 
 def check_items(
-    instance: object,
-    name: str,
-    items: Sequence[object],
-    check: Callable[[str, object, str], float],
-) -> None:
+    instance: object, name: str, check: Callable[[str, object, str], float] = positive
+) -> tuple[float, ...]:
     """Check each item of a field of a frozen dataclass, and store them as a tuple of floats."""
     place, unit = f"{type(instance).__name__}: {name}", unit_of(type(instance), name) or "1"
-    checked = (check(f"{place}[{i}]", item, unit) for i, item in enumerate(items))
-    store(instance, **{name: tuple(checked)})
-
-
-def _sequence(instance: object, name: str) -> list[object]:
-    values = getattr(instance, name)
-    array = np.asarray(values, dtype=object)
-    if array.ndim != 1:
-        owner = type(instance).__name__
-        raise ValueError(f"{owner}: {name} must be a sequence of numbers, got {values!r}")
-    return list(array)
+    items = real_array(place, getattr(instance, name), unit, 1).tolist()
+    checked = tuple(check(f"{place}[{i}]", item, unit) for i, item in enumerate(items))
+    store(instance, **{name: checked})
+    return checked

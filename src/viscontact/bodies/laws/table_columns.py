@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite, store, unit_of
+from viscontact.units.numbers import finite, real_array, store, unit_of
 
 
 def check_columns(law: object, column: str, trend: int) -> None:
@@ -41,12 +39,9 @@ def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> No
 
 
 def _column(law: object, name: str) -> tuple[float, ...]:
-    values, unit = getattr(law, name), unit_of(type(law), name) or "1"
-    array = np.asarray(values, dtype=object)
-    place = f"{type(law).__name__}.{name}"
-    if array.ndim != 1:
-        raise ValueError(f"{place}: must be a sequence of numbers, got {values!r}")
-    return tuple(finite(f"{place}, row {i}:", value, unit) for i, value in enumerate(array))
+    place, unit = f"{type(law).__name__}.{name}", unit_of(type(law), name) or "1"
+    items = real_array(place, getattr(law, name), unit, 1).tolist()
+    return tuple(finite(f"{place}, row {i}:", value, unit) for i, value in enumerate(items))
 
 
 def _check_times(owner: str, t: tuple[float, ...]) -> None:

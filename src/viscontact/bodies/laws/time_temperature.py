@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.laws.parameter_checks import check_items
 from viscontact.units.display import Displayable
-from viscontact.units.numbers import check_fields, positive, store, unit_of
+from viscontact.units.numbers import check_fields, real_array
 
 #: Molar gas constant, exact since 2019 [J/(mol K)].
 GAS_CONSTANT = 8.31446261815324
@@ -52,7 +53,7 @@ class Shift(Displayable, ABC):
         ValueError
             If a temperature is not positive, or where the rule does not hold.
         """
-        T = np.asarray(temperature, dtype=np.float64)
+        T = real_array("temperature", temperature, "K")
         wrong = ~(np.isfinite(T) & (T > 0))
         if wrong.any():
             raise ValueError(
@@ -200,8 +201,7 @@ class TabulatedShift(Shift):
     _OWNER: ClassVar[str] = "TabulatedShift"
 
     def __post_init__(self) -> None:
-        temperatures = self._column("temperatures", self.temperatures)
-        factors = self._column("factors", self.factors)
+        temperatures, factors = (check_items(self, name) for name in ("temperatures", "factors"))
         if len(temperatures) != len(factors) or len(temperatures) < 2:
             raise ValueError(
                 f"{self._OWNER}: temperatures and factors must have equal lengths of at least 2, "
@@ -209,13 +209,6 @@ class TabulatedShift(Shift):
             )
         for i in range(1, len(temperatures)):
             self._require_order(i, temperatures, factors)
-        store(self, temperatures=temperatures, factors=factors)
-
-    def _column(self, name: str, values: Sequence[float]) -> tuple[float, ...]:
-        unit = unit_of(type(self), name) or "1"
-        return tuple(
-            positive(f"{self._OWNER}: {name}[{i}]", value, unit) for i, value in enumerate(values)
-        )
 
     def _require_order(
         self, i: int, temperatures: tuple[float, ...], factors: tuple[float, ...]

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.piecewise import PiecewiseHistory
-from viscontact.units.numbers import store
+from viscontact.units.numbers import finite_array, store
 
 #: Relative rounding of an instant, and the distance from a kink below which it is the kink.
 ROUNDING, NEAR_KINK = 2e-15, 1e-9
@@ -102,7 +102,7 @@ class ApproachHistory(PiecewiseHistory):
         >>> ApproachHistory([1.0], [1e-6]).approach_at([0.0, 1.0, 2.0]).tolist()
         [0.0, 1e-06, 1e-06]
         """
-        instants = history_points.numbers("times", times, "s")
+        instants = finite_array("times", times, "s")
         approach = self._interpolate(self.approach, instants, side)
         return np.where(self._begun(instants, side), approach, min(float(self.approach[0]), 0.0))
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.piecewise import PiecewiseHistory
-from viscontact.units.numbers import store
+from viscontact.units.numbers import finite_array, store
 
 # Forces below this part of the history's largest count as zero: rounding, not a load.
 NEGLIGIBLE = 1e-12
@@ -110,7 +110,7 @@ class ForceHistory(PiecewiseHistory):
         >>> ForceHistory([0.0], [10.0]).force_at([0.0, 1.0], side="left").tolist()
         [0.0, 10.0]
         """
-        instants = history_points.numbers("times", times, "s")
+        instants = finite_array("times", times, "s")
         force = self._interpolate(self.force, instants, side)
         counts = self._begun(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
         return np.where(counts, force, 0.0)

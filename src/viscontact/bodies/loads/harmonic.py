@@ -20,7 +20,7 @@ from viscontact.bodies.loads.level import (
     refuse_eccentric_approach,
 )
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite, unit_of, whole
+from viscontact.units.numbers import finite, finite_array, unit_of, whole
 
 #: Default steps of a cycle. Linear interpolation over 1/128 of a sine has a mean error of 2e-4 of
 #: the amplitude, and the loss of a cycle an error of about 6e-4.
@@ -75,7 +75,7 @@ class HarmonicHistory(LoadHistory):
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
-        instants = history_points.numbers("times", times, "s")
+        instants = finite_array("times", times, "s")
         turns = np.minimum(instants, self.end) / self.period
         # Whole cycles are subtracted first: sin(2 π n) is not 0 in floating point.
         angle = 2 * math.pi * (turns - np.floor(turns)) + self.phase

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
-from viscontact.units.numbers import unit_of
+from viscontact.units.numbers import finite_array, unit_of
 
 #: Arguments of histories other than force and approach.
 TILTS = ("tilt_x", "tilt_y")
@@ -26,7 +26,7 @@ def side_of_jump(side: str) -> Literal["left", "right"]:
 
 def instants(times: ArrayLike) -> Floats:
     """Times of a history's points, read-only, not decreasing, >= 0, at most twice, (n,) [s]."""
-    given = numbers("times", times, "s")
+    given = finite_array("times", times, "s")
     if given.ndim != 1 or given.size == 0:
         raise ValueError(
             f"times must be a list of at least one instant in s, got shape {given.shape}"
@@ -46,7 +46,7 @@ def instants(times: ArrayLike) -> Floats:
 
 def values(owner: type, name: str, given: ArrayLike | None, count: int) -> float | Floats:
     """Return field `name` of a history: finite, a scalar or shape (count,), read-only."""
-    array = numbers(name, given, unit_of(owner, name) or "")
+    array = finite_array(name, given, unit_of(owner, name) or "1")
     if array.shape not in ((), (count,)):
         raise ValueError(
             f"{name} must be a scalar or have one value for each of the {count} times, "
@@ -78,21 +78,6 @@ def refuse_both(
             f"replaces the moment equation along {axis}; got eccentricity_{axis}="
             f"{eccentricity!r} m with tilt_{axis}={tilt!r} rad, leave one of them out"
         )
-
-
-def numbers(name: str, given: ArrayLike | None, unit: str) -> Floats:
-    """Return finite numbers of any shape as a read-only copy, or raise ValueError."""
-    try:
-        array = np.asarray(given)
-    except ValueError:  # rows of unequal length
-        array = np.asarray(None)
-    if array.dtype.kind not in "iuf":
-        raise ValueError(f"{name} must be numbers in {unit}, got {given!r}")
-    copy = array.astype(np.float64)
-    if not np.isfinite(copy).all():
-        raise ValueError(f"{name} must be finite, got {copy[~np.isfinite(copy)].flat[0]}")
-    copy.flags.writeable = False
-    return copy
 
 
 def tail(owner: type, count: int, **given: ArrayLike | None) -> dict[str, float | Floats | None]:

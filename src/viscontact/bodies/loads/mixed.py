@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Control, LoadHistory, LoadPoint
-from viscontact.bodies.loads.history_points import numbers
 from viscontact.bodies.loads.program import LoadProgram
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite, store
+from viscontact.units.numbers import finite, finite_array, store
 
 #: Beginning of the text about a segment that a stop condition has ended.
 STOP = "stop when "
@@ -194,7 +193,7 @@ class MixedHistory(LoadHistory):
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force or approach at many instants [s], as a share of its largest one [-]."""
-        instants = numbers("times", times, "s")
+        instants = finite_array("times", times, "s")
         shares = [
             level / self._maximum(control) for control, level in map(self._level, instants.flat)
         ]

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Control, Cycle, LoadHistory
-from viscontact.units.numbers import store
+from viscontact.units.numbers import real_array, store
 
 #: Relative difference below which a kink of the path is taken at a kink of the load.
 SAME_TIME = 1e-9
@@ -92,7 +92,7 @@ class AtOrigin(Motion):
 
     def position_at(self, times: ArrayLike) -> Floats:
         """Return the origin, shape (..., 2) [m]."""
-        return np.zeros((*np.shape(times), 2))
+        return np.zeros((*real_array("times", times, "s").shape, 2))
 
     def velocity_at(self, time: float) -> tuple[float, float]:
         """Return no velocity [m/s]."""

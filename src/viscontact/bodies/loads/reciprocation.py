@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Cycle
 from viscontact.bodies.loads.motion import Motion, checked_rolling, refuse_long_path
-from viscontact.units.numbers import positive, whole
+from viscontact.units.numbers import finite, positive, real_array, whole
 
 #: Steps of a cycle; the work of a cycle then has an error of about 6e-4.
 STEPS_PER_CYCLE = 128
@@ -50,14 +50,14 @@ class Reciprocation(Motion):
 
     def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
-        turns = np.clip(np.asarray(times, dtype=np.float64) / self.period, 0.0, self.count)
+        turns = np.clip(real_array("times", times, "s") / self.period, 0.0, self.count)
         # Whole cycles are subtracted first: sin(2 π n) is not 0 in floating point.
         position = self.amplitude * np.sin(2 * math.pi * (turns - np.floor(turns)))
         return _on_axis(self.along, position)
 
     def velocity_at(self, time: float) -> tuple[float, float]:
         """Return the velocity along x and y with which the body arrives at an instant [m/s]."""
-        speed = 0.0
+        time, speed = finite("time", time, "s"), 0.0
         if 0 < time <= self.end:
             rate = 2 * math.pi / self.period
             speed = self.amplitude * rate * math.cos(rate * (time % self.period))

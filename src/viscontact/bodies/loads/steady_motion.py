@@ -12,6 +12,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
 from viscontact.bodies.loads.motion import AtOrigin
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -37,10 +38,7 @@ def steady_motion(speed: ArrayLike, along: str, rolling: bool | None) -> SteadyM
 
 def checked_speeds(name: str, given: Any) -> Floats:
     """Return distinct positive speeds, from one or a list of them [m/s]."""
-    try:
-        speeds = np.atleast_1d(np.asarray(given, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} must be numbers in m/s, got {given!r}") from None
+    speeds = np.atleast_1d(real_array(name, given, "m/s"))
     if speeds.ndim != 1 or not speeds.size or not (np.isfinite(speeds) & (speeds > 0)).all():
         raise ValueError(f"{name} must be positive and finite [m/s], got {given!r}")
     found, count = np.unique_counts(speeds)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.motion import Motion, checked_rolling, refuse_long_path
-from viscontact.units.numbers import store
+from viscontact.units.numbers import finite, real_array, store
 
 #: Part of a cell that is rounding.
 ROUNDING = 1e-9
@@ -99,7 +99,7 @@ class Travel(Motion):
         ndarray
             Positions (x, y), shape (..., 2) [m].
         """
-        instants = np.asarray(times, dtype=np.float64)
+        instants = real_array("times", times, "s")
         return np.stack([np.interp(instants, self.times, each) for each in self._points], axis=-1)
 
     def velocity_at(self, time: float) -> tuple[float, float]:
@@ -115,7 +115,7 @@ class Travel(Motion):
         tuple of float
             Along x and y [m/s].
         """
-        index = int(np.searchsorted(self.times, time)) - 1
+        index = int(np.searchsorted(self.times, finite("time", time, "s"))) - 1
         if not 0 <= index < self.times.size - 1:
             return 0.0, 0.0
         span = self.times[index + 1] - self.times[index]

@@ -6,29 +6,40 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 
 def positive_column(
     owner: str, name: str, values: ArrayLike, unit: str, *, zero: bool = False
 ) -> Floats:
     """Return a column of positive (or zero) finite numbers as floats, shape (n,)."""
-    try:
-        column = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(
-            f"{owner}: {name} must be a column of numbers in {unit}, got {values!r}"
-        ) from None
-    if column.ndim != 1:
-        raise ValueError(f"{owner}: {name} must be one column, got shape {column.shape}")
-    wrong = ~(np.isfinite(column) & (column >= 0 if zero else column > 0))
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        least = f"of at least 0 {unit}" if zero else f"above 0 {unit}"
+    column = np.array(real_array(f"{owner}: {name}", values, unit, 1))
+    right = np.isfinite(column) & (column >= 0 if zero else column > 0)
+    for row in np.flatnonzero(~right)[:1]:
+        least = f"of at least 0 {unit}" if zero else f"above 0 {unit}".removesuffix(" 1")
         raise ValueError(
             f"{owner}: {name}, row {row}: must be a finite number {least}, "
             f"got {float(column[row])!r}"
         )
     return column
+
+
+def columns_over_time(owner: str, least: int, **given: tuple[ArrayLike, str]) -> dict[str, Floats]:
+    """Columns of finite (values, unit), `least` rows or more, whose `times` never fall."""
+    columns = {}
+    for name, (values, unit) in given.items():
+        column = columns[name] = np.array(real_array(f"{owner}: {name}", values, unit, 1))
+        for row in np.flatnonzero(~np.isfinite(column))[:1]:
+            raise ValueError(f"{owner}: {name}, row {row}: must be finite, got {column[row]}")
+    require_rows(owner, least, **columns)
+    times = columns["times"]
+    for row in np.flatnonzero(np.diff(times) < 0)[:1] + 1:
+        raise ValueError(
+            f"{owner}: times, row {row}: must not be before the row above, got "
+            f"{format_quantity(times[row], 's', 6)} after {format_quantity(times[row - 1], 's', 6)}"
+        )
+    return columns
 
 
 def require_rows(owner: str, least: int, **columns: Floats) -> None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
 
 from viscontact.bodies.series_fits.quality import residuals_alone
 from viscontact.bodies.series_fits.spectrum import Observed
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import positive
 
 _LARGEST_RATIO = 30.0
 
@@ -18,15 +17,13 @@ def given_weights(
     owner: str, weights: Mapping[str, float], names: tuple[str, ...]
 ) -> dict[str, float]:
     """Weights of all columns, those not given 1."""
-    for name, value in weights.items():
+    for name in weights:
         if name not in names:
             raise ValueError(
                 f"{owner}: weights are those of {' and '.join(names)}, got one of {name!r}"
             )
-        number = as_real(value)
-        if number is None or not 0 < number < math.inf:
-            raise ValueError(f"{owner}: the weight of {name} must be above 0, got {value!r}")
-    return {name: float(weights.get(name, 1.0)) for name in names}
+    place = f"{owner}: the weight of"
+    return {name: positive(f"{place} {name}", weights.get(name, 1.0)) for name in names}
 
 
 def scatter_weights(

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from viscontact.bodies.surfaces.surface import Surface
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import positive, real_array
 
 #: Upper limit on the points of a swept line scan across its direction.
 _MOST_ACROSS = 4096
@@ -54,16 +52,14 @@ def _points_within(surface: Surface, axis: int, part: tuple[float, float] | None
     if part is None:
         return slice(None)
     name, size, spacing = "xy"[axis], surface.size[axis], surface.spacing[axis]
-    start, stop = (as_real(each) for each in (*part, None, None)[:2])
-    if start is None or stop is None or not 0 <= start < stop <= size * (1 + 1e-9):
-        got = repr(part)
-        if start is not None and stop is not None:
-            got = f"{format_quantity(start, 'm', 6)} to {format_quantity(stop, 'm', 6)}"
+    limits = real_array(f"crop: {name}", part, "m", 1).tolist()
+    if len(limits) != 2 or not 0 <= limits[0] < limits[1] <= size * (1 + 1e-9):
         raise ValueError(
             f"crop: {name} must go from a distance to a larger one within the map's "
-            f"{format_quantity(size, 'm', 6)}, counted from its first corner, got {got}"
+            f"{format_quantity(size, 'm', 6)}, counted from its first corner, got "
+            f"{' to '.join(format_quantity(each, 'm', 6) for each in limits)}"
         )
-    first, last = round(start / spacing), round(stop / spacing)
+    first, last = (round(each / spacing) for each in limits)
     if last - first < 2:
         raise ValueError(
             f"crop: {name} keeps {last - first} points, {format_quantity(spacing, 'm')} apart; at "
@@ -123,9 +119,7 @@ def swept(surface: Surface, width: float) -> Surface:
             f"width: is for line scans, and {surface.name} is a map of {surface.shape[0]} x "
             f"{surface.shape[1]} points; leave it out"
         )
-    wide = as_real(width)
-    if wide is None or not 0 < wide < math.inf:
-        raise ValueError(f"width: must be a length in m, got {width!r}")
+    wide = positive("width", width, "m")
     line = surface.heights.ravel()
     step = surface.spacing[0 if surface.shape[0] > 1 else 1]
     across = min(max(2, round(wide / step)), _MOST_ACROSS)

@@ -12,7 +12,7 @@ import scipy
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.surfaces.surface import Surface
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import both_lengths, real
 
 Filter = Literal["mean", "gaussian", "spline"]
 
@@ -76,7 +76,7 @@ def resampled(
     >>> resampled(steps, (2.0, 1.0)).heights[:, 0].tolist()
     [1.0, 5.0]
     """
-    cells = _cells(cell)
+    cells = both_lengths("cell", cell)
     if filter == "spline":
         return _through(surface, cells)
     if filter == "mean":
@@ -85,7 +85,8 @@ def resampled(
         )
         reach = [(old + new) / 2 for old, new in zip(surface.spacing, cells, strict=True)]
     elif filter == "gaussian":
-        waves = [CUTOFF_CELLS * each if cutoff is None else cutoff for each in cells]
+        wave = None if cutoff is None else real("cutoff", cutoff, "m")
+        waves = [CUTOFF_CELLS * each if wave is None else wave for each in cells]
         _require_wide(surface, waves)
         weights = tuple(_bell(wave) for wave in waves)
         reach = [ALPHA * wave * math.sqrt(-math.log(_NEGLIGIBLE) / math.pi) for wave in waves]
@@ -104,14 +105,6 @@ def resampled(
     return Surface(heights, cells, name=surface.name, periodic=surface.periodic)
 
 
-def _cells(cell: float | tuple[float, float]) -> tuple[float, float]:
-    pair = cell if isinstance(cell, tuple | list) else (cell, cell)
-    numbers = [as_real(each) for each in pair]
-    if len(numbers) != 2 or any(n is None or not 0 < n < math.inf for n in numbers):
-        raise ValueError(f"cell must be a length in m, or one along x and one along y, got {cell}")
-    return float(numbers[0] or 0), float(numbers[1] or 0)
-
-
 def _require_coarser(surface: Surface, cells: tuple[float, float], filter: str) -> None:
     finer = [c < s * (1 - 1e-9) for c, s in zip(cells, surface.spacing, strict=True)]
     if any(finer):
@@ -125,14 +118,12 @@ def _require_coarser(surface: Surface, cells: tuple[float, float], filter: str) 
 
 def _require_wide(surface: Surface, waves: list[float]) -> None:
     for wave, spacing, size in zip(waves, surface.spacing, surface.size, strict=True):
-        number = as_real(wave)
         # Sampled more coarsely, the Gaussian does not have the stated transmission.
-        if number is None or not 4 * spacing * (1 - 1e-9) <= number <= size:
-            got = f"{wave!r}" if number is None else format_quantity(number, "m", 6)
+        if not 4 * spacing * (1 - 1e-9) <= wave <= size:
             raise ValueError(
                 "cutoff must be from four times the distance of the points to the size of the "
                 f"map, {format_quantity(4 * spacing, 'm')} to {format_quantity(size, 'm')}, got "
-                f"{got}"
+                f"{format_quantity(wave, 'm', 6)}"
             )
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.units.display import Displayable
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import both_lengths, real_array, store
 
 #: Upper limit on heights above their reference [m].
 _LARGEST = 1e6
@@ -66,10 +66,10 @@ class Surface(Displayable):
         name: str = "surface",
         periodic: bool = False,
     ) -> None:
-        object.__setattr__(self, "name", name)
-        object.__setattr__(self, "heights", _map_of(name, heights))
-        object.__setattr__(self, "spacing", _steps(name, spacing))
-        object.__setattr__(self, "periodic", bool(periodic))
+        steps = both_lengths(f"{name}: spacing", spacing)
+        store(
+            self, name=name, heights=_map_of(name, heights), spacing=steps, periodic=bool(periodic)
+        )
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -184,23 +184,11 @@ def _centred(points: int, spacing: float) -> Floats:
     return offsets * (points * spacing / (2 * points))
 
 
-def _steps(name: str, spacing: float | tuple[float, float]) -> tuple[float, float]:
-    pair = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
-    numbers = [as_real(each) for each in pair]
-    if len(numbers) != 2 or any(n is None or not 0 < n < _LARGEST for n in numbers):
-        raise ValueError(
-            f"{name}: spacing must be the distance of neighbouring points in m, or that along x "
-            f"and that along y, got {spacing!r}"
-        )
-    return float(numbers[0] or 0), float(numbers[1] or 0)
-
-
 def _map_of(name: str, heights: ArrayLike) -> Floats:
-    try:
-        given = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}: heights must be numbers in rows of equal length") from error
-    if given.ndim != 2 or given.size == 0:
+    if isinstance(heights, np.ma.MaskedArray):  # of a file's reader
+        heights = np.ma.filled(heights.astype(np.float64), np.nan)
+    given = real_array(f"{name}: heights", heights, "m", 2)
+    if given.size == 0:
         raise ValueError(f"{name}: heights must be a map [x, y], got shape {given.shape}")
     known = given[~np.isnan(given)]
     if known.size == 0:

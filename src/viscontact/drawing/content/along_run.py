@@ -16,6 +16,7 @@ from viscontact.results.shown_scalars import is_shown
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity, readable_unit
+from viscontact.units.numbers import finite_array
 
 #: Relative change of a constant load, and share of the time from which on it is held: the rest is
 #: creep, which is even in log time.
@@ -69,18 +70,19 @@ def within_span(
 ) -> xr.Dataset:
     """Cut variables and errors to a span [s], or the whole; ValueError below two instants."""
     require_time(run, figure)
-    span = run["time"].values if times is None else np.atleast_1d(np.asarray(times, dtype=float))
-    if span.size == 0 or not np.all(np.isfinite(span)):
-        raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")
-    inside = (run["time"] >= span.min()) & (run["time"] <= span.max())
+    span = finite_array(f"{figure}: times", run["time"] if times is None else times, "s").ravel()
+    if not span.size:
+        raise ValueError(f"{figure}: times must be finite numbers, got none")
+    first, last = span.min(), span.max()
+    inside = (run["time"] >= first) & (run["time"] <= last)
     names = list(variables)
     names += [error_name(name) for name in names if error_name(name) in run]
     shown = run[names].isel(time=np.flatnonzero(inside))
     if shown.sizes["time"] < 2:
         raise ValueError(
             f"{figure}: needs at least two steps to draw a line, got {shown.sizes['time']} between "
-            f"{format_quantity(span.min(), 's')} and "
-            f"{format_quantity(span.max(), 's')}{f' in {name}' if name else ''}"
+            f"{format_quantity(first, 's')} and {format_quantity(last, 's')}"
+            f"{f' in {name}' if name else ''}"
         )
     return shown
 

@@ -18,6 +18,7 @@ from viscontact.drawing.content.panel import FIRST, Axis, Curve, Ink, Mark, Pane
 from viscontact.results.recorded_case import recorded_object
 from viscontact.results.run_axis import law_times
 from viscontact.units.formatting import ReadableUnit, readable_unit
+from viscontact.units.numbers import real_array
 
 _NAME = "creep"
 #: Four decades show how the law gets to where the run begins [-]; points of a curve.
@@ -41,7 +42,7 @@ def recorded_laws(runs: Mapping[str, xr.Dataset]) -> dict[str, Law]:
 def run_times(runs: Mapping[str, xr.Dataset], times: ArrayLike | None) -> Floats:
     """Instants to draw the laws of runs at [s], over a span or the times of the runs."""
     simulated = np.concatenate([law_times(run) for run in runs.values()])
-    span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
+    span = simulated if times is None else np.atleast_1d(real_array(f"{_NAME}: times", times, "s"))
     positive = span[span > 0]
     if positive.size == 0 or not np.all(np.isfinite(span)):
         raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
@@ -92,7 +93,10 @@ def material_panels(
     points: Sequence[Points],
 ) -> list[Panel]:
     """Panels of compliance and modulus over time, and of storage and loss over frequency."""
-    first, last = times
+    first, last = real_array("material_curves: times", times, "s", 1).tolist()
+    if known is not None:
+        begin, end = real_array("material_curves: measured", known, "s", 1).tolist()
+        known = begin, end
     if not (0 < first < last < np.inf):
         raise ValueError(
             f"material_curves: times must be two, above 0 s and increasing, got {times!r} s"

@@ -11,6 +11,7 @@ from viscontact.drawing.content.panel import Axis, Curve, Ink, Mark, Panel
 from viscontact.results.recorded_motion import contact_edges
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 #: Most speeds that are drawn by default, and digits of a speed.
 _MOST, _DIGITS = 5, 3
@@ -51,5 +52,5 @@ def _drawn_speeds(stored: Floats, speeds: ArrayLike | None) -> Integers:
     if speeds is None:
         count = min(_MOST, len(stored))
         return np.unique(np.rint(np.linspace(0, len(stored) - 1, count)).astype(int))
-    wanted = np.atleast_1d(np.asarray(speeds, dtype=float))
+    wanted = np.atleast_1d(real_array("motion profile: speeds", speeds, "m/s"))
     return np.unique(np.abs(np.log(stored / wanted[:, None])).argmin(axis=1))

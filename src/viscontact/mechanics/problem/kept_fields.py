@@ -9,8 +9,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.steady_motion import checked_speeds
-from viscontact.mechanics.time_integration.run_times import checked_instants
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ ALL_FIELDS, NO_FIELDS = KeptFields("all"), KeptFields("none")
 
 def _instants(requested: Sequence[float], times: Floats) -> Floats:
     """Times of a run nearest to requested ones, which must be among them [s]."""
-    wanted = np.unique(checked_instants("fields", requested))
+    wanted = np.unique(real_array("fields", requested, "s"))
     index = np.clip(np.searchsorted(times, wanted), 0, len(times) - 1)
     index -= (index > 0) & (np.abs(times[index - 1] - wanted) < np.abs(times[index] - wanted))
     strange = ~np.isclose(times[index], wanted, rtol=1e-9, atol=0.0)

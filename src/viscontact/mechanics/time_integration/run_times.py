@@ -14,6 +14,7 @@ from viscontact.mechanics.time_integration.default_times import default_times
 from viscontact.mechanics.time_integration.fixed_steps import snap_to_kink
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import real_array
 
 
 def run_instants(
@@ -36,35 +37,22 @@ def run_instants(
         return default_times(load, compliance)
     if not isinstance(times, AdaptiveTimes):
         return _checked_times(times)
-    named = checked_instants("fields", kept)
+    named = real_array("fields", kept, "s")
     stops = [0.0, times.end, *named[(named >= 0) & (named <= times.end)].tolist()]
     # A time that differs from a kink of the load by rounding only is taken as the kink.
     return np.array(sorted({snap_to_kink(stop, load.kinks) for stop in stops}))
 
 
-def checked_instants(name: str, given: object) -> Floats:
-    """An array of times, or a ValueError with the argument's name [s]."""
-    try:
-        array = np.asarray(given)
-    except ValueError:  # rows of unequal length
-        array = np.asarray(None)
-    if array.dtype.kind not in "iuf":
-        raise ValueError(f"{name} must be instants in s, got {given!r}")
-    return array.astype(np.float64)
-
-
 def _checked_times(times: ArrayLike) -> Floats:
     """Requested times, finite, not before 0 and strictly increasing [s]."""
-    instants = np.atleast_1d(checked_instants("times", times))
+    instants = np.atleast_1d(real_array("times", times, "s"))
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
         raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
     if instants[0] < 0:
         raise ValueError(f"times must not be before 0, got {format_quantity(instants[0], 's', 6)}")
-    falling = np.flatnonzero(np.diff(instants) <= 0)
-    if falling.size:
-        before, after = instants[falling[0]], instants[falling[0] + 1]
+    for i in np.flatnonzero(np.diff(instants) <= 0)[:1]:
         raise ValueError(
-            f"times must be strictly increasing, got {format_quantity(before, 's', 6)}, then "
-            f"{format_quantity(after, 's', 6)}"
+            f"times must be strictly increasing, got {format_quantity(instants[i], 's', 6)}, then "
+            f"{format_quantity(instants[i + 1], 's', 6)}"
         )
     return instants

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Control
-from viscontact.identification.record import finite_column
+from viscontact.bodies.series_fits.columns import columns_over_time
 from viscontact.tables import read_table
-from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import store
 
 _LEAST_ROWS = 5
 
@@ -53,34 +53,17 @@ class ContactRecord:
     name: str = "record"
 
     def __post_init__(self) -> None:
-        for name, unit in (("times", "s"), ("force", "N"), ("approach", "m")):
-            values: Any = getattr(self, name)
-            if values is not None or name == "times":
-                object.__setattr__(self, name, finite_column(self.name, name, values, unit))
         if not self.columns:
             raise ValueError(f"{self.name}: needs a column force or approach beside the time")
-        sizes = {self.times.size, *(self.column(name).size for name in self.columns)}
-        if len(sizes) > 1 or min(sizes) < _LEAST_ROWS:
-            raise ValueError(
-                f"{self.name}: needs {_LEAST_ROWS} rows or more with a value in each column, got "
-                f"{min(sizes)}"
-            )
-        self._check_order()
-
-    def _check_order(self) -> None:
+        given = {
+            name: (self.column(name), "N" if name == "force" else "m") for name in self.columns
+        }
+        store(self, **columns_over_time(self.name, _LEAST_ROWS, times=(self.times, "s"), **given))
         steps = np.diff(self.times)
-        back = np.flatnonzero(steps < 0)
-        thrice = np.flatnonzero((steps[:-1] == 0) & (steps[1:] == 0))
-        if back.size:
-            row = int(back[0]) + 1
+        for row in np.flatnonzero((steps[:-1] == 0) & (steps[1:] == 0))[:1]:
             raise ValueError(
-                f"{self.name}: times, row {row}: must not be before the row above, got "
-                f"{format_quantity(self.times[row], 's', 6)}"
-            )
-        if thrice.size:
-            raise ValueError(
-                f"{self.name}: times, row {int(thrice[0]) + 2}: comes three times; a jump has two "
-                "rows, before and after it"
+                f"{self.name}: times, row {row + 2}: comes three times; a jump has two rows, "
+                "before and after it"
             )
 
     @property
@@ -91,9 +74,9 @@ class ContactRecord:
 
     def column(self, name: str) -> Floats:
         """Return force [N] or approach [m]."""
-        values = getattr(self, name)
+        values: Floats | None = getattr(self, name)
         assert values is not None  # named by `columns`
-        return np.asarray(values)
+        return values
 
     def thinned(self, rows: int) -> ContactRecord:
         """Return the record as means over equal numbers of rows; first rows and jumps are kept."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from itertools import chain
 from typing import Any
@@ -20,6 +19,7 @@ from viscontact.drawing.content.shape import DrawnShape, shape_of, stretch_note
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.units.formatting import ReadableUnit, readable_unit
+from viscontact.units.numbers import both_lengths, real_array
 
 _PLAN_POINTS = 601
 _BODY, _BODY_EDGE = "#dfe5ea", style.INK
@@ -72,8 +72,10 @@ def draw_indenter(
     >>> [axes.get_xlabel() for axes in figure.axes]
     ['x [mm]', 'y [mm]', 'x [mm]', '']
     """
-    if not all(math.isfinite(extent) and extent > 0 for extent in size):
-        raise ValueError(f"size must hold positive extents in m, got {size}")
+    size = both_lengths("size", size)
+    if contact is not None:
+        x, y, length, across = real_array("contact", contact, "m", 1).tolist()
+        contact = x, y, length, across
     shape = shape_of(indenter, size, _PLAN_POINTS)
     figure, panels = _panels(page_width(width, style.TWO_COLUMNS))
     unit = readable_unit("m", *size)

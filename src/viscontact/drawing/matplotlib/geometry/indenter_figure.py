@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
@@ -11,6 +10,7 @@ from viscontact.drawing.matplotlib.geometry.indenter_drawing import draw_indente
 from viscontact.drawing.matplotlib.layout.page import Width
 from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.snapshots import labels_of, take_snapshots
+from viscontact.units.numbers import finite_array
 
 _NAME = "indenter"
 
@@ -52,8 +52,8 @@ def indenter(
     ['x [mm]', 'y [mm]', 'x [mm]', '']
     """
     body = recorded_object(results, "indenter", _NAME)
-    if times is not None and not np.isfinite(np.atleast_1d(np.asarray(times, float))).all():
-        raise ValueError(f"{_NAME}: times must be finite numbers of seconds, got {times!r}")
+    if times is not None:
+        finite_array(f"{_NAME}: times", times, "s")
     contact, shaded = None, ""
     if "pressure" in results and bool((results["contact_area"] > 0).any()):
         snapshot = take_snapshots(results, times, _NAME)[-1]

@@ -24,6 +24,7 @@ from viscontact.drawing.content.law_curves import (
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
+from viscontact.units.numbers import real_array
 
 _NAME = "creep"
 
@@ -150,7 +151,7 @@ def creep_curve(
     >>> compliance.lines[0].get_ydata().round(3).tolist()  # Phi in 1/GPa
     [0.505, 0.55, 1.0]
     """
-    instants = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    instants = np.atleast_1d(real_array(f"{_NAME}: times", times, "s"))
     if instants.size < 2 or not (instants[0] > 0 and np.all(np.diff(instants) > 0)):
         raise ValueError(
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"

@@ -7,6 +7,8 @@ from os import PathLike
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.units.numbers import finite, real_array
+
 try:
     import ezdxf
 except ModuleNotFoundError:  # an extra, without which a profile is a table only
@@ -61,7 +63,8 @@ def write_dxf(
     drawing.units = ezdxf.units.MM
     drawing.header["$MEASUREMENT"] = 1
     drawing.layers.add(LAYER)
-    height = (0.0 if radius is None else radius) - np.asarray(drop, dtype=np.float64)
-    points = np.column_stack([np.asarray(x, dtype=np.float64), height]) * 1e3
+    top = 0.0 if radius is None else finite("radius", radius, "m")
+    height = top - real_array("drop", drop, "m")
+    points = np.column_stack([real_array("x", x, "m"), height]) * 1e3
     drawing.modelspace().add_lwpolyline(points.tolist(), dxfattribs={"layer": LAYER})
     drawing.saveas(path)
