@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -65,6 +68,13 @@ def test_a_power_law_with_one_wrong_constant_is_found_by_the_points(
     slipped = replace(law, **{constant: 1.02 * getattr(law, constant)})
     printed = library.entry(name).points[0]
     assert np.abs(printed.of_law(slipped) / printed.values - 1).max() > printed.tolerance
+
+
+@pytest.mark.parametrize(
+    "copied", [copy.copy, copy.deepcopy, lambda entry: pickle.loads(pickle.dumps(entry))]
+)
+def test_a_copy_of_an_entry_is_equal_to_it(copied: Callable[[library.Entry], object]) -> None:
+    assert copied(library.entry("pom-c-23c")) == library.entry("pom-c-23c")
 
 
 def test_every_material_is_a_power_law_or_a_series() -> None:

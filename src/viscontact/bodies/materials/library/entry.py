@@ -61,6 +61,9 @@ class Entry:
     material: dict[str, Any]
     points: tuple[Points, ...]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return entry, (self.name,)  # a copy is the entry itself, which is read once
+
 
 @cache
 def names() -> tuple[str, ...]:
