@@ -39,6 +39,7 @@ from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import RigidPlane, added, balance
 from viscontact.mechanics.contact.rim_stiffness import RimStiffness
 from viscontact.mechanics.contact.winkler import project_onto_balance
+from viscontact.mechanics.halfspace.spectral import PeriodicConvolution
 
 #: Iterations without a new least residual after which the search counts as stagnant.
 STAGNATION_ITERATIONS = 40
@@ -83,6 +84,9 @@ class BoundedCG:
         self._rim_stiffness = RimStiffness(patch)
         self._slope = 0.0
         self._length = INITIAL_STEP_LENGTH
+        #: Under a given approach bodies may touch everywhere in the course of the search.
+        is_periodic = isinstance(patch.convolution, PeriodicConvolution)
+        self._may_keep_mean = is_periodic and not problem.constraints.free[0]
         self.stagnated = not (self._is_feasible() or self._project_to_feasible())
 
     def run(self, tolerance: float, max_iterations: int) -> None:
@@ -116,7 +120,7 @@ class BoundedCG:
             self._rim_stiffness.follow(active, self._active, self._spare)
         found = self.patch.preconditioner.apply(residual, into=self._spare)
         self._rim_stiffness.correct(found, residual)
-        if not self.problem.constraints.free[0] and active.all():
+        if self._may_keep_mean and active.all():
             # The preconditioner drops the mean: that of the longest wave.
             found += residual.mean() * np.float32(np.pi / self.patch.arm)
         # Step 3: project.
