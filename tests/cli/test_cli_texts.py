@@ -3,17 +3,58 @@
 from __future__ import annotations
 
 import gc
+import json
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
+import pytest
+import xarray as xr
+
+from synthetic_results import maxwell_sphere
 from viscontact.bodies.indenters import Sphere
 from viscontact.cli.material.fit_options import read_indenter, read_kelvin, read_stress, read_weight
 from viscontact.cli.quick_imports import quick_imports
-from viscontact.cli.studies.typed_options import as_typed, bounds
+from viscontact.cli.results.figures import save_animation
+from viscontact.cli.results.history_table import _shown_scalars
+from viscontact.cli.results.reports import _run_label
+from viscontact.cli.studies.typed_options import as_typed, bounds, instant
 from viscontact.cli.sweep.checks import _list_names
 from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch, split_values
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.sweep.table import first_names
 from viscontact.runs.processes.request import RunRequest
+
+
+def test_place_of_a_scalar_is_an_instant_or_a_speed() -> None:
+    assert [instant(text) for text in ("end", "2 min", "20 mm/s")] == ["end", 120.0, 0.02]
+
+
+def test_report_is_labelled_with_the_directory_of_its_run(tmp_path: Path) -> None:
+    files = (tmp_path / "run-2", tmp_path / "run-2" / "result.nc", tmp_path / "ball.nc")
+    assert [_run_label(file) for file in files] == ["run-2", "run-2", "ball"]
+
+
+def test_steady_motion_under_a_given_approach_has_its_forces_in_the_table() -> None:
+    under_force = maxwell_sphere().rename(time="speed").assign_attrs(along="y")
+    under_force["friction_coefficient"] = 0 * under_force["force"]
+    load = {"type": "ApproachHistory", "times": [0.0], "approach": [1e-6]}
+    case = json.loads(under_force.attrs["case"]) | {"load": load}
+    under_approach = under_force.assign_attrs(case=json.dumps(case))
+    shown = ["force" in _shown_scalars(each) for each in (under_force, under_approach)]
+    assert shown == [False, True]
+
+
+@pytest.mark.parametrize(("stored", "is_said"), [(6, True), (20, False)])
+def test_few_stored_instants_of_an_animation_are_said(
+    stored: int, is_said: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of 60 frames, fewer than a quarter."""
+    film = SimpleNamespace(instants=np.arange(60) * stored // 60)
+    plot = SimpleNamespace(animation=lambda ds: film, save_animation=lambda *given: None)
+    save_animation(plot, tmp_path / "film.gif", xr.Dataset())
+    said = capsys.readouterr()
+    assert (f"60 frames show {stored} stored instants" in said.out + said.err) == is_said
 
 
 def test_weight_has_a_column_and_a_number() -> None:

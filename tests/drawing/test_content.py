@@ -12,7 +12,7 @@ from viscontact.bodies.laws import Elastic, Maxwell
 from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
 from viscontact.drawing.content.design import profile_panel, trial_panels
 from viscontact.drawing.content.friction import limit_speeds
-from viscontact.drawing.content.history import limits_around
+from viscontact.drawing.content.history import event_marks, limits_around
 from viscontact.drawing.content.law_curves import creep_panels, material_panels
 from viscontact.drawing.content.look import DARK, LIGHT, PRESSURE, Look, shades
 from viscontact.drawing.content.notes import peak_note
@@ -23,6 +23,7 @@ from viscontact.drawing.content.relief import relief
 from viscontact.drawing.content.scale import pressure_scale, round_step
 from viscontact.drawing.content.sensitivity import tornado_panels
 from viscontact.drawing.content.shape import natural_size, stretch_note
+from viscontact.drawing.content.stress_planes import StressPlane
 from viscontact.drawing.content.window import window_over
 from viscontact.drawing.figures import names_of
 from viscontact.results.snapshots import Snapshot
@@ -93,6 +94,10 @@ def test_quadrilateral_with_a_hidden_corner_is_left_out() -> None:
 def test_colours_of_a_signed_scale_are_neutral_at_zero() -> None:
     assert pressure_scale(0.0, 1e6).colours(2) == ["#f1f9b9", "#2072b2"]
     assert pressure_scale(-1e6, 1e6).colours(3)[1] == "#f7f7f7"
+    # The larger side has the full colour, and equal sizes have colours of equal strength.
+    whole = pressure_scale(-4e6, 4e6).colours(9)
+    assert pressure_scale(-4e6, 2e6).colours(7) == whole[:7]
+    assert pressure_scale(-2e6, 4e6).colours(7) == whole[2:]
 
 
 def test_levels_of_pressure_are_round_and_include_zero() -> None:
@@ -103,6 +108,12 @@ def test_levels_of_pressure_are_round_and_include_zero() -> None:
     signed = pressure_scale(-30e3, 90e3)
     assert signed.unit(signed.levels)[:4].tolist() == [-40.0, -20.0, 0.0, 20.0]
     assert signed.diverges
+
+
+def test_levels_end_at_the_largest_pressure_that_does_not_depend_on_the_mesh() -> None:
+    scale = pressure_scale(0.0, 900e6, ordinary=152e6)
+    assert (scale.is_open, scale.limits[1]) == (True, 900e6)
+    assert scale.unit(scale.levels)[-1] == 160.0
 
 
 def test_round_step_is_not_below_the_least() -> None:
@@ -121,6 +132,34 @@ def test_sphere_is_drawn_over_less_than_its_radius_on_both_sides() -> None:
 
 def test_window_holds_all_boxes_with_a_margin() -> None:
     assert window_over([(-1.0, 1.0, -0.5, 0.5), (-2.0, 0.0, -0.5, 0.5)]).x == (-2.21, 1.21)
+
+
+def test_window_ends_with_the_period_along_each_axis() -> None:
+    window = window_over([(-1.0, 1.0, -3.0, 3.0)], (-1.05, 1.02, -2.0, 5.0))
+    assert (window.x, window.y) == ((-1.05, 1.02), (-2.0, 3.42))
+
+
+@pytest.mark.parametrize(("box", "note"), [((10.0, 0.5), "y"), ((0.5, 10.0), "x")])
+def test_slender_contact_is_stretched_across(box: tuple[float, float], note: str) -> None:
+    """A ratio of 20 is drawn at 5: at least 4.5 by a round factor."""
+    along, across = box
+    window = window_over([(-along, along, -across, across)])
+    assert window.note == f"{note} stretched 4×"
+    assert max(window.height_to_width, 1 / window.height_to_width) == close_to(5.0)
+
+
+def test_events_beyond_the_drawn_instants_have_no_marks() -> None:
+    about = {"events": "1 s: force reaches 2 N\n5 s: contact is lost", "event_times": [1.0, 5.0]}
+    run = xr.Dataset({"force": ("time", [0.0, 2.0])}, {"time": [0.0, 3.0]}, about)
+    assert [mark.text for mark in event_marks(run)] == ["1 s: force reaches 2 N"]
+
+
+def test_depth_of_the_largest_stress_lies_between_the_depths_of_a_section() -> None:
+    """A parabola through three depths has its vertex where it was put."""
+    depths = np.arange(8.0)
+    stress = (9.0 - (depths[:, None] - 3.3) ** 2) * np.array([0.5, 1.0, 0.5])
+    plane = StressPlane(0.0, np.array([-1.0, 0.0, 1.0]), depths, stress, "y", None, 2.0)
+    assert plane.largest[1:] == close_to((3.3, 0.0), rel=1e-12)
 
 
 def test_animations_are_not_among_the_figures() -> None:

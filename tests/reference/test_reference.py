@@ -21,6 +21,15 @@ MODULUS = 2e9
 positive = st.floats(1e-3, 1e3)
 
 
+def test_waves_in_full_contact_are_pressed_evenly_and_as_the_wave_besides():
+    """p = p̄ + p* cos(2π x/λ), Johnson 1985, section 13.2, without tension from p̄ = p* on."""
+    wave = reference.WavyContact(3.0, 2.0, wavelength=0.5, amplitude=1e-3)
+    x = 0.5 * (np.arange(64) + 0.5) / 64
+    assert wave.pressure(x).mean() == close_to(3.0, rel=1e-12)
+    assert wave.pressure([0.0, 0.25]) == close_to([5.0, 1.0], rel=1e-12)
+    assert wave.peak_pressure == 5.0
+
+
 def axisymmetric_displacement(pressure, outer, rho):
     """Displacement at rho: ring loads weighted by 4 r K(k)/(pi E* (r + rho))."""
 

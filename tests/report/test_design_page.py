@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import numpy as np
 import pytest
@@ -72,6 +73,21 @@ def test_the_gain_is_left_out_where_a_value_has_no_limit(table: xr.Dataset, tmp_
     write_design_report(table, {}, path, title="Crown", headline="")
     found = {row[0]: row[1:] for row in rows(path.read_text(encoding="utf-8"))}
     assert found["Peak pressure, worst scenario"][2] == ""
+
+
+def test_the_trade_off_is_in_the_order_of_the_first_goal(
+    table: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.report.design_page.drawn_figure", lambda *_: Element("p"))
+    goals = table.assign_attrs(goal="contact_length peak_pressure")
+    for end in ("", "_error"):
+        of_scenarios = goals[f"contact_length{end}"].expand_dims(scenario=table.scenario)
+        goals[f"contact_length_of_scenarios{end}"] = of_scenarios.transpose("trial", "scenario")
+    goals["on_front"] = ("trial", [False, True, True, True])
+    path = tmp_path / "report.html"
+    write_design_report(goals, {}, path, title="Crown", headline="both least")
+    chapter = path.read_text(encoding="utf-8").partition(">Trade-off<")[2]
+    assert [row[0] for row in rows(chapter.partition("</table>")[0])] == ["1", "2", "3"]
 
 
 def test_the_trials_are_drawn_in_groups_over_the_parameter(table: xr.Dataset) -> None:

@@ -3,23 +3,69 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from typing import Any
+from xml.etree.ElementTree import Element
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from synthetic_results import ellipse
-from viscontact.report.creep_gains import relative_change
+from viscontact.report.accuracy import accuracy_lines
+from viscontact.report.creep_gains import gains_over_a_year, relative_change
+from viscontact.report.input_chapters import about_chapter
 from viscontact.report.limits import assumptions
-from viscontact.report.measured import measured_text
+from viscontact.report.measured import measured_figure, measured_text
 from viscontact.report.result_chapters import heading_of
 from viscontact.report.title_block import title_entries
+
+
+def text_of(parts: Iterable[Element]) -> str:
+    return "".join(piece for part in parts for piece in part.itertext())
 
 
 def test_relative_change_of_zero_is_empty() -> None:
     assert relative_change(400e6, 300e6) == "−25 %"
     assert relative_change(0.0, 1.0) == ""
+
+
+def test_gains_over_a_year_are_in_the_order_of_time_with_the_end_of_the_case_among_them() -> None:
+    times = [0.0, 3600.0, 5e4, 86400.0, 7 * 86400.0]
+    sizes = {"peak_pressure": ("time", [5e6, 4e6, 3.5e6, 3e6, 2e6])}
+    year = xr.Dataset(sizes, {"time": times})
+    case = year.isel(time=[0, 1, 2])
+    parts = gains_over_a_year(year, {"case": case}, {"case": year, "best": year}, ["peak_pressure"])
+    labels = ("0 s", "1 h", "end of the case", "1 day", "1 week")
+    page = text_of(parts)
+    places = [page.index(label) for label in labels]
+    assert places == sorted(places)
+
+
+def test_iterations_of_all_steps_are_added_up() -> None:
+    ds = ellipse().assign_attrs(wall_time=2.0)
+    ds["iterations"][:] = [3, 4, 5]
+    assert "3 instants in 2 s, 12 iterations" in text_of(about_chapter(ds))
+
+
+def test_cells_are_counted_across_the_largest_contact() -> None:
+    ds = ellipse()
+    ds["cells_across"][:] = [20, 26, 30]
+    found = dict(accuracy_lines(ds))["Cells"]
+    assert found.startswith("48 × 54 cells of 20 µm × 40 µm; 30 across the shorter side of the la")
+
+
+def test_balance_of_a_load_program_is_that_of_its_segments() -> None:
+    found = dict(accuracy_lines(with_case(ellipse(), load={"type": "MixedHistory"})))["Balance"]
+    assert found.startswith("segments prescribe force or approach; under a force, ")
+
+
+def test_measured_values_over_decades_are_drawn_on_a_logarithmic_axis() -> None:
+    for last, scale in ((1e4, "log"), (20.0, "linear")):
+        over = {"quantity": "time", "units": "s", "values": [1.0, 2.0, last]}
+        of = {"quantity": "creep_compliance", "units": "1/Pa", "values": [1e-9, 2e-9, 3e-9]}
+        figure = measured_figure({"columns": [over, of], "data": "shear"})
+        assert figure.axes[0].get_xscale() == scale
 
 
 def test_measured_table_is_described_with_file_columns_and_test() -> None:
@@ -29,6 +75,8 @@ def test_measured_table_is_described_with_file_columns_and_test() -> None:
         found
         == "As measured: 1 row of pom.csv, columns “time [s]” and “D [1/GPa]” (uniaxial test)."
     )
+    many = {"file": "pom.csv", "rows": 5000, "columns": columns, "data": "uniaxial"}
+    assert "5000 rows of pom.csv, 1 of them drawn, columns" in measured_text(many)
 
 
 def test_heading_has_the_label_unless_it_repeats_the_title() -> None:

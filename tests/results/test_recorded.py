@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from viscontact.results.recorded_motion import (
 from viscontact.results.run_axis import SPEED, TIME, in_order, law_times, require_time, run_axis
 from viscontact.results.shown_scalars import is_long, lacks_datum
 from viscontact.results.snapshot import Snapshot
+from viscontact.results.snapshots import take_snapshots
 from viscontact.results.stated_errors import (
     LargestError,
     drawn_values,
@@ -71,6 +73,17 @@ def test_force_and_tilt_of_a_load_are_prescribed() -> None:
     ds = xr.Dataset(attrs={"case": case})
     found = [is_prescribed(ds, name) for name in ("force", "approach", "tilt_x", "tilt_y")]
     assert found == [True, False, True, False]
+
+
+def test_place_of_the_force_is_prescribed_unless_a_tilt_or_the_approach_is() -> None:
+    loads = (
+        {"type": "ForceHistory", "tilt_x": None},
+        {"type": "ForceHistory", "tilt_x": 0.0},
+        {"type": "ApproachHistory", "tilt_x": None},
+    )
+    runs = [xr.Dataset(attrs={"case": json.dumps({"load": load})}) for load in loads]
+    found = [is_prescribed(run, "eccentricity_x") for run in runs]
+    assert found == [True, False, False]
 
 
 def test_event_has_its_instant_and_text() -> None:
@@ -123,7 +136,32 @@ def test_axis_is_the_dimension_of_the_result() -> None:
 
 def test_result_over_speed_is_ordered_from_the_slowest() -> None:
     fast_first = xr.Dataset({"force": ("speed", [1.0, 2.0])}, {"speed": [3.0, 0.5]})
+    fast_first.encoding["source"] = "result.nc"
     assert in_order(fast_first)["force"].values.tolist() == [2.0, 1.0]
+    assert in_order(fast_first).encoding["source"] == "result.nc"
+
+
+def fields_over(axis: str, places: np.ndarray) -> xr.Dataset:
+    """Pressure and gap of one everywhere on four cells times four."""
+    ones, at = np.ones((len(places), 4, 4)), np.arange(-1.5, 2.0)
+    fields = dict.fromkeys(("pressure", "gap"), ((axis, "x", "y"), ones))
+    return xr.Dataset(fields, {axis: places, "x": at, "y": at})
+
+
+def test_some_speeds_of_many_are_drawn_from_the_slowest_and_one_is_the_fastest() -> None:
+    run = fields_over("speed", np.array([3.0, 0.5, 1.0]))
+    some = [[each.time for each in take_snapshots(run, None, "map", count=n)] for n in (2, 1)]
+    assert some == [[0.5, 3.0], [3.0]]
+
+
+def test_instants_that_are_drawn_are_those_before_creep_is_over() -> None:
+    """A contact that grows with t/(t + 0.01 s) to within 1 % by t = 1 s, of a run up to 1000 s."""
+    times = np.append(0.0, np.geomspace(1e-4, 1e3, 71))
+    run = fields_over("time", times)
+    run["contact_area"] = ("time", 1 + times / (times + 0.01))
+    drawn = [each.time for each in take_snapshots(run, None, "map", count=5)]
+    assert (drawn[0], drawn[-1]) == (0.0, 1000.0)
+    assert all(0.005 < time < 1.3 for time in drawn[1:-1])
 
 
 def test_figure_over_time_refuses_a_result_over_speed() -> None:
@@ -146,6 +184,18 @@ def test_contact_is_long_from_three_widths_on() -> None:
     run = xr.Dataset({name: ("time", each) for name, each in sizes.items()})
     found = [is_long(run.assign(contact_width=("time", [0.0, width]))) for width in (1.0, 3.0)]
     assert found == [True, False]
+    # Of a contact that has shrunk since, the largest one counts.
+    sizes = {"contact_area": [5.0, 1.0], "contact_length": [6.0, 1.0], "contact_width": [2.0, 1.0]}
+    assert is_long(xr.Dataset({name: ("time", each) for name, each in sizes.items()}))
+
+
+def test_contact_through_the_period_along_x_is_long_however_short_the_period() -> None:
+    sizes = {"contact_area": 2.0, "contact_length": 2.0, "contact_width": 1.0}
+    case = '{"grid": {"size": [2.0, 8.0], "periodic": [true, false]}}'
+    run = xr.Dataset({name: ("time", [size]) for name, size in sizes.items()}, attrs={"case": case})
+    run = run.assign_coords(x=np.arange(-0.75, 1.0, 0.5), y=np.arange(-3.5, 4.0))
+    assert is_long(run)
+    assert not is_long(run.assign(contact_length=("time", [1.9])))
 
 
 def test_unknown_approach_has_no_datum() -> None:

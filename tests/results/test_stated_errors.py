@@ -203,6 +203,18 @@ def test_each_number_has_its_error_below_it(ds: xr.Dataset, shown: Callable[...,
     assert half_widths == close_to([0.0, *map(float, expected)], rel=0.05)
 
 
+def test_errors_of_some_instants_of_many_are_those_of_these_instants(
+    bare: xr.Dataset, shown: Callable[..., str]
+) -> None:
+    """Of 60 instants 20 are shown; at the last one the error of the approach is 6 %."""
+    last = bare.isel(time=[-1] * 60).assign_coords(time=np.arange(60.0))
+    parts = np.linspace(1e-3, 0.06, 60) * np.abs(last.approach.values)
+    lines = shown(with_errors(last, approach=parts), "--errors").splitlines()
+    [row] = [n for n, line in enumerate(lines) if re.match(r" +59 ", line)]
+    [half_width] = re.findall(r"±([\d.]+)", lines[row + 1])
+    assert float(half_width) == close_to(1e6 * parts[-1], rel=0.05)
+
+
 def test_error_of_the_loss_stands_behind_it(ds: xr.Dataset, shown: Callable[..., str]) -> None:
     assert re.search(r"loss per cycle: [\d.]+ µJ, within 11 %", shown(ds))
 

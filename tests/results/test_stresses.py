@@ -138,3 +138,13 @@ def test_stresses_of_a_cylinder_lie_across_it() -> None:
     # von Mises stress for ν = 0.5, √3 times the in-plane shear
     assert f"largest {3**0.5 * float(in_plane.max()) / 1e3:.3g}" in axes.get_title(loc="left")
     assert "x =" not in axes.get_title(loc="left")  # it is the same everywhere along x
+
+
+def test_stresses_across_a_period_are_those_through_its_middle(results: xr.Dataset) -> None:
+    """A period that is elsewhere is under the same stresses there."""
+    case = results.attrs["case"].replace('"periodic": false', '"periodic": [true, false]')
+    here = results.assign_attrs(case=case)
+    there = here.assign_coords(x=here.x + 7e-3)
+    found = [vc.section_stresses(each, [2e-4], times=[1.0]).von_mises for each in (here, there)]
+    assert found[0].dims == ("time", "z", "y")
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-9)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 
 import xarray as xr
 
 import viscontact as vc
+from closeness import close_to
+from synthetic_results import ellipse, maxwell_sphere
 from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.citation import bibtex, citations
 from viscontact.results.formatting import (
@@ -15,7 +19,8 @@ from viscontact.results.formatting import (
     format_with_error,
     format_with_error_in,
 )
-from viscontact.results.summary import legend
+from viscontact.results.history_csv import write_history
+from viscontact.results.summary import headline, legend, summary_rows
 from viscontact.results.sweep_axes import key_label, over_of
 from viscontact.results.typed_rows import typed_rows
 from viscontact.results.variables import Place, scalar_attributes, shown_in
@@ -106,6 +111,30 @@ def test_scalars_of_a_place_are_those_that_a_result_has() -> None:
 
 def test_scalar_points_to_its_error() -> None:
     assert scalar_attributes("force", errors=True)["ancillary_variables"] == "force_error"
+
+
+def test_pressure_at_a_point_is_that_of_its_x_and_y() -> None:
+    """A plane is its own bilinear interpolation."""
+    ds, file = ellipse(), io.StringIO()
+    ds["pressure"][:] = (1e9 * ds.x + 1e10 * ds.y).transpose("x", "y")
+    write_history(ds, file, points=[(1e-4, -2e-4)])
+    *_, last = csv.DictReader(io.StringIO(file.getvalue()))
+    pressure = float(last["pressure at x=0.0001 m y=-0.0002 m [Pa]"])
+    assert pressure == close_to(1e9 * 1e-4 - 1e10 * 2e-4, rel=1e-9)
+
+
+def test_bodies_come_apart_at_the_first_instant_without_contact() -> None:
+    ds = maxwell_sphere((0.0, 10.0, 20.0, 30.0))
+    ds["contact_area"][2:] = 0.0
+    assert headline(ds).endswith("from t = 20 s to the end, t = 30 s, they do not touch.")
+
+
+def test_error_of_a_zero_is_compared_with_the_largest_value() -> None:
+    ds = ellipse()
+    ds["peak_pressure"][:] = [0.0, 1e6, 2e6]
+    ds["peak_pressure_error"] = ("time", [1.0, 1e4, 1e4])
+    [row] = [each for each in summary_rows(ds) if each.name == "peak_pressure"]
+    assert (row.first, row.last) == ("0", "2.000 ± 0.010")
 
 
 def test_margin_is_the_part_that_value_and_error_leave() -> None:

@@ -58,6 +58,8 @@ def found(values: Any, errors: Any) -> tuple[str, float, str]:
 
 def test_passed_if_every_value_with_its_error_is_within() -> None:
     assert found([8.0, 9.0, 7.0], [0.5, 0.9, 0.5]) == ("passed", 1.0, "")
+    # Where only zeros are known, it is not the instant without a value.
+    assert found([math.nan, 0.0, 0.0], [math.nan, 0.0, 0.0]) == ("passed", 1.0, "")
     # The nearest to the limit is a smaller value with a larger error.
     assert found([9.0, 8.5, 7.0], [0.5, 1.4, 0.5]) == ("passed", 1.0, "")
 

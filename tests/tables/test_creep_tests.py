@@ -57,6 +57,10 @@ def test_of_several_stresses_the_chosen_one_is_read(text: str, tmp_path: Path) -
         read(tmp_path, text, stress=7e6)
 
 
+def test_rows_at_a_stress_keep_their_lines_in_the_file(tmp_path: Path) -> None:
+    assert read(tmp_path, COLUMN, stress=10e6).lines.tolist() == [4, 5]
+
+
 def test_shear_strain_over_shear_stress_is_the_shear_compliance(tmp_path: Path) -> None:
     found = read(tmp_path, "time [s], shear strain [1], shear stress [kPa]\n1, 0.5, 2\n")
     assert found.data == "shear"

@@ -144,3 +144,4 @@ def test_a_run_of_an_earlier_version_is_listed(kept: Path, tmp_path: Path) -> No
     folder = Folder(tmp_path)
     assert [name for name, _ in folder.runs()] == [RUN]
     assert folder.summary(RUN, "same") == {"area": 1}
+    assert folder.summary(RUN, "of another result") is None

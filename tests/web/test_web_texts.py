@@ -15,10 +15,14 @@ def test_label_of_a_run_states_what_differs_from_the_first() -> None:
     found = label_of("Ball", {"load": {"force": "2 N"}}, first, {"Ball"})
     assert found == "Ball, force 2 N, without grid"
     assert label_of("Ball", first, first, {"Ball"}) == "Ball (2)"
+    titled = {"title": "Ball", **first, "load": {"force": "2 N"}}
+    assert label_of("Ball", titled, first, {"Ball"}) == "Ball, force 2 N"
 
 
 def test_file_name_has_letters_digits_and_hyphens_only() -> None:
     assert file_stem("Ball, force 2.5 N", "coarse") == "ball-force-2-5-n-coarse"
+    long = file_stem(f"Ball {'x' * 300}, force 2.5 N", "")
+    assert (len(long) <= 80, long[:6], long[-12:]) == (True, "ball-x", "-force-2-5-n")
 
 
 def test_layers_are_named_by_the_uppermost() -> None:

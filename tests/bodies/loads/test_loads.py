@@ -131,6 +131,19 @@ def test_eccentricity_and_tilt_jump_only_under_load(name):
     assert ForceHistory([0, 1, 1, 2], [0, 0, 0, 5], **{name: values}).jumps.tolist() == []
 
 
+def test_a_tilt_jumps_under_a_stage_that_only_its_tilt_brings_into_contact():
+    """The middle stays 1 um above the surface; an end may touch, for all the history knows."""
+    tilts = [0, 0, 1e-3, 1e-3]
+    assert ApproachHistory([0, 1, 1, 2], [-1e-6] * 4, tilt_x=tilts).jumps.tolist() == [1]
+    assert ApproachHistory([0, 1, 1, 2], [-1e-6, -1e-6, -2e-6, -2e-6]).jumps.tolist() == []
+
+
+def test_a_cycle_ends_at_a_valley_that_is_as_low_up_to_rounding():
+    assert 0.1 + 0.2 > 0.3
+    load = ForceHistory([0, 1, 2, 3, 4, 5], [0.0, 1.0, 0.3, 1.0, 0.1 + 0.2, 1.0])
+    assert [(begin[0], end[0]) for begin, end in load.load_cycles] == [(2.0, 4.0)]
+
+
 def test_largest_force_may_stand_on_the_left_of_a_jump():
     assert ForceHistory([0, 1, 1], [0, 9, 2]).largest_force == 9.0
 
@@ -382,6 +395,12 @@ def test_harmonic_force_is_the_sine_it_says(time, phase, mean, amplitude):
     exact = mean + amplitude * math.sin(math.pi * time + phase)
     assert float(swing.level_at(time)) == close_to(exact, abs=1e-12)
     assert swing.at(time).force == float(swing.level_at(time))
+
+
+def test_harmonic_load_of_a_negative_amplitude_begins_downwards_and_is_as_large():
+    load = harmonic(10.0, -4.0, period=1.0, cycles=3)
+    assert load.level_at([0.25, 0.75]).tolist() == close_to([6.0, 14.0])
+    assert load.largest_level == 14.0
 
 
 def test_harmonic_load_is_held_after_its_cycles_and_jumps_to_its_first_level():

@@ -45,6 +45,14 @@ def test_frames_are_at_equal_steps_of_the_time_axis(scale: str) -> None:
     np.testing.assert_array_equal(film.instants, nearest)
 
 
+def test_section_has_room_for_the_largest_pressure_of_all_frames(sphere: xr.Dataset) -> None:
+    """That of the first one: the pressure falls while a Maxwell body creeps."""
+    section = animation(sphere, seconds=1.0, fps=6.0).figure.axes[2]
+    unit = {"kPa": 1e3, "MPa": 1e6}[section.get_ylabel()[-4:-1]]
+    assert float(sphere.pressure[0].max()) == float(sphere.pressure.max())
+    assert section.get_ylim()[1] * unit > 0.99 * float(sphere.pressure.max())
+
+
 def test_each_frame_shows_the_numbers_of_its_instant(sphere: xr.Dataset) -> None:
     film = animation(sphere, seconds=1.0, fps=6.0)
     surface, _, section, *histories = film.figure.axes

@@ -134,6 +134,15 @@ def test_outline_of_a_contact_with_a_hole_has_two_polygons() -> None:
     assert radii == close_to([3.1, 8.2], abs=0.1)
 
 
+def test_outline_one_cell_from_the_end_of_the_grid_is_the_circle_that_it_is_inside() -> None:
+    """Its gap opens with the distance to the power of 3/2, and is not known beyond the grid."""
+    x = np.arange(-5.5, 6.0)
+    outside = np.hypot(x[:, None], x) - 4.9
+    snapshot = Snapshot(0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0) ** 1.5, outside < 0)
+    (outline,) = rim_polygons(snapshot)
+    assert np.hypot(*outline.T) == close_to(4.9, abs=0.2)
+
+
 def test_outline_where_the_body_ends_stays_between_the_cells() -> None:
     x = np.arange(-5.5, 6.0)
     pressed = np.hypot(x[:, None], x) < 4

@@ -7,7 +7,7 @@ import scipy
 import viscontact as vc
 from closeness import close_to
 from viscontact.mechanics.problem.separation import separate, transformed
-from viscontact.mechanics.problem.series_body import span_of
+from viscontact.mechanics.problem.series_body import series_body, span_of
 
 SHEAR = 1e6
 OMEGA = np.geomspace(0.02, 400.0, 23)
@@ -162,6 +162,19 @@ def test_power_laws_are_separated_within_the_stated_error(instant, eps, terms, a
         creep = sum(j(t) * response.ratio(Q) for j, response in kernels)
         exact = in_time(lambda s: wanted(s) / s, t)
         assert creep == close_to(exact, rel=found.error + 1e-9)
+
+
+def test_a_law_in_place_of_one_without_an_instant_compliance_flows_and_slides_as_it_does():
+    law = vc.CreepSeries(0.0, [1e-9], [1.0], 1e-11)
+    rubber = vc.Material(law, 0.4)
+    body = vc.Layered([vc.Layer(1e-3, rubber)] * 2, rubber, bonded=(True, False))
+    found, deviation = series_body(body, (1e-2, 1e3))
+    times = np.geomspace(1.0, 1e3, 16)
+    for material in found.materials:
+        assert material.law(0.0) > 0
+        assert material.law(times) == close_to(law(times), rel=1.1 * deviation)
+    assert deviation < 0.1
+    assert found.bonded == (True, False)
 
 
 def test_a_law_that_no_series_follows_is_refused():

@@ -96,6 +96,35 @@ def test_a_refused_step_is_shortened_and_offered_again():
     assert again.duration == close_to(0.2 * first.duration)
 
 
+@pytest.mark.parametrize("scale", [0.5, 1.0, 3.0, 20.0])
+def test_the_last_two_steps_before_a_stop_are_equally_long(scale):
+    steps = AdaptiveSteps(adaptive_times(10.0, 1e-2), np.array([3.7]), ramp(1.0, 10.0), KELVIN)
+    taken, _ = walk(steps, lambda each: cubic(each, scale))
+    last = next(k for k, each in enumerate(taken) if each.time == 3.7)
+    assert taken[last].duration == close_to(taken[last - 1].duration, rel=1e-9)
+    assert taken[-1].duration == close_to(taken[-2].duration, rel=1e-9)
+
+
+def test_a_step_is_at_most_twice_as_long_as_the_one_before_also_after_a_stop():
+    stops = np.array([3.7, 3.75])
+    steps = AdaptiveSteps(adaptive_times(10.0, 1e-2), stops, ramp(1.0, 10.0), KELVIN)
+    durations = np.array([each.duration for each in walk(steps)[0] if not each.is_jump])
+    assert (durations[1:] / durations[:-1]).max() <= 2 * (1 + 1e-9)
+
+
+def test_steps_and_their_number_go_on_after_a_restart_as_they_would_have():
+    def begun():
+        return AdaptiveSteps(adaptive_times(100.0, 1e-2), np.zeros(0), ramp(1.0, 100.0), KELVIN)
+
+    steps = begun()
+    for _ in range(9):
+        steps.accept_step(0.5 * 0.2 * 1e-2)
+    resumed = begun()
+    resumed.restore(steps.restart_data())
+    assert resumed.left == steps.left
+    assert walk(resumed, cubic) == walk(steps, cubic)
+
+
 def test_a_first_step_creeps_little():
     for compliance in (KELVIN, SeriesCompliance(1.0, [1.0], [2e-6])):
         steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), step(1.0), compliance)

@@ -220,8 +220,43 @@ def solved(compliance, times, wanted):
     return np.array(values)
 
 
-def test_what_is_taken_into_the_memory_is_a_copy():
-    memory, field = InternalVariables(KELVIN, (1,)), np.array([1.0])
+def displaced(memory, fields, durations):
+    """Displacements after a jump to the first field and smooth ramps to the others."""
+    found = []
+    for field, duration in zip(fields, durations, strict=True):
+        response = memory.ramp(duration, smooth=True) if duration else memory.jump()
+        found.append(response.history + response.compliance * field)
+        memory.accept(field)
+    return np.array(found)
+
+
+def test_a_field_grown_on_the_way_goes_on_as_one_that_was_as_large_from_the_beginning():
+    law, planned = LawCompliance(PowerLaw(1.0, 0.4, 1.0, 0.3), 1.0), np.array([0.0, 1, 2, 3, 5, 7])
+    durations = np.append(0.0, np.diff(planned))
+    fields = np.sqrt(1 + planned)[:, None] * np.array([1.0, 2.0])
+    grown = np.pad(fields, ((0, 0), (1, 1)))
+    small, large = BoltzmannSum(law, (2,), planned), BoltzmannSum(law, (4,), planned)
+    displaced(small, fields[:4], durations[:4])
+    small.map_fields(lambda field: np.pad(field, [(0, 0)] * (field.ndim - 1) + [(1, 1)]))
+    found = displaced(small, grown[4:], durations[4:])
+    whole = displaced(large, grown, durations)
+    np.testing.assert_allclose(found, whole[4:], rtol=1e-13)
+
+
+def test_a_sum_resumed_after_a_jump_goes_on_to_the_same_bits():
+    law = LawCompliance(PowerLaw(1.0, 0.4, 1.0, 0.01), 1.0)
+    memory, resumed = BoltzmannSum(law, (1,)), BoltzmannSum(law, (1,))
+    memory.jump()
+    memory.accept(np.ones(1))
+    resumed.restore(memory.restart_data())
+    one, other = memory.ramp(50.0), resumed.ramp(50.0)
+    assert (one.history[0], one.compliance) == (other.history[0], other.compliance)
+    assert (one.resolved, one.held) == (other.resolved, other.held)
+
+
+@pytest.mark.parametrize("kind", [InternalVariables, BoltzmannSum])
+def test_what_is_taken_into_the_memory_is_a_copy(kind):
+    memory, field = kind(KELVIN, (1,)), np.array([1.0])
     memory.jump()
     memory.accept(field)
     field[0] = 99.0

@@ -14,7 +14,10 @@ from viscontact.mechanics.time_integration.fixed_steps import snap_to_kink
 from viscontact.mechanics.time_integration.hereditary_integral import is_resolved
 from viscontact.mechanics.time_integration.moving_times import moving_times
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.mechanics.time_integration.run_times import run_instants
 from viscontact.mechanics.time_integration.step_shape import longest_smooth_rise
+
+ELASTIC = SeriesCompliance(1.0, (), ())
 
 
 def test_number_of_adaptive_steps_is_estimated():
@@ -47,6 +50,15 @@ def test_moving_times_are_those_of_whole_cells():
     path = vc.Travel([0.0, 1.0], y=[0.0, 1e-3])
     times = moving_times(path, vc.step(1.0), (1e-4, 2.5e-4))
     assert times == close_to([0.0, 0.25, 0.5, 0.75, 1.0])
+    # A run may end before its motion does.
+    assert moving_times(path, vc.step(1.0), (1e-4, 2.5e-4), end=0.6) == close_to(
+        [0, 0.25, 0.5, 0.6]
+    )
+
+
+def test_adaptive_run_does_not_go_on_to_fields_that_are_wanted_after_its_end():
+    found = run_instants(AdaptiveTimes(10.0, 1e-3), [2.0, 20.0], vc.step(1.0), ELASTIC)
+    assert found.tolist() == [0.0, 2.0, 10.0]
 
 
 def test_longest_rise_on_a_fluid_keeps_the_old_weight_at_the_instant_compliance():

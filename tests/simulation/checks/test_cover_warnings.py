@@ -44,6 +44,18 @@ def test_warnings_begin_at_their_bounds() -> None:
     assert kinds(COVER, 10e-3, np.nan) == []
 
 
+@pytest.mark.parametrize("ratio", [0.44, 0.46, 0.49])
+def test_cover_is_as_incompressible_by_its_bulk_modulus_as_by_poissons_ratio(ratio: float) -> None:
+    """K = 2 G (1 + ν)/(3 (1 - 2ν)); a ratio above 0.45 is nearly incompressible."""
+    bulk = 2e6 * (1 + ratio) / (3 * (1 - 2 * ratio))
+    by_ratio = vc.Material(vc.Elastic(1e6), ratio)
+    by_bulk = vc.Material(vc.Elastic(1e6), bulk_modulus=bulk)
+    bodies = [vc.Layered([vc.Layer(1e-3, each)], STEEL) for each in (by_ratio, by_bulk)]
+    one, other = covers_of(bodies, 0.0)
+    assert one == other
+    assert one.squeezed == (ratio > 0.45)
+
+
 @pytest.mark.parametrize(
     ("layers", "base", "bonded", "depth", "squeezed"),
     [

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
+import pytest
 
 import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.materials.compliance import SeriesCompliance
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.checks.material import law_warnings, origin_warnings, splitting_warnings
 from viscontact.simulation.checks.mesh import layer_warnings
-from viscontact.simulation.checks.motion import free_tilt_warnings, unresolved_loss, way_warnings
-from viscontact.simulation.checks.periodicity import datum_warnings
+from viscontact.simulation.checks.motion import (
+    axle_warnings,
+    free_tilt_warnings,
+    left_after,
+    retardation_warnings,
+    unresolved_loss,
+    way_warnings,
+)
+from viscontact.simulation.checks.periodicity import check_endless, datum_warnings
 from viscontact.simulation.checks.problem_checks import unusual_radius
 from viscontact.simulation.checks.sampling import local_approach
 from viscontact.simulation.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
@@ -51,6 +62,35 @@ def test_loss_of_times_shorter_than_a_step_is_unresolved():
     series = SeriesCompliance(1.0, [1.0], [2.0])
     assert unresolved_loss(series, rate=0.1, duration=3.0) == close_to(1.0)
     assert unresolved_loss(series, rate=0.1, duration=1.0) == 0.0
+    several = SeriesCompliance(1.0, [1.0, 1.0, 1.0], [0.5, 2.0, 50.0])
+    [text] = retardation_warnings(several, rate=0.3, duration=10.0).values()
+    assert "longer than retardation times that cause" in text
+    assert ", up to 2 s;" in text
+
+
+def test_deflection_left_after_a_turn_is_that_of_a_kelvin_unit():
+    """After a load for any time an exponential body recovers as exp(-t/τ)."""
+    kelvin = SeriesCompliance(0.0, [3e-9], [2.0])
+    assert left_after(kelvin, 5.0) == close_to(np.exp(-5.0 / 2.0), rel=1e-12)
+
+
+def test_tilt_along_a_motion_that_a_period_holds_level_is_not_free():
+    slides = vc.Travel([0.0, 1.0], y=[0.0, 1e-3], rolling=False)
+    steel = vc.Material(vc.Elastic(80e9), 0.3)
+    warned = []
+    for periodic in (False, True):
+        grid = vc.Grid((8, 8), (1e-3, 1e-3), periodic=periodic)
+        problem = Problem(vc.Sphere(0.01), steel, vc.step(1.0), grid, [0.0], motion=slides)
+        warned.append(list(axle_warnings(problem)))
+    assert warned == [["axle"], []]
+
+
+@pytest.mark.parametrize(
+    ("radii", "periodic"), [((np.inf, 0.01), "[true, false]"), ((0.01, np.inf), "[false, true]")]
+)
+def test_endless_body_needs_a_grid_that_is_periodic_along_it(radii, periodic):
+    with pytest.raises(ValueError, match=re.escape(f"'periodic: {periodic}'")):
+        check_endless(vc.Paraboloid(*radii), None)
 
 
 def test_approach_has_no_datum_along_one_periodic_axis():

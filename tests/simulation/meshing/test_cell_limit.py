@@ -48,6 +48,15 @@ def test_small_cells_end_where_the_body_ends():
         assert 8e-3 / (2 * dx) == close_to(round(8e-3 / (2 * dx)), abs=1e-9)
 
 
+def test_limit_that_divides_the_body_is_the_cell_in_spite_of_rounding():
+    """2.6 mm are 13 pairs of 0.1 mm, and in floating point a little more."""
+    grid = vc.Grid((16, 16), (8e-3, 8e-3))
+    end = 26 * 1e-4
+    assert end / (2 * 1e-4) > 13
+    found = with_small_cells(grid, (1e-4, 1.0), (end, np.inf))
+    assert found.cell_size == close_to((1e-4, 0.5e-3), rel=1e-12)
+
+
 def test_equal_cells_give_equal_limits_of_rollers_on_any_load():
     """The cells of one load, written with nine digits, are those of every other."""
     dx, dy = grid_of(ROLLER, vc.step(75.0)).cell_size

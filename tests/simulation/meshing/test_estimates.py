@@ -6,6 +6,7 @@ import numpy as np
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.simulation.meshing.contact_extent import contacts_of_history, smallest_contact
 from viscontact.simulation.meshing.contact_place import grid_centre, locate_contact
 from viscontact.simulation.meshing.elastic_estimate import estimate_contact
 from viscontact.simulation.meshing.height_map_error import facet_error
@@ -37,6 +38,27 @@ def test_facets_of_a_measured_ball_raise_the_peak_pressure():
     ball = vc.HeightMap(x, x, -vc.Sphere(0.01).gap(x[:, None], x[None, :]))
     found = estimate_contact(ball, 1e-9, vc.step(17.0).at(0.0))
     assert facet_error(ball, found, 1e-9) == close_to(0.05, abs=5e-3)
+
+
+def test_facets_along_either_axis_count_by_their_own_length():
+    """A ball measured every 20 um along one axis and every 50 um along the other."""
+    fine, coarse = np.linspace(-1e-3, 1e-3, 101), np.linspace(-1e-3, 1e-3, 41)
+    errors = []
+    for x, y in ((fine, coarse), (coarse, fine)):
+        ball = vc.HeightMap(x, y, -vc.Sphere(0.01).gap(x[:, None], y[None, :]))
+        found = estimate_contact(ball, 1e-9, vc.step(17.0).at(0.0))
+        errors.append(facet_error(ball, found, 1e-9))
+    assert errors[0] == close_to(errors[1], rel=1e-6)
+
+
+def test_stiffest_contact_under_a_ramp_has_the_mean_compliance_over_its_rise():
+    """A contact that has only grown has crept by the mean of J over the ages of its load."""
+    creeping = vc.Material(vc.Maxwell(1e9, 1e9), 0.5).contact_compliance()  # J = (1 + t)/(4 GPa)
+    load = vc.ramp(10.0, 4.0)
+    latest = float(creeping(100.0))
+    found = contacts_of_history(vc.Sphere(0.01), latest, load, 100.0)
+    smallest = smallest_contact(vc.Sphere(0.01), creeping, load, 100.0, found)
+    assert smallest.compliance == close_to((1 + 4.0 / 2) / 4e9, rel=1e-9)
 
 
 def test_grid_of_a_path_has_the_same_cells():

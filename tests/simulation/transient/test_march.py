@@ -220,3 +220,12 @@ def test_states_mark_the_cells_that_touch(name: str) -> None:
         for field in FIELD_NAMES:
             assert getattr(own, field).base is None
             np.testing.assert_array_equal(getattr(own, field), getattr(state, field))
+
+
+def test_no_contact_carries_more_than_its_largest_pressure_times_its_area() -> None:
+    """At the beginning of a ramp there are four cells, which enclose next to no area."""
+    steel, grid = vc.Material(vc.Elastic(1e9), 0.3), vc.Grid((16, 16), (2.6e-3, 2.6e-3))
+    states = list(vc.march(vc.Sphere(0.01), steel, vc.ramp(50.0, 1.0), grid, [1e-4, 1e-2, 1.0]))
+    assert states[0].cells_across == 2
+    for state in states:
+        assert state.contact_area * state.peak_pressure >= state.force * (1 - 1e-12)

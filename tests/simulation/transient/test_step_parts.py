@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from datetime import datetime
+from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Paraboloid
-from viscontact.bodies.loads import Travel
+from viscontact.bodies.loads import LoadProgram, Travel
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
-from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+from viscontact.simulation.transient.grid_enlargement import GridEnlargement, overrun
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
 from viscontact.simulation.transient.moving_body import PeriodicBody, cells_seen
 from viscontact.simulation.transient.progress_bar import ProgressBar, reported
 from viscontact.simulation.transient.provenance import date_and_time
+from viscontact.simulation.transient.segments_so_far import ProgramCourse
 
 
 def test_displacement_on_the_larger_grid_is_the_same_in_the_smaller_one() -> None:
@@ -32,6 +35,30 @@ def test_loss_of_a_cycle_is_known_at_its_end() -> None:
     assert np.isnan(cycles.last_loss)
     cycles.record_work(TimeStep(2.0, 2.0, 2.0, smooth=False), work=3.0)
     assert cycles.last_loss == 3.0
+
+
+def test_loss_of_a_cycle_that_ends_after_a_jump_has_the_work_of_the_jump() -> None:
+    cycles = LoadCycleWork([((0.0, "right"), (2.0, "right"))])
+    cycles.record_work(TimeStep(0.0, 0.0, 0.0, smooth=False), work=5.0)
+    cycles.record_work(TimeStep(2.0, 2.0, None, smooth=False, before_jump=True), work=9.0)
+    assert np.isnan(cycles.last_loss)
+    cycles.record_work(TimeStep(2.0, 0.0, 2.0, smooth=False), work=6.0)
+    assert cycles.last_loss == 1.0
+
+
+@pytest.mark.parametrize("cell", [(0, 2), (3, 2), (2, 0), (2, 3)])
+def test_contact_outgrows_its_grid_at_either_end_of_an_axis(cell: tuple[int, int]) -> None:
+    pressure = np.zeros((4, 4))
+    pressure[cell] = 1.0
+    assert overrun(pressure) == (cell[0] in (0, 3), cell[1] in (0, 3))
+
+
+def test_event_has_the_value_of_its_condition_and_not_that_of_the_step_found() -> None:
+    program = LoadProgram(["move at 1 um/s until force reaches 6 N", "hold force for 2 s"])
+    course = ProgramCourse(program, 100.0)
+    found = SimpleNamespace(time=3.0, force=6.000004, approach=3e-6)
+    course.finish(found, course.segment.until)
+    assert course.history().at(4.0).force == 6.0
 
 
 def test_gap_of_a_periodic_body_repeats_itself() -> None:

@@ -30,6 +30,11 @@ def test_the_stated_error_contains_that_of_the_step(stencil: Stencil, step: floa
     assert abs(slope - 1.3) < error
 
 
+def test_the_stated_error_is_the_distance_of_differences_with_one_and_two_steps() -> None:
+    """By Taylor central differences miss the slope by h²/6 and (2h)²/6 of the third derivative."""
+    assert slope_of_exp(CENTRAL, 0.02)[1] == close_to(0.02**2 * 1.3**3 / 2, rel=1e-3)
+
+
 @pytest.mark.parametrize("stencil", [CENTRAL, ABOVE, BELOW])
 def test_a_straight_line_has_no_error(stencil: Stencil) -> None:
     found = stencil.slopes({n: np.array(2.0 + 3.0 * n) for n in range(-4, 5)}, 1.0)

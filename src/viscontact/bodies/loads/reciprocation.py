@@ -87,7 +87,7 @@ class Reciprocation(Motion):
         parts = np.arange(-math.floor(reach), math.floor(reach) + 1) / reach
         phases = np.arcsin(parts) / (2 * math.pi)
         half_turns = np.arange(2 * self.count + 1)[:, None]
-        turns = half_turns / 2 + np.where(half_turns % 2, -1.0, 1.0) * phases
+        turns = half_turns / 2 + phases  # of both signs, forth and back
         return np.unique(np.clip(turns * self.period, 0.0, self.end))
 
     @property
