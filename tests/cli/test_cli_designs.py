@@ -242,7 +242,7 @@ def test_names_that_are_other_values_of_yaml_are_quoted(folder: Path) -> None:
     design = PlanOptions(("load.file=[1ab]*",)).design(Path("ball.yaml"))
     assert [row[0] for row in design.rows] == ['"1e3"', '"a #1"', "b", "ball.yaml"]
     (folder / "[1]").touch()
-    assert PlanOptions(("load.file=[1]",)).design(Path("ball.yaml")).rows == (("[1]",),)
+    assert PlanOptions(("load.file=[1]",)).design(Path("ball.yaml")).rows == (('"[1]"',),)
 
 
 @pytest.mark.usefixtures("idle")

@@ -201,12 +201,13 @@ def _with_files(key: str, values: Sequence[str], case: Path) -> list[str]:
     """Values of a key; wildcards in names of files are replaced by the files, sorted."""
     found: list[str] = []
     for value in values:
-        is_pattern = key.rpartition(".")[2] == "file" and glob.has_magic(value)
-        if not is_pattern or (case.parent / value).exists():
+        if key.rpartition(".")[2] != "file" or not glob.has_magic(value):
             found.append(value)
             continue
-        # A name in a case is relative to the folder of the case.
-        names = sorted(glob.glob(value, root_dir=case.parent, recursive=True))  # noqa: PTH207 may be absolute
+        # A name in a case is relative to the folder of the case, and may hold such signs itself.
+        whole, folder = _name_in_yaml(value) or value, case.parent
+        found_there = glob.glob(value, root_dir=folder, recursive=True)  # noqa: PTH207 may be absolute
+        names = [whole] if (folder / whole).exists() else sorted(found_there)
         if not names:
             refuse(f"--vary {key}={value}: no file of that name in {case.parent.resolve()}")
         found += [_yaml_name(Path(name).as_posix()) for name in names]
@@ -215,8 +216,13 @@ def _with_files(key: str, values: Sequence[str], case: Path) -> list[str]:
 
 def _yaml_name(name: str) -> str:
     """Name of a file as a value of YAML, in quotes where it could be another value."""
+    return name if _name_in_yaml(name) == name else json.dumps(name, ensure_ascii=False)
+
+
+def _name_in_yaml(text: str) -> str:
+    """Name that a value of YAML is; empty for another value."""
     try:
-        is_plain = parse_value(name) == name
+        found = parse_value(text)
     except SourceError:
-        is_plain = False
-    return name if is_plain else json.dumps(name, ensure_ascii=False)
+        return ""
+    return found if isinstance(found, str) else ""

@@ -133,7 +133,7 @@ def _names(found: dict[str, Any], entry: str) -> tuple[str, ...]:
 def _require_inside(directory: str) -> None:
     # Not by pathlib, which keeps the names of all directories.
     first, *others = re.split(r"[/\\]", directory)
-    if not first or ":" in first or ".." in (first, *others):
+    if not first or re.match("[A-Za-z]:", first) or ".." in (first, *others):
         raise ValueError(
             f"directory: must be the name of a directory in that of the sweep, got {directory!r}"
         )
