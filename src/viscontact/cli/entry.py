@@ -13,6 +13,7 @@ from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, CommandError, say
 from viscontact.cli.terminal.streams import occupy_streams, remember_output, unwritten
+from viscontact.units.visible import visible
 
 #: Memory that the libraries take before a case has been read [bytes]. With a little less some of
 #: them hang or end the process without a message.
@@ -111,6 +112,7 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
     # Typer's own errors have a method `show`; their class differs between its versions.
     show = getattr(error, "show", None)
     if show is not None:
+        vars(error)["message"] = visible(str(getattr(error, "message", "")))
         with suppress(OSError):
             show()
         return int(getattr(error, "exit_code", REFUSED))

@@ -21,6 +21,7 @@ from viscontact.cli.commands.sensing import sensitivity
 from viscontact.cli.commands.serving import serve
 from viscontact.cli.commands.showing import export, report, show, verify
 from viscontact.cli.commands.sweeps import collect, status
+from viscontact.cli.terminal.messages import put
 
 #: Functions of the commands, each with an example.
 _COMMANDS = (
@@ -57,7 +58,7 @@ _NAMES = {each.__name__: (each, words) for each, words in _COMMANDS}
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        print(f"viscontact {__version__}")
+        put(f"viscontact {__version__}")
         raise typer.Exit
 
 

@@ -24,6 +24,7 @@ from viscontact.report.sweep_page import sweep_content
 from viscontact.report.title_block import title_lines
 from viscontact.results.filed_case import FiledCase, started_at
 from viscontact.results.run_axis import in_order, run_axis
+from viscontact.units.visible import visible
 
 
 def write_pdf(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
@@ -50,9 +51,7 @@ def _write(
 ) -> None:
     footer = " · ".join(filter(None, (title, made, f"viscontact {__version__}")))
     data = {
-        "title": title,
-        "author": author,
-        "footer": footer,
+        **{"title": visible(title), "author": visible(author), "footer": visible(footer)},
         "blocks": [block for part in parts for block in blocks(part)],
     }
     template = (files("viscontact.report") / "report.typ").read_bytes()

@@ -13,7 +13,7 @@ from typing import Annotated
 
 import typer
 
-from viscontact.cli.terminal.messages import refuse
+from viscontact.cli.terminal.messages import put, refuse
 from viscontact.runs.processes.request import RunRequest
 
 DEMO, DEMO_DIRECTORY = "roller-dogbone-e05", Path("viscontact-demo")
@@ -23,7 +23,7 @@ SCHEMA_NAME = "viscontact.schema.json"
 
 def schema() -> None:
     """Print the JSON schema of case files, for completion in editors."""
-    print(_schema_text())
+    put(_schema_text())
 
 
 def example(
@@ -42,7 +42,7 @@ def example(
         return
     text = _example_text(name)
     if output is None:
-        print(text, end="")
+        put(text, end="")
         return
     _write_example(output, text, _data_of(text), overwrite=overwrite)
 
@@ -60,8 +60,8 @@ def demo(
         draw(DEMO_DIRECTORY, figure, [], None)
     if not quiet:
         command = _typed_command()
-        print(f"One page to look at and to send: {command} report {DEMO_DIRECTORY}")
-        print(f"The same case to change: {command} example {DEMO} -o my.yaml")
+        put(f"One page to look at and to send: {command} report {DEMO_DIRECTORY}")
+        put(f"The same case to change: {command} example {DEMO} -o my.yaml")
 
 
 def _typed_command() -> str:
@@ -94,7 +94,7 @@ def _list_examples() -> None:
     width = max(map(len, examples))
     for name, file in examples.items():
         title = re.search(r"^title: *(.*)$", file.read_text(encoding="utf-8"), re.MULTILINE)
-        print(f"{name:{width}}  {title[1] if title else ''}".rstrip())
+        put(f"{name:{width}}  {title[1] if title else ''}".rstrip())
 
 
 def _example_text(name: str) -> str:
@@ -130,6 +130,6 @@ def _write_example(output: Path, text: str, data: dict[str, bytes], *, overwrite
     except OSError as error:
         refuse(f"{output}: cannot be written: {error}")
     for path in beside:
-        print(f"{path}, which it reads")
-    print(f"{output}, and {SCHEMA_NAME} for completion in editors")
-    print(f"Next: viscontact run {output}")
+        put(f"{path}, which it reads")
+    put(f"{output}, and {SCHEMA_NAME} for completion in editors")
+    put(f"Next: viscontact run {output}")

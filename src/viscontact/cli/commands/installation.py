@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from viscontact import __version__
+from viscontact.cli.terminal.messages import put
 
 
 def doctor() -> None:
@@ -14,10 +15,10 @@ def doctor() -> None:
     import platform
     import sys
 
-    from rich.console import Console
     from rich.table import Table
 
     from viscontact.backend.transforms import fastest_transforms
+    from viscontact.cli.terminal.console import TextConsole
     from viscontact.runs.machine.cores import usable_cores
     from viscontact.runs.machine.memory import available_memory
     from viscontact.runs.machine.packages import packages
@@ -39,16 +40,10 @@ def doctor() -> None:
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     for row in rows:
         table.add_row(*row)
-    console = Console()
-    console.print(table, highlight=False)
+    TextConsole().print(table, highlight=False)
     for extra, names in missing.items():
         wanted = f"viscontact[{extra}]" if extra else "viscontact"
-        console.print(
-            f"{', '.join(names)} missing; to install: pip install '{wanted}'",
-            highlight=False,
-            markup=False,
-            soft_wrap=True,
-        )
+        put(f"{', '.join(names)} missing; to install: pip install '{wanted}'")
 
 
 def cite(
@@ -58,6 +53,6 @@ def cite(
     from viscontact.results import citation
 
     if bibtex:
-        print(citation.bibtex(__version__))
+        put(citation.bibtex(__version__))
         return
-    print("\n".join(citation.citations(__version__)))
+    put("\n".join(citation.citations(__version__)))

@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from viscontact.cli.terminal.interruption import watched_interruption
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import put, refuse, say
 
 _NEEDED = ("fastapi", "starlette", "uvicorn", "anyio", "matplotlib", "plotly")
 
@@ -59,7 +59,7 @@ def serve(
         address = server.address_of(listener)
 
         def announce() -> None:
-            print(f"{address}  (Ctrl-C ends it; runs and files are in {folder})", flush=True)
+            put(f"{address}  (Ctrl-C ends it; runs and files are in {folder})", flush=True)
             if browser and _has_display():
                 webbrowser.open(address)
 

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.quick_imports import quick_imports
-from viscontact.cli.terminal.messages import refuse
+from viscontact.cli.terminal.messages import put, refuse
 
 RunDirectory = Annotated[
     Path, typer.Argument(metavar="DIR", help="Run directory, or its .nc file.")
@@ -74,7 +74,7 @@ def report(
     """Write a report on a run, or on all runs of a sweep, as one HTML page or as PDF."""
     from viscontact.cli.results.reports import write_report
 
-    print(write_report(directory, output))
+    put(write_report(directory, output))
 
 
 def verify(

@@ -18,7 +18,7 @@ from viscontact.bodies.series_fits.table_fit import fit_measured, measured_colum
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.material.table_choice import say_chosen
 from viscontact.cli.results.figures import plot_package
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.identification import (
     Fit,
     ForceCurve,
@@ -52,7 +52,7 @@ def report_fit(
         text, draw = _from_instrument(file, arguments)
     else:
         text, draw = _from_table(file, arguments)
-    print(f"\n{text}")
+    put(f"\n{text}")
     if output is not None:
         draw_fit(draw, output, width)
     if section is not None:
@@ -118,7 +118,7 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
     options = arguments.options(table)
     with _warnings_said(table.located):
         fit = fit_measured(points, measured, weights=arguments.weights, **options)
-    print(table.located(repr(fit)))
+    put(table.located(repr(fit)))
     fit = _with_volume(_with_lines(fit, table), arguments)
     return material_section(fit), DeferredFigure("fitted_series", fit)
 
@@ -141,13 +141,13 @@ def _from_sets(
     with _warnings_said():
         fit = fit_master_curve(curve, weights=arguments.weights, **options)
     fit = _with_volume(fit, arguments)
-    print(f"\nAt {_celsius(reference)}:\n{fit!r}")
+    put(f"\nAt {_celsius(reference)}:\n{fit!r}")
     drawing = DeferredFigure("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
         return material_section(fit), drawing
     wanted = read_kelvin("--temperature", arguments.temperature)
     factor = curve.shift.factor(wanted)
-    print(f"At {_celsius(wanted)} all times are {factor:.4g} times as long (from the table above).")
+    put(f"At {_celsius(wanted)} all times are {factor:.4g} times as long (from the table above).")
     slowed = dataclasses.replace(fit, law=fit.law.slowed(factor), series=fit.series.slowed(factor))
     return material_section(slowed), drawing
 
@@ -168,7 +168,7 @@ def _from_force_curve(
 ) -> tuple[str, DeferredFigure]:
     """Find the contact point, print it, and fit a law to the indentation."""
     contact = find_contact(curve, indenter)
-    print(repr(contact))
+    put(repr(contact))
     return _from_record(contact.record(), arguments)
 
 
@@ -182,7 +182,7 @@ def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[st
             poisson_ratio=poisson_ratio,
             bulk_modulus=bulk_modulus,
         )
-    print(repr(fit))
+    put(repr(fit))
     return material_section(fit), DeferredFigure("fitted_indentation", fit)
 
 
@@ -244,15 +244,15 @@ def _rules(curve: MasterCurve) -> list[ShiftFit]:
 
 
 def _print_shifts(curve: MasterCurve, rules: list[ShiftFit]) -> None:
-    print(f"{len(curve.isotherms)} sets, shifted to {_celsius(curve.reference_temperature)}:")
-    print(f"{'T [°C]':>9}  {'log10 a_T':>10}  mismatch with the colder set")
+    put(f"{len(curve.isotherms)} sets, shifted to {_celsius(curve.reference_temperature)}:")
+    put(f"{'T [°C]':>9}  {'log10 a_T':>10}  mismatch with the colder set")
     mismatches = [float("nan"), *(curve.mismatches if curve.mismatches is not None else [])]
     rows = zip(curve.temperatures, curve.factors, mismatches, strict=True)
     for temperature, factor, mismatch in rows:
         share = f"{100 * mismatch:.2g} %" if np.isfinite(mismatch) else "-"
-        print(f"{in_celsius(temperature):9.2f}  {np.log10(factor):10.3f}  {share}")
+        put(f"{in_celsius(temperature):9.2f}  {np.log10(factor):10.3f}  {share}")
     for rule in rules:
-        print(f"{_constants(rule)}, deviates by {rule.residual:.2g} decades (rms)")
+        put(f"{_constants(rule)}, deviates by {rule.residual:.2g} decades (rms)")
 
 
 def _constants(rule: ShiftFit) -> str:
@@ -272,7 +272,7 @@ def write_section(path: Path, text: str) -> None:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
         refuse(f"{path}: {error.strerror or error}")
-    print(path)
+    put(path)
 
 
 def draw_fit(drawing: DeferredFigure, output: Path, width: str | float | None) -> None:
@@ -281,4 +281,4 @@ def draw_fit(drawing: DeferredFigure, output: Path, width: str | float | None) -
         drawing.save(output, width)
     except (ValueError, OSError) as error:
         refuse(f"{output}: {error}")
-    print(output)
+    put(output)

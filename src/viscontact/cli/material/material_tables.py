@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from textwrap import indent, wrap
+from textwrap import TextWrapper, fill, indent
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
 from viscontact.backend.arrays import Floats
@@ -18,7 +17,8 @@ from viscontact.bodies.materials.library import Entry
 from viscontact.bodies.materials.material import Material
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.results.figures import plot_package, save
-from viscontact.cli.terminal.messages import refuse
+from viscontact.cli.terminal.console import TextConsole
+from viscontact.cli.terminal.messages import put, refuse
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.temperatures import in_celsius
 
@@ -46,9 +46,9 @@ def list_library(output: Path | None = None) -> None:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for each, row in zip(entries, rows, strict=True):
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        print("  ".join(cells).rstrip())
-        print(f"    {each.title} ({each.cite})")
-    print("viscontact material NAME shows all data of one; -o FIG.png draws it with its source")
+        put("  ".join(cells).rstrip())
+        put(f"    {each.title} ({each.cite})")
+    put("viscontact material NAME shows all data of one; -o FIG.png draws it with its source")
 
 
 def show_material(
@@ -60,9 +60,9 @@ def show_material(
     if shown.entry is not None:
         _print_entry(shown.entry)
     else:
-        print(f"{shown.name}: {_volume(shown.material)}")
+        put(f"{shown.name}: {_volume(shown.material)}")
         _print_about(shown)
-    Console().print(_values(shown))
+    TextConsole().print(_values(shown))
     if output is not None:
         _draw(shown, output, width)
 
@@ -70,14 +70,14 @@ def show_material(
 def _print_about(shown: MaterialDisplay) -> None:
     """Print the further contents of a file."""
     if shown.card_name:
-        print(f"  material      {shown.card_name}")
+        put(f"  material      {shown.card_name}")
     if shown.shift is not None:
-        print(f"  temperature   {_shift(shown.shift)}")
+        put(f"  temperature   {_shift(shown.shift)}")
     measured = shown.measured
     if measured is not None:
-        print(f"  range         {' to '.join(format_quantity(t, 's') for t in measured)}")
+        put(f"  range         {' to '.join(format_quantity(t, 's') for t in measured)}")
     for note in shown.notes:
-        print(f"  note          {note}")
+        put(f"  note          {note}")
 
 
 def _shift(shift: Shift) -> str:
@@ -93,7 +93,7 @@ def _shift(shift: Shift) -> str:
 
 
 def _print_entry(entry: Entry) -> None:
-    print(f"{entry.name}: {entry.title}")
+    put(f"{entry.name}: {entry.title}")
     about = {
         "family": entry.family,
         "source": entry.source,
@@ -106,14 +106,12 @@ def _print_entry(entry: Entry) -> None:
         "licence": entry.licence,
     }
     for heading, text in about.items():
-        first, *others = wrap(text, _WIDTH - 15, break_on_hyphens=False) or [""]
-        print(f"  {heading:13}{first}")
-        for line in others:
-            print(f"  {'':13}{line}")
-    print("material:")
+        how = TextWrapper(_WIDTH, f"  {heading:13}", " " * 15, break_on_hyphens=False)
+        put(how.fill(text))
+    put("material:")
     for key, value in entry.material.items():
         text = f"[{', '.join(map(str, value))}]" if isinstance(value, list) else str(value)
-        print(indent("\n".join(wrap(f"{key}: {text}", _WIDTH, subsequent_indent="  ")), "  "))
+        put(indent(fill(f"{key}: {text}", _WIDTH, subsequent_indent="  "), "  "))
 
 
 def _volume(material: Material) -> str:
@@ -142,7 +140,7 @@ def _values(shown: MaterialDisplay) -> Table:
     cells = []
     for heading, (values, unit) in columns.items():
         symbol, numbers = _in_unit(values, unit)
-        table.add_column(rf"{heading} \[{symbol}]", justify="right")
+        table.add_column(f"{heading} [{symbol}]", justify="right")
         cells.append(numbers)
     beyond = [not _is_measured(time, shown.measured) for time in times]
     if any(beyond):

@@ -13,9 +13,10 @@ from viscontact.bodies.laws import TabulatedCreep, TabulatedRelaxation
 from viscontact.bodies.materials.cards import Card, write_abaqus, write_ansys
 from viscontact.bodies.materials.material import Material
 from viscontact.case.data_file import is_same_file
+from viscontact.cli.material.fit_report import write_section
 from viscontact.cli.material.material_files import MaterialOptions
 from viscontact.cli.material.named_material import MaterialDisplay
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.units.parsing import parse_unit
 
 FORMS = ("abaqus", "ansys", "csv")
@@ -44,7 +45,10 @@ def write_material(
             text = _card(named, form, moduli, times, typed.temperature_unit)
     except ValueError as error:
         refuse(f"{named.name}: {_with_remedy(str(error), named.name)}")
-    _write_text(text, output)
+    if output is None:
+        put(text, end="")
+    else:
+        write_section(output, text)
 
 
 def _require_units(moduli: str, times: str) -> None:
@@ -147,14 +151,3 @@ def _volume(material: Material) -> str:
 
 def _line(*numbers: float) -> str:
     return ",".join(f"{number:.12g}" for number in numbers)
-
-
-def _write_text(text: str, output: Path | None) -> None:
-    if output is None:
-        print(text, end="")
-        return
-    try:
-        output.write_text(text, encoding="utf-8")
-    except OSError as error:
-        refuse(f"{output}: {error.strerror or error}")
-    print(output)

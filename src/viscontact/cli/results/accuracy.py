@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 _EXACT = "recursion, exact"
 
 
-def accuracy_lines(ds: Result) -> Iterator[str]:
-    """Yield lines about errors of the time integration, the layers and the law."""
+def accuracy_lines(ds: Result, names: Sequence[str]) -> Iterator[str]:
+    """Yield lines about errors of scalars, the time integration, the layers and the law."""
+    yield from _unknown_lines(ds, names)
+    yield from _mesh_lines(ds, names)
     memory = str(ds.attrs.get("memory", ""))
     inversion_error = float(ds.attrs.get("inversion_error", 0.0))
     splitting_error = float(ds.attrs.get("splitting_error", 0.0))
@@ -40,7 +42,7 @@ def accuracy_lines(ds: Result) -> Iterator[str]:
         )
 
 
-def mesh_lines(ds: Result, names: Iterable[str]) -> Iterator[str]:
+def _mesh_lines(ds: Result, names: Iterable[str]) -> Iterator[str]:
     """Yield the meaning of the mark ``>``, where a scalar has it."""
     found = {name: largest_error(ds, name) for name in names}
     marked = [name for name, each in found.items() if each and np.isposinf(each.half_width)]
@@ -50,7 +52,7 @@ def mesh_lines(ds: Result, names: Iterable[str]) -> Iterator[str]:
         yield f"> {listed} {verb}: {WHY_MESH_DEPENDENT}"
 
 
-def unknown_lines(ds: Result, names: Sequence[str]) -> Iterator[str]:
+def _unknown_lines(ds: Result, names: Sequence[str]) -> Iterator[str]:
     """Yield a line about scalars whose errors are unknown at some instants."""
     axis = run_axis(ds)
     count = ds.sizes[axis.name]

@@ -11,7 +11,7 @@ import xarray as xr
 
 from viscontact.cli.results.compared_runs import compared_runs, note_changed, note_missing
 from viscontact.cli.results.stored import checked_result, early_end
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.drawing.choice import FigureChoice, require_one_axis
 from viscontact.drawing.content.ordered_names import in_order
@@ -200,7 +200,7 @@ def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> Non
             plot.save_animation(moving, file, progress)
     except (ValueError, OSError) as error:
         refuse(f"{file}: {error}")
-    print(file)
+    put(file)
 
 
 def save(
@@ -215,4 +215,4 @@ def save(
         plot.save_figure(figure, file)
     except (ValueError, OSError) as error:
         refuse(f"{file}: {error}")
-    print(file)
+    put(file)

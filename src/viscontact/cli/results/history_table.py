@@ -9,23 +9,15 @@ from textwrap import wrap
 
 import numpy as np
 from rich.box import SIMPLE, SIMPLE_HEAD
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
 from viscontact.backend.arrays import Integers
-from viscontact.cli.results.accuracy import (
-    accuracy_lines,
-    has_errors,
-    knows_errors,
-    mesh_lines,
-    unknown_lines,
-)
+from viscontact.cli.results.accuracy import accuracy_lines, has_errors, knows_errors
 from viscontact.cli.results.stored import early_end
+from viscontact.cli.terminal.console import TextConsole, styled
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.recorded_case import prescribes_approach
-from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import run_axis
 from viscontact.results.single_spot import ends_in_one_spot
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
@@ -51,7 +43,7 @@ def print_history(
     """Print scalars over time or speed in readable units, with their errors if requested."""
     if errors and not has_errors(ds):
         refuse("--errors: the result states none; it is older, or was run with errors: false")
-    console = Console()
+    console = TextConsole()
     axis = run_axis(ds)
     count = ds.sizes[axis.name]
     rows = np.arange(count) if everything else _spread(count)
@@ -65,34 +57,20 @@ def print_history(
         console.print(f"{len(rows)} of {count} {axis.row}s; --all shows every one")
     for line in _footers(ds, shown, errors=errors):
         console.print(line, highlight=False)
-    if not ends_in_one_spot(ds):
-        _print_spots(console, directory)
-    for event in recorded_events(ds):
-        console.print(f"event at {event.text}", highlight=False, soft_wrap=True)
-    if ALLOWABLE in ds.attrs:
-        _print_verdicts(console, directory)
+    if ALLOWABLE in ds.attrs or "events" in ds.attrs or not ends_in_one_spot(ds):
+        _print_findings(console, directory)
     if ended := early_end(ds):
-        console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)
+        console.print(styled(ended, "yellow"), soft_wrap=True)
     for line in str(ds.attrs.get("warnings", "")).splitlines():
-        console.print(f"[yellow]warning:[/] {line}")
+        console.warn(line)
 
 
-def _print_spots(console: Console, directory: Path) -> None:
-    from viscontact.results.contact_spots import last_spots
+def _print_findings(console: TextConsole, directory: Path) -> None:
+    from viscontact.cli.results.findings import print_findings
     from viscontact.results.netcdf import open_results
 
     with open_results(directory) as ds:
-        if spots := last_spots(ds):
-            console.print(spots.text, highlight=False, soft_wrap=True)
-
-
-def _print_verdicts(console: Console, directory: Path) -> None:
-    from viscontact.cli.results.verdict_lines import verdict_lines
-    from viscontact.results.netcdf import open_results
-
-    with open_results(directory) as ds:
-        for line in verdict_lines(ds):
-            console.print(line, highlight=False)
+        print_findings(console, ds)
 
 
 def _shown_scalars(ds: StoredResult) -> list[str]:
@@ -123,9 +101,7 @@ def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[st
             if errors
             else f"{legend}; --errors shows each one"
         )
-    yield from unknown_lines(ds, shown)
-    yield from mesh_lines(ds, shown)
-    yield from accuracy_lines(ds)
+    yield from accuracy_lines(ds, shown)
 
 
 def _spread(count: int) -> Integers:
@@ -184,7 +160,7 @@ def _table(ds: StoredResult, columns: list[_HistoryColumn], *, narrow: bool) -> 
     )
     for each in columns:
         head = " ".join(each.head)
-        head = escape("\n".join(wrap(head, each.width)) if narrow else head)
+        head = "\n".join(wrap(head, each.width)) if narrow else head
         table.add_column(head, each.foot, justify="right", min_width=each.width)
     for row in zip(*(column.cells for column in columns), strict=True):
         table.add_row(*row)

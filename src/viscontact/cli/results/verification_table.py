@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
-from viscontact.cli.terminal.messages import refuse, say, stop
+from viscontact.cli.terminal.console import TextConsole, styled
+from viscontact.cli.terminal.messages import put, refuse, say, stop
 from viscontact.verify import Case, Result, run_cases, write_table
 from viscontact.verify.table import HEADINGS, SUFFIXES, row_of_words
 
@@ -35,7 +35,7 @@ def print_verification(*, fast: bool, output: Path | None) -> None:
             stop(f"{output}: cannot be written: {error.strerror}")
     failed = sum(not result.passed for result in results)
     seconds = clock.perf_counter() - started
-    print(f"{len(results) - failed} of {len(results)} within their bounds, in {seconds:.0f} s")
+    put(f"{len(results) - failed} of {len(results)} within their bounds, in {seconds:.0f} s")
     if failed:
         stop(f"{failed} comparisons with exact solutions failed")
 
@@ -59,9 +59,9 @@ def _say_progress(case: Case, done: int, total: int) -> None:
 
 
 def _print_table(results: Sequence[Result]) -> None:
-    console = Console()
+    console = TextConsole()
     if not console.is_terminal or console.width < _WIDTH:
-        console = Console(width=_WIDTH)
+        console = TextConsole(width=_WIDTH)
     table = Table(box=SIMPLE_HEAD)
     for heading in HEADINGS:
         if heading in _NUMBERS:
@@ -74,6 +74,6 @@ def _print_table(results: Sequence[Result]) -> None:
         first = case != before
         colour = "green" if result.passed else "red"
         shown = (case, reference) if first else ("", "")
-        table.add_row(*shown, *rest, f"[{colour}]{verdict}[/]")
+        table.add_row(*shown, *rest, styled(verdict, colour))
         before = case
     console.print(table)

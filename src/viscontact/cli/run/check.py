@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
 from viscontact.case import CaseError
-from viscontact.cli.terminal.messages import refuse
+from viscontact.cli.terminal.console import TextConsole
+from viscontact.cli.terminal.messages import put, refuse
 from viscontact.runs.check_report import (
     expectations,
     needs,
@@ -27,12 +26,12 @@ def print_forecast(prepared: PreparedRun) -> Forecast:
         expected = predicted(prepared)
     except CaseError as error:
         refuse(*error.problems)
-    console = Console()
-    console.print(verdict(prepared, expected), highlight=False, soft_wrap=True)
+    console = TextConsole()
+    put(verdict(prepared, expected))
     for line in warnings_of(prepared, expected):
-        console.print(f"[yellow]warning:[/] {escape(line)}")
+        console.warn(line)
     for line in prepared.case.notes:
-        console.print(f"note: {escape(line)}", highlight=False, soft_wrap=True)
+        put(f"note: {line}")
     console.print(_rows_table(needs(prepared, expected)))
     title, rows = expectations(prepared, expected)
     if rows:

@@ -10,15 +10,13 @@ from typing import Literal
 
 import xarray as xr
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
-from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
-from viscontact.cli.results.verdict_lines import verdict_lines
-from viscontact.results.contact_spots import last_spots
+from viscontact.cli.results.accuracy import accuracy_lines, knows_errors
+from viscontact.cli.results.findings import print_findings
+from viscontact.cli.terminal.console import TextConsole
+from viscontact.cli.terminal.messages import put
 from viscontact.results.netcdf import open_results
-from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.results.summary import SummaryRow, legend, summary_rows
@@ -35,7 +33,7 @@ def print_summary(directory: Path) -> None:
 
 
 def _print(ds: xr.Dataset, directory: Path) -> None:
-    console = Console()
+    console = TextConsole()
     rows = summary_rows(ds)
     # Never truncated, even where the table is wider than the terminal.
     console.print(_table(ds, rows, console.width), crop=False)
@@ -48,22 +46,14 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
         f"{count} {rows_of} in {seconds}, {int(ds['iterations'].sum())} iterations, residual at "
         f"most {float(ds['residual'].max()):.1e}"
     )
-    shown = [row.name for row in rows]
-    for line in (*unknown_lines(ds, shown), *mesh_lines(ds, shown)):
+    for line in accuracy_lines(ds, [row.name for row in rows]):
         console.print(line, highlight=False)
-    for line in accuracy_lines(ds):
-        console.print(line, highlight=False)
-    if spots := last_spots(ds):
-        console.print(spots.text, highlight=False, soft_wrap=True)
-    for event in recorded_events(ds):
-        console.print(f"event at {event.text}", highlight=False, soft_wrap=True)
-    for line in verdict_lines(ds):
-        console.print(line, highlight=False)
+    print_findings(console, ds)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
         console.print(f"grid enlarged at {line}", highlight=False)
     for line in _warnings(directory / PROGRESS_NAME, axis, str(ds.attrs.get("warnings", ""))):
-        console.print(f"[yellow]warning:[/] {escape(line)}")
-    console.print(f"{directory / RESULT_NAME}", soft_wrap=True, highlight=False)
+        console.warn(line)
+    put(directory / RESULT_NAME)
 
 
 def _warnings(lines: Path, axis: RunAxis, of_result: str) -> Iterator[str]:
@@ -93,7 +83,7 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
         table.add_column(heading, min_width=least, justify=justify)
         columns[heading] = shown
     for cells_of_row in zip(*columns.values(), strict=True):
-        table.add_row(*map(escape, cells_of_row))
+        table.add_row(*cells_of_row)
     return table
 
 

@@ -11,7 +11,7 @@ from viscontact.backend.errors import AccuracyWarning
 from viscontact.cli.material.fit_report import DeferredFigure, draw_fit, write_section
 from viscontact.cli.studies.execution import Records, performed, write_report
 from viscontact.cli.studies.typed_options import bounds, by_key, case_of, settings_of
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.studies.calibration.fit_case import fit_case
 from viscontact.studies.calibration.result import CaseFit
 
@@ -41,11 +41,11 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
         )
     trials = Path(f"{typed['files'][0].stem}-fit.jsonl")
     found = _fit(typed, trials)
-    print(found)
+    put(found)
     for note in found.notes:
         say(f"warning: {note}")
     text = found.section_text
-    print(f"\n{text}", end="")
+    put(f"\n{text}", end="")
     if typed["output"] is not None:
         draw_fit(DeferredFigure("fitted_records", found.curves), typed["output"], width)
     if typed["section"] is not None:

@@ -11,7 +11,7 @@ from typing import Any, Protocol, TypeVar
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.case import CaseError
 from viscontact.cli.studies.typed_options import as_typed
-from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
+from viscontact.cli.terminal.messages import INTERRUPTED, put, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.studies.study_result import InfeasibleError
 
@@ -102,14 +102,14 @@ def conclude(
     found: PrintedResult, directory: Path, files: Iterable[str], lines: Iterable[str] = ()
 ) -> None:
     """Print a result, some lines about it, its notes, and the files in its directory."""
-    print(found)
+    put(found)
     for line in lines:
-        print(line)
+        put(line)
     for note in found.notes:
         say(f"note: {note}")
     write_report(found, directory / REPORT_NAME)
     for name in files:
-        print(directory / name)
+        put(directory / name)
 
 
 def write_report(found: PrintedResult, page: Path) -> None:
@@ -123,4 +123,4 @@ def write_report(found: PrintedResult, page: Path) -> None:
     except (ConvergenceError, DomainError, ValueError, OSError) as error:
         say(f"without a report: {error}")
     else:
-        print(page)
+        put(page)

@@ -6,7 +6,7 @@ import io
 from collections import Counter
 from pathlib import Path
 
-from viscontact.cli.terminal.messages import refuse, stop
+from viscontact.cli.terminal.messages import put, refuse, stop
 from viscontact.cli.terminal.progress import counted
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.studies.sweep.collecting import write_joint_result
@@ -34,7 +34,7 @@ def collect_results(directory: Path, output: Path, *, fields: bool, quiet: bool)
         _write(layout, output, fields=fields, quiet=quiet)
     except (OSError, ValueError) as error:
         refuse(f"{output}: cannot be written: {error}")
-    print(output)
+    put(output)
     _report_missing(layout)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from viscontact.cli.sweep.jobs import checked_sweep
 from viscontact.cli.sweep.request import ManyRequest
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.cli.terminal.streams import printing
 from viscontact.results.run_files import MANIFEST_NAME, STOP_NAME
 from viscontact.runs.directory.atomic_files import replacing
@@ -62,7 +62,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
         (directory / STOP_NAME).unlink(missing_ok=True)
         _write(script, text, array.logs)
     with printing():
-        print(f"{submit} {shlex.quote(str(script))}")
+        put(f"{submit} {shlex.quote(str(script))}")
 
 
 def _longest_duration(jobs: list[Job]) -> float:

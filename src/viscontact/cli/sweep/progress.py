@@ -7,16 +7,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    Progress,
-    TaskID,
-    TaskProgressColumn,
-    TextColumn,
-    TimeRemainingColumn,
-)
+from rich.progress import Progress, TaskID
 
+from viscontact.cli.terminal.bars import bars_of_runs
 from viscontact.cli.terminal.messages import say
 from viscontact.cli.terminal.progress import Pace
 from viscontact.runs.processes.child import Ended
@@ -24,6 +17,7 @@ from viscontact.runs.processes.job import Job
 from viscontact.studies.executors.driver import Active
 from viscontact.studies.sweep.states import State, state_at_end
 from viscontact.units.formatting import format_quantity
+from viscontact.units.visible import visible
 
 #: Most runs with a bar of their own.
 _MOST_BARS = 16
@@ -105,7 +99,7 @@ class _Bars(RunsDisplay):
             if name not in self._tasks:
                 if not each.course.instants or len(self._tasks) >= _MOST_BARS:
                     continue
-                self._tasks[name] = self._bars.add_task(name, total=1.0, details="")
+                self._tasks[name] = self._bars.add_task(visible(name), total=1.0, details="")
             self._bars.update(self._tasks[name], completed=each.course.part, details=_details(each))
         self._bars.update(self._all, completed=self._part, details=self._runs)
 
@@ -122,7 +116,7 @@ def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[RunsDisplay]:
     if quiet or not jobs:
         yield RunsDisplay(jobs)
     elif sys.stderr.isatty():
-        bars = _bars()
+        bars = bars_of_runs()
         bars.start()
         try:
             yield _Bars(jobs, bars)
@@ -132,17 +126,6 @@ def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[RunsDisplay]:
                 bars.stop()
     else:
         yield _ProgressLines(jobs)
-
-
-def _bars() -> Progress:
-    return Progress(
-        TextColumn("{task.description}", markup=False),
-        BarColumn(bar_width=16),  # fixed, so that the rest does not jump
-        TaskProgressColumn(),
-        TimeRemainingColumn(),
-        TextColumn("left, {task.fields[details]}", markup=False),
-        console=Console(stderr=True),
-    )
 
 
 def _details(run: Active) -> str:

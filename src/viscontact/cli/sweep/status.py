@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from textwrap import shorten
 
-from viscontact.cli.terminal.messages import STOPPED, refuse, stop
+from viscontact.cli.terminal.messages import STOPPED, put, refuse, stop
 from viscontact.studies.sweep.states import State
 from viscontact.studies.sweep.status import LISTED, ListedRun, SweepStatus, sweep_status
 from viscontact.units.formatting import format_quantity
@@ -25,7 +25,7 @@ def print_status(directory: Path, *, watch: bool) -> None:
     """Print the status of a sweep; exit code 1 if a run has failed."""
     status = _watch_status(directory) if watch else _look(directory)
     if not watch:
-        print("\n".join(status_lines(directory, status)))
+        put("\n".join(status_lines(directory, status)))
     if status.counts[State.FAILED]:
         stop(code=STOPPED)
 
@@ -75,21 +75,21 @@ def _look(directory: Path) -> SweepStatus:
 
 def _watch_status(directory: Path) -> SweepStatus:
     """Renew the lines on a terminal until all runs have ended; elsewhere, print each change."""
-    from rich.console import Console
     from rich.live import Live
-    from rich.text import Text
+
+    from viscontact.cli.terminal.console import TextConsole, styled
 
     is_terminal = sys.stdout.isatty()
     printed = ""
-    with Live(console=Console(), auto_refresh=False, transient=False) as live:
+    with Live(console=TextConsole(), auto_refresh=False, transient=False) as live:
         while True:
             began = clock.monotonic()
             status = _look(directory)
             text = "\n".join(status_lines(directory, status))
             if is_terminal:
-                live.update(Text(text), refresh=True)
+                live.update(styled(text), refresh=True)
             elif text != printed:
-                print(text, flush=True)
+                put(text, flush=True)
             printed = text
             if status.has_ended:
                 return status

@@ -10,11 +10,10 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
-from rich.markup import escape
 from rich.measure import Measurement
 from rich.table import Table
 
+from viscontact.cli.terminal.console import TextConsole
 from viscontact.results.formatting import format_percent, format_supported
 from viscontact.results.netcdf import open_results
 from viscontact.results.run_axis import run_axis
@@ -55,7 +54,7 @@ class _RunColumn:
 def print_table(runs: Sequence[Ended]) -> None:
     """Print the largest values over time or speed of several runs, and their warnings."""
     found = [_values_of_run(each) for each in runs]
-    console = Console()
+    console = TextConsole()
     over = " or ".join(sorted({each.over for each in found if each})) or "time"
     states, values = list(_state_columns(runs, found)), list(_value_columns(found))
     verdicts = list(_verdict_columns(found))
@@ -68,7 +67,7 @@ def print_table(runs: Sequence[Ended]) -> None:
     for part in parts:
         console.print(part, end="\n" if part is parts[-1] else "\n\n")
     for line in _warnings(runs, found):
-        console.print(f"[yellow]warning:[/] {escape(line)}", highlight=False, soft_wrap=True)
+        console.warn(line, highlight=False, soft_wrap=True)
 
 
 def _values_of_run(ended: Ended) -> _RunValues | None:
@@ -103,13 +102,13 @@ def _table(names: Sequence[str], columns: Sequence[_RunColumn], title: str | Non
     table.add_column("run", overflow="fold", vertical="bottom")
     for each in columns:
         justify: Literal["left", "right"] = "right" if each.is_number else "left"
-        table.add_column(escape(each.heading), justify=justify, no_wrap=True, vertical="bottom")
+        table.add_column(each.heading, justify=justify, no_wrap=True, vertical="bottom")
     for name, *cells in zip(names, *(each.cells for each in columns), strict=True):
-        table.add_row(escape(name), *cells)
+        table.add_row(name, *cells)
     return table
 
 
-def _width(table: Table, console: Console) -> int:
+def _width(table: Table, console: TextConsole) -> int:
     """Width of a table in one piece, in characters."""
     return Measurement.get(console, console.options.update(max_width=10_000), table).maximum
 

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
+
+from viscontact.cli.terminal.console import TextConsole
 
 
 def run_bar() -> Progress:
     """Bar of one run; its fields are the word for a `row`, and `details` of the last one."""
     return Progress(
-        TextColumn("{task.fields[row]}"),
+        TextColumn("{task.fields[row]}", markup=False),
         MofNCompleteColumn(),
         BarColumn(bar_width=16),  # fixed, so that the rest does not jump
         TimeRemainingColumn(),
-        TextColumn("left, {task.fields[details]}"),
-        console=Console(stderr=True),
+        TextColumn("left, {task.fields[details]}", markup=False),
+        console=TextConsole(stderr=True),
     )
 
 
@@ -23,6 +31,18 @@ def counting_bar(unit: str) -> Progress:
     return Progress(
         *(TextColumn(unit), MofNCompleteColumn(), BarColumn(bar_width=16)),
         *(TimeRemainingColumn(), TextColumn("left")),
-        console=Console(stderr=True),
+        console=TextConsole(stderr=True),
         transient=True,
+    )
+
+
+def bars_of_runs() -> Progress:
+    """Bars of several runs, with their names and `details`."""
+    return Progress(
+        TextColumn("{task.description}", markup=False),
+        BarColumn(bar_width=16),  # fixed, so that the rest does not jump
+        TaskProgressColumn(),
+        TimeRemainingColumn(),
+        TextColumn("left, {task.fields[details]}", markup=False),
+        console=TextConsole(stderr=True),
     )

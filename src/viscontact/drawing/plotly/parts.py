@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Sequence
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Singles
 from viscontact.drawing.content.look import Look
+from viscontact.units.visible import visible
 
 #: A trace, an axis or a frame, as Plotly reads them.
 Part = dict[str, Any]
@@ -26,7 +28,19 @@ def drawn(
 ) -> go.Figure:
     """Make a figure; `meta` has its name, its title and what a page adds to it."""
     shared = {"template": template_of(look), "uirevision": "kept", "meta": meta}
-    return go.Figure(list(traces), shared | layout, list(frames))
+    return go.Figure(list(map(_literal_words, traces)), shared | layout, list(frames))
+
+
+def _literal_words(trace: Part) -> Part:
+    """Trace whose name and texts are drawn as they are."""
+    return {
+        key: literal(found) if key in ("name", "text") else found for key, found in trace.items()
+    }
+
+
+def literal(found: Any) -> Any:
+    """Text of a user, or several, as Plotly draws it unchanged: nothing in it is markup."""
+    return escape(visible(found)) if isinstance(found, str) else [*map(literal, found)]
 
 
 def plain(figure: go.Figure) -> Part:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from html import escape
 
 import numpy as np
 import plotly.graph_objects as go
@@ -12,7 +11,7 @@ import xarray as xr
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel
 from viscontact.drawing.content.response import response_panels, swept_keys
-from viscontact.drawing.plotly.parts import Part, drawn, numbers
+from viscontact.drawing.plotly.parts import Part, drawn, literal, numbers
 from viscontact.results.sweep_axes import key_label
 
 #: Height of the crosses over that of the axes.
@@ -74,7 +73,7 @@ def _traces(panel: Panel, look: Look) -> Iterator[Part]:
         yield {
             **{"x": numbers(panel.x.unit(curve.x)), "y": numbers(panel.y.unit(curve.y))},
             "mode": "lines+markers" if curve.look == "joined" else "markers",
-            "text": list(map(escape, curve.texts)),
+            "text": list(curve.texts),
             **{"hovertemplate": "%{text}<extra></extra>", "legendgroup": str(group)},
             **({"showlegend": False} if curve.error is None else _main(panel, curve, colour)),
             "marker": {"color": colour} | (hollow if curve.error is None else {"size": 7}),
@@ -85,7 +84,7 @@ def _main(panel: Panel, curve: Curve, colour: str) -> Part:
     """Name, line and error bars of a curve."""
     bars = numbers(panel.y.unit(0.0 if curve.error is None else curve.error))
     return {
-        **{"name": escape(curve.name), "showlegend": bool(curve.name)},
+        **{"name": curve.name, "showlegend": bool(curve.name)},
         "line": {"color": colour, "width": 1.8},
         "error_y": {"array": bars, "color": colour, "thickness": 1, "width": 3},
     }
@@ -99,7 +98,7 @@ def _crosses(panel: Panel, marks: list[Mark], look: Look) -> Part:
         "y": numbers(np.full(len(marks), _LOW)),
         **{"mode": "markers", "showlegend": False, "yaxis": "y2"},
         "marker": {"color": colours, "size": 8, "symbol": "x-thin-open"},
-        "text": [escape(mark.text) for mark in marks],
+        "text": [mark.text for mark in marks],
         "hovertemplate": "%{text}<extra></extra>",
     }
 
@@ -110,6 +109,6 @@ def _across(axis: Axis) -> Part:
     if axis.texts:
         return found | {
             "tickvals": list(range(len(axis.texts))),
-            "ticktext": list(map(escape, axis.texts)),
+            "ticktext": list(map(literal, axis.texts)),
         }
     return found | ({"type": "log", "dtick": "D2"} if axis.scale == "log" else {})

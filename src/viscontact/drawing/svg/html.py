@@ -1,10 +1,12 @@
-"""HTML made of elements, so that users' names are always escaped."""
+"""HTML made of elements, so that users' names are always escaped, and controls visible."""
 
 from __future__ import annotations
 
 import json
 from typing import Any
 from xml.etree.ElementTree import Element, tostring
+
+from viscontact.units.visible import visible
 
 
 def element(name: str, *content: str | Element | None, **attributes: str) -> Element:
@@ -15,7 +17,7 @@ def element(name: str, *content: str | Element | None, **attributes: str) -> Ele
         if isinstance(part, Element):
             made.append(part)
         elif part is not None:
-            _add_text(made, part)
+            _add_text(made, visible(part))
     return made
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from viscontact.drawing.svg.html import element, written
+from viscontact.units.visible import visible
 
 _BOX = "display:flex;flex-wrap:wrap;gap:4px 20px;align-items:flex-start;margin:2px 0 8px"
 _TABLE = "border-collapse:collapse;font-size:13px;margin:0"
@@ -36,7 +37,8 @@ class Overview:
             "  " + "  ".join(each.ljust(width) for each, width in zip(row, widths, strict=False))
             for row in table
         ]
-        return "\n".join(line.rstrip() for line in filter(None, [self.title, self.lead, *lines]))
+        texts = filter(None, [self.title, self.lead, *lines])
+        return visible("\n".join(line.rstrip() for line in texts))
 
     def element(self) -> Element:
         """The overview in HTML: drawings, and the table to their right."""

@@ -263,8 +263,7 @@ def _report(run: ManagedRun, calculator: AppCalculator) -> bytes:
 
 def _labels(compared: list[ManagedRun]) -> list[str]:
     """Labels of runs in a figure, numbered where they are equal."""
-    # matplotlib would read the text between two of these as a formula.
-    labels = [_label(run).replace("$", r"\$") for run in compared]
+    labels = [_label(run) for run in compared]
     if len(set(labels)) == len(labels):
         return labels
     return [f"{number}: {label}" for number, label in enumerate(labels, start=1)]

@@ -192,7 +192,7 @@ def _add_facts(axes: Axes, texts: Iterator[str]) -> None:
     narrow = figure.get_figwidth() <= NARROW
     room = figure.get_figwidth() * (_WHOLE if narrow else _BESIDE)
     axes.text(
-        *(0.0, 1.0, in_lines(texts, int(room / _LETTER))),
+        *(0.0, 1.0, style.literal(in_lines(texts, int(room / _LETTER)))),
         transform=axes.transAxes,
         verticalalignment="top",
         fontsize=style.TICK_SIZE,

@@ -5,10 +5,8 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Literal
 
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
@@ -23,7 +21,6 @@ from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, grid_of_panels
 from viscontact.results.variables import MESH_DEPENDENT
 
-_Place = Literal["outside upper center", "outside upper right", "outside lower center"]
 _NAME = "history"
 
 #: Letters of the note on events on an inch.
@@ -161,26 +158,11 @@ def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[E
     """Legend of several runs above the panels, and of error bands, below those of several runs."""
     entries = legend_entries(panels[0].get_lines(), names, bands)
     count = len(names) if len(names) > 1 else 0
-    place: _Place = "outside lower center" if count else "outside upper right"
     if count:
         columns = style.columns_that_fit(figure, names, 4)
         style.add_height_of_legend(figure, -(-count // columns))
-        _add_legend(
-            figure, style.by_rows(entries[:count], columns), "outside upper center", columns
-        )
+        keys = zip(*style.by_rows(entries[:count], columns), strict=True)
+        style.add_legend(figure, *keys, loc="outside upper center", ncols=columns, handlelength=2.4)
     if entries[count:]:
-        _add_legend(figure, entries[count:], place, 1)
-
-
-def _add_legend(
-    figure: Figure, entries: Sequence[tuple[Artist, str]], place: _Place, columns: int
-) -> None:
-    figure.legend(
-        *zip(*entries, strict=True),
-        loc=place,
-        ncols=columns,
-        frameon=False,
-        fontsize=style.TICK_SIZE,
-        labelcolor=style.INK,
-        handlelength=2.4,
-    )
+        place = "outside lower center" if count else "outside upper right"
+        style.add_legend(figure, *zip(*entries[count:], strict=True), loc=place, handlelength=2.4)

@@ -142,7 +142,7 @@ def _scale_up(axes: Axes, axis: Axis) -> None:
     if axis.limits is not None:
         axes.set_ylim(*axis.unit(axis.limits))
     if axis.texts:
-        axes.set_yticks(range(len(axis.texts)), axis.texts)
+        axes.set_yticks(range(len(axis.texts)), list(map(style.literal, axis.texts)))
     elif axis.scale == "log":
         axes.set_yscale("log")
     else:
@@ -217,7 +217,7 @@ def _draw_mark(axes: Axes, panel: Panel, mark: Mark) -> None:
 def _add_text(axes: Axes, place: float, mark: Mark) -> None:
     """Write what a level is at the right end of its line."""
     axes.annotate(
-        mark.text,
+        style.literal(mark.text),
         (1.0, place),
         xycoords=("axes fraction", "data"),
         xytext=(-2, -3 if mark.is_text_below else 3),

@@ -162,14 +162,8 @@ def add_side_bar(
 
 def add_title(axes: Axes3D, text: str) -> None:
     """Add a title above the left corner of a three-dimensional panel."""
-    figure = axes.figure
     box = _covered_area(axes)
-    figure.text(
-        *(box.x0, box.y1, text),
-        fontsize=style.TICK_SIZE,
-        color=style.INK,
-        verticalalignment="bottom",
-    )
+    _write(axes.figure, (box.x0, box.y1), text, style.INK)
 
 
 def add_note(figure: Figure, *texts: str) -> None:
@@ -177,9 +171,8 @@ def add_note(figure: Figure, *texts: str) -> None:
     texts = tuple(filter(None, texts))
     fits = sum(map(len, texts)) * _LETTER < figure.get_figwidth()
     apart = "; " if fits else "\n"
-    figure.text(
-        *(0.02, 0.05 / figure.get_figheight(), apart.join(texts)),
-        fontsize=style.TICK_SIZE,
-        color=style.FAINT,
-        verticalalignment="bottom",
-    )
+    _write(figure, (0.02, 0.05 / figure.get_figheight()), apart.join(texts), style.FAINT)
+
+
+def _write(figure: Figure, place: tuple[float, float], text: str, colour: str) -> None:
+    figure.text(*place, style.literal(text), fontsize=style.TICK_SIZE, color=colour, va="bottom")

@@ -21,6 +21,7 @@ from matplotlib.figure import Figure
 from viscontact.drawing.content.look import INSTANTS, LIGHT, RED, RUNS, shades
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import Ink
+from viscontact.units.visible import visible
 
 # Widths of one and of two columns of a journal page, in inches.
 ONE_COLUMN = 4.6
@@ -63,19 +64,19 @@ def dress(axes: Axes) -> None:
     axes.yaxis.label.set(size=LABEL_SIZE, color=INK)
 
 
-def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **how: Any) -> None:
+def literal(text: str) -> str:
+    """Text of a user as Matplotlib draws it unchanged: nothing in it is a formula."""
+    return visible(text).replace("$", r"\$")
+
+
+def add_legend(
+    drawn: Axes | Figure, handles: Sequence[Artist], labels: Sequence[str], **how: Any
+) -> None:
     """Add a frameless legend, by default at the right of the axes."""
-    place = how or {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
-    legend = axes.legend(
-        handles,
-        labels,
-        fontsize=TICK_SIZE,
-        title_fontsize=TICK_SIZE,
-        frameon=False,
-        handlelength=1.6,
-        labelcolor=INK,
-        **place,
-    )
+    look: dict[str, Any] = {"frameon": False, "handlelength": 1.6, "labelcolor": INK}
+    look |= {"fontsize": TICK_SIZE, "title_fontsize": TICK_SIZE}
+    look |= how or {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
+    legend = drawn.legend(handles, list(map(literal, labels)), **look)
     legend.get_title().set_color(INK)
 
 
@@ -90,19 +91,8 @@ def add_legend_below(
     """Add a legend below all panels, with at most `columns` columns."""
     columns = columns_that_fit(figure, labels, columns)
     add_height_of_legend(figure, -(-len(labels) // columns))
-    figure.legend(
-        by_rows(handles, columns),
-        by_rows(labels, columns),
-        title=title,
-        title_fontsize=TICK_SIZE,
-        loc="outside lower center",
-        ncols=columns,
-        fontsize=TICK_SIZE,
-        frameon=False,
-        handlelength=1.6,
-        columnspacing=1.2,
-        labelcolor=INK,
-    )
+    place = {"loc": "outside lower center", "ncols": columns, "columnspacing": 1.2, "title": title}
+    add_legend(figure, by_rows(handles, columns), by_rows(labels, columns), **place)
 
 
 def by_rows(entries: Sequence[_Entry], columns: int) -> list[_Entry]:
@@ -123,19 +113,15 @@ def add_height_of_legend(figure: Figure, rows: int) -> None:
 
 def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
     """Add a heading above the left corner of a panel, or a note above its right one."""
-    axes.set_title(
-        text,
-        fontsize=TICK_SIZE,
-        color=FAINT if aside else INK,
-        loc="right" if aside else "left",
-        pad=4,
-    )
+    look: dict[str, Any] = {"fontsize": TICK_SIZE, "color": FAINT if aside else INK, "pad": 4}
+    axes.set_title(literal(text), loc="right" if aside else "left", **look)
 
 
 def arrange_headings(figure: Figure) -> None:
     """Move notes above headings that leave no room for them, once the layout is known."""
     for axes in figure.axes:
-        heading, aside = (axes.get_title(loc=side) for side in ("left", "right"))
+        found = (axes.get_title(loc=side) for side in ("left", "right"))
+        heading, aside = (text.replace(r"\$", "$") for text in found)
         room = axes.get_window_extent().width / figure.dpi
         if heading and aside and _LETTER * (len(heading) + len(aside) + 2) > room:
             # Not below it, where a neighbour's heading may be.

@@ -230,7 +230,7 @@ def material_curves(
             _place_ticks(axes)
     style.add_legend(panels[-1], *named_keys(drawn[-1].curves), loc="best")
     if title:
-        figure.suptitle(title, fontsize=style.LABEL_SIZE, color=style.INK)
+        figure.suptitle(style.literal(title), fontsize=style.LABEL_SIZE, color=style.INK)
     return figure
 
 

@@ -9,6 +9,7 @@ from matplotlib.axis import XAxis, YAxis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from viscontact.drawing.content.panel import Axis
+from viscontact.drawing.matplotlib.layout.style import literal
 from viscontact.units.formatting import format_compact
 
 #: Ratio of the ends from which a logarithmic axis has powers of ten only.
@@ -26,7 +27,8 @@ def label_key(axes: Axes, key: Axis, letters: int) -> None:
     if key.texts:
         every = -(-len(key.texts) // _MOST_TEXTS)
         axes.set_xticks(range(0, len(key.texts), every))
-        axes.set_xticklabels(key.texts[::every], rotation=30, ha="right")
+        texts = list(map(literal, key.texts[::every]))
+        axes.set_xticklabels(texts, rotation=30, ha="right")
 
 
 def place_log_ticks(axis: XAxis | YAxis) -> None:

@@ -1,0 +1,33 @@
+"""Spots, events and verdicts of a result, printed below its table."""
+
+from __future__ import annotations
+
+import xarray as xr
+
+from viscontact.cli.terminal.console import TextConsole, styled
+from viscontact.cli.terminal.messages import put
+from viscontact.results.contact_spots import last_spots
+from viscontact.results.recorded_events import recorded_events
+from viscontact.results.run_axis import run_axis
+from viscontact.results.verdicts import Verdict, verdicts
+
+_COLOURS = {"passed": "green", "failed": "red", "undecided": "yellow"}
+
+
+def print_findings(console: TextConsole, ds: xr.Dataset) -> None:
+    """Print the spots of a contact, events, and verdicts on allowable values; those there are."""
+    if spots := last_spots(ds):
+        put(spots.text)
+    for event in recorded_events(ds):
+        put(f"event at {event.text}")
+    for each in verdicts(ds):
+        verdict = styled(each.verdict, _COLOURS[each.verdict])
+        console.print(verdict, _comparison(ds, each), sep=": ", highlight=False)
+
+
+def _comparison(ds: xr.Dataset, each: Verdict) -> str:
+    name = each.label[:1].lower() + each.label[1:]
+    found = f" {each.found} at {run_axis(ds).place(each.at)}" if each.found else ""
+    reason = f"; {each.reason}" if each.reason else ""
+    margin = f", margin {each.shown_margin}" if each.shown_margin else ""
+    return f"{name}{found}, allowable {each.allowed}{margin}{reason}"
