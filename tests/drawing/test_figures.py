@@ -80,6 +80,12 @@ def test_page_is_sent_all_figures_of_the_report(
     assert len(shown) > 1
 
 
+def test_run_over_time_is_shown_without_a_reference_over_speed() -> None:
+    run = maxwell_sphere([0.0, 1.0], cells=8)
+    over_speed = maxwell_sphere([0.5, 1.0], cells=8).rename(time="speed").assign_attrs(along="y")
+    assert sent_figures(run, LIGHT, over_speed) == sent_figures(run, LIGHT)
+
+
 def test_names_are_known_without_matplotlib() -> None:
     program = (
         "import sys\n"

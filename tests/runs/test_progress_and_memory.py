@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from itertools import count
 from pathlib import Path
+from types import SimpleNamespace
 
+import pytest
+
+from closeness import close_to
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import FlatPunch
 from viscontact.bodies.laws import Zener
 from viscontact.bodies.materials.material import Material
+from viscontact.runs import forecast
+from viscontact.runs.check_report import drawn_size, warnings_of
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.progress_made import progress_made
 from viscontact.runs.run_memory import fitting, least_memory, needed_memory
@@ -35,3 +43,35 @@ def test_least_memory_counts_the_terms_of_the_law() -> None:
 
 def test_any_two_of_three_runs_fit_into_the_memory() -> None:
     assert fitting([1e8, 2e8, 1.5e8], available=4e8) == 2
+    # Whichever they are: the two largest do not.
+    assert fitting([1e8, 3e8, 2e8], available=4e8) == 1
+
+
+def test_duration_of_a_convolution_on_a_large_grid_goes_with_its_cells(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """On a clock that shows a second for whatever is timed."""
+    ticks = count()
+    monkeypatch.setattr(forecast, "clock", SimpleNamespace(perf_counter=lambda: next(ticks)))
+    cells = [(512, 512), (1024, 1024), (2048, 1024)]
+    found = [forecast.convolution_time(Grid(shape, (1.0, 1.0))) for shape in cells]
+    assert found == close_to([1.0, 4.0, 8.0])
+
+
+def test_body_that_ends_a_little_beyond_the_grid_is_drawn_with_its_end() -> None:
+    for radius, extent in ((1.1e-3, 2.31e-3), (1.5e-3, 2e-3)):
+        contact = SimpleNamespace(indenter=FlatPunch(radius))
+        run = SimpleNamespace(grid=Grid((8, 8), (2e-3, 2e-3)), contact=contact)
+        assert drawn_size(run) == close_to((extent, extent), rel=2e-3)
+
+
+@pytest.mark.parametrize(("along", "is_warned"), [(5.0, True), (8.0, False)])
+def test_few_cells_along_a_period_count_only_where_the_contact_ends(
+    along: float, is_warned: bool
+) -> None:
+    grid = Grid((8, 64), (1e-3, 8e-3), periodic=(True, False))
+    expected = SimpleNamespace(
+        estimate=object(), fits=True, cells_along=along, cells_across=30.0, warnings={}
+    )
+    prepared = SimpleNamespace(run=SimpleNamespace(grid=grid))
+    assert bool(warnings_of(prepared, expected)) == is_warned

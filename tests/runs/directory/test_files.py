@@ -6,11 +6,12 @@ import io
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.results.run_files import FAILURE_NAME
-from viscontact.runs.directory.atomic_files import fresh_name
+from viscontact.runs.directory.atomic_files import fresh_name, replacing
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.netcdf_layout import Contents
@@ -29,6 +30,26 @@ def test_difference_states_both_values() -> None:
 def test_difference_in_a_list_has_its_position() -> None:
     [found] = differences({"load": {"force": [0.0, 4.0]}}, {"load": {"force": [0.0, 5.0]}})
     assert str(found) == "load.force[2]: was 4.0, is now 5.0"
+
+
+def test_unknown_numbers_of_equal_descriptions_are_no_difference() -> None:
+    assert differences({"end": float("nan")}, {"end": float("nan")}) == ()
+    assert len(differences({"end": float("nan")}, {"end": 1.0})) == 1
+
+
+def test_file_that_was_not_written_to_its_end_is_not_left(tmp_path: Path) -> None:
+    kept = tmp_path / "state.npz"
+    kept.write_bytes(b"old")
+
+    def stop_half_way() -> None:
+        with replacing(kept) as file:
+            file.write(b"half")
+            raise OSError("the disk is full")
+
+    with pytest.raises(OSError, match="the disk is full"):
+        stop_half_way()
+    assert list(tmp_path.iterdir()) == [kept]
+    assert kept.read_bytes() == b"old"
 
 
 def test_failure_is_written_with_outcome_code_and_message(tmp_path: Path) -> None:

@@ -229,3 +229,15 @@ def test_no_contact_carries_more_than_its_largest_pressure_times_its_area() -> N
     assert states[0].cells_across == 2
     for state in states:
         assert state.contact_area * state.peak_pressure >= state.force * (1 - 1e-12)
+
+
+def test_peak_before_the_first_instant_that_is_wanted_is_not_missed() -> None:
+    """Nobody asked for it, in contrast to one between two instants."""
+    rubber, grid = vc.Material(vc.Zener(1e9, 1e10, 1e9), 0.3), vc.Grid((24, 24), (2.6e-3, 2.6e-3))
+    missed = []
+    for force, first in (([90.0, 40.0, 40.0], 1.0), ([40.0, 90.0, 40.0], 0.0)):
+        load = vc.ForceHistory([0.0, 0.5, 1.0], force)
+        run = prepare_run(Problem(vc.Sphere(0.01), rubber, load, grid, [first, 2.0]))
+        *_, last = March(run)
+        missed.append("between the requested times" in " ".join(last.warnings))
+    assert missed == [False, True]

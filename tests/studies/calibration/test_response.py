@@ -9,7 +9,29 @@ import numpy as np
 from tests.studies.calibration.experiments import BALL, triangle, written
 
 import viscontact as vc
+from closeness import close_to
+from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.response import Experiment, Mounting, RecordRun
+from viscontact.studies.journal import Entry
+
+
+def test_rows_before_a_jump_do_not_count_and_each_record_has_its_own_contact_point() -> None:
+    cells = vc.Grid((24, 24), (3.2e-3, 3.2e-3))
+    record = vc.ContactRecord(
+        [0, 1, 1, 2, 3], [0.2, 0.2, 0.5, 0.5, 0.5], [1e-6, 2e-6, 3e-6, 4e-6, 5e-6]
+    )
+    one = Experiment(Path("ball.yaml"), {}, record, "force", "force", cells, cells, may_grow=False)
+    values = {
+        "contact_point[1]": "1 um",
+        "contact_point[2]": "-2 um",
+        "machine_stiffness": "1 N/um",
+    }
+    outcome = Entry({"force": record.force.tolist(), "approach": [1e-5] * 5})
+    compared = Residuals([one], (), None)._compare_record
+    for test, fitted in ((one, 11.5e-6), (replace(one, number=1), 8.5e-6)):
+        found, counted = compared(RecordRun(test, {}, Mounting(), "case"), outcome, values)
+        assert found[2:] == close_to(fitted, rel=1e-12)  # 10 um, the contact point, and 0.5 N
+        assert counted.tolist() == [True, False, True, True, True]
 
 
 def test_runs_on_the_cells_of_the_case_have_steps_half_as_long(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from tests.studies.sensitivity.cases import HERTZ, written
 import viscontact as vc
 from closeness import close_to
 from viscontact.studies.sensitivity.samples import samples_of
-from viscontact.studies.sensitivity.variance import indices_of
+from viscontact.studies.sensitivity.variance import indices_of, percentiles_of
 from viscontact.studies.sweep.varied_runs import VariedRun
 
 Floats = NDArray[np.float64]
@@ -156,6 +156,11 @@ def test_a_failed_sample_is_named_and_leaves_no_indices(
 def test_an_output_that_does_not_vary_has_no_indices() -> None:
     found = indices_of(np.full((4, 8), 3.0), 0)
     assert np.isnan(found.total_order).all()
+
+
+def test_percentiles_over_time_leave_out_unknown_instants_and_not_their_runs() -> None:
+    values = np.array([[1.0, np.nan], [2.0, 5.0], [3.0, 7.0], [np.nan, np.nan]])
+    assert percentiles_of(values, np.array([50.0])).tolist() == [[2.0, 6.0]]
 
 
 def test_a_single_input_causes_all_of_the_variance() -> None:

@@ -41,6 +41,7 @@ def test_a_hertzian_contact_has_the_exponents_of_its_closed_form(tmp_path: Path)
     assert elasticities.values == close_to(2 / 3, abs=0.01)
     one = found.table.sel(output="approach", input="load.force")
     assert float(one.derivative) == close_to(float(one.elasticity * one.value / 1.0))
+    assert float(one.derivative_error) == close_to(float(one.elasticity_error * one.value / 1.0))
     assert found.runs == 5
     assert "approach: its error is not known" in found.notes[1]
 
