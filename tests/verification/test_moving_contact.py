@@ -123,6 +123,13 @@ def test_direction_of_motion_does_not_matter() -> None:
         assert held_back == close_to(float(first.resistance_y[-1]), rel=1e-6)
 
 
+def test_a_held_force_does_work_by_its_approach_alone_while_the_body_moves() -> None:
+    """The motion's own work, which is most of all, is that of the resistance."""
+    ds = travelled(way=0.8, cell=0.16, errors=False)
+    np.testing.assert_allclose(np.diff(ds.work), 10.0 * np.diff(ds.approach), rtol=1e-6)
+    assert float(ds.motion_work[-1]) > 0.1 * float(ds.work[-1] - ds.work[0])
+
+
 def test_error_is_of_second_order_in_steps_of_whole_cells() -> None:
     found = [
         float(travelled(cell=0.04, cells_a_step=count).friction_coefficient[-1])

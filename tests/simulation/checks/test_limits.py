@@ -18,6 +18,7 @@ from viscontact.simulation.checks.motion import (
     free_tilt_warnings,
     left_after,
     retardation_warnings,
+    turn_warnings,
     unresolved_loss,
     way_warnings,
 )
@@ -83,6 +84,19 @@ def test_tilt_along_a_motion_that_a_period_holds_level_is_not_free():
         problem = Problem(vc.Sphere(0.01), steel, vc.step(1.0), grid, [0.0], motion=slides)
         warned.append(list(axle_warnings(problem)))
     assert warned == [["axle"], []]
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5, np.pi / 4])
+def test_a_ball_that_rolls_any_way_comes_round_after_its_circumference(angle):
+    rubber, steel = vc.Material(vc.Maxwell(1e6, 1e5), 0.5), vc.Material(vc.Elastic(80e9), 0.3)
+    x, y = 10e-3 * np.cos(angle), 10e-3 * np.sin(angle)
+    rolls = vc.Travel([0.0, 0.1], x=[0.0, x], y=[0.0, y], rolling=True)
+    grid, load = vc.Grid((8, 8), (1e-3, 1e-3)), vc.step(1.0)
+    problem = Problem(
+        *(vc.Sphere(1e-3), steel, load, grid, [0.0]), motion=rolls, indenter_material=rubber
+    )
+    [text] = turn_warnings(problem).values()
+    assert "rolls over 10 mm, more than its circumference of 6.28 mm" in text
 
 
 @pytest.mark.parametrize(
