@@ -166,3 +166,22 @@ def test_a_process_that_waits_ends_with_its_parent(line: bytes) -> None:
     command = [sys.executable, "-P", "-m", "viscontact.cli.child_run"]
     done = subprocess.run(command, input=line, capture_output=True, timeout=60, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
+
+
+LATE_IMPORTS = """\
+import sys
+from viscontact.cli import child_run, main
+
+child_run._import_run()
+before = set(sys.modules)
+assert main(["run", "case.yaml", "-q"]) == 0
+print(sorted(name for name in set(sys.modules) - before if name.startswith("viscontact")))
+"""
+
+
+def test_process_that_waits_has_imported_all_that_a_run_needs(tmp_path: Path) -> None:
+    (tmp_path / "case.yaml").write_text(CASE, encoding="utf-8")
+    ended = subprocess.run(
+        [sys.executable, "-c", LATE_IMPORTS], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert ended.stdout.splitlines()[-1:] == ["[]"], ended.stderr

@@ -14,6 +14,7 @@ import signal
 import sys
 import threading
 from contextlib import suppress
+from importlib import import_module
 from typing import NoReturn
 
 from viscontact.cli.entry import has_memory, limit_libraries, main
@@ -43,7 +44,8 @@ def _import_run() -> None:
     limit_libraries()
     if has_memory():
         with suppress(Exception):
-            pass
+            for name in ("run.execution", "shell", "sweep.execution", "sweep.single_task"):
+                import_module(f"viscontact.cli.{name}")
 
 
 def _code_for_parent(end: CommandError) -> int:

@@ -51,8 +51,7 @@ AGREEMENT_TOLERANCE = 1e-6
 TIP_CELLS, TIP_AREA = 0.1, 0.3
 
 #: Factor of the least error of a late rim for the area of a strip, whose rims lie alike among the
-#: cells all along, so
-#: that their errors do not cancel: with 1, bars of moving strips held 96 % of the errors.
+#: cells all along, so that their errors do not cancel: with 1, bars of such strips held 96 %.
 STRAIGHT_RIM = 1.5
 
 #: Least relative error of scalars, times the square of the cells across the contact: the approach
