@@ -1,4 +1,4 @@
-"""No comparison has a tolerance that nobody wrote: in SI units it is larger than many values."""
+"""Every comparison of floating-point values has a written absolute tolerance, or none at all."""
 
 from __future__ import annotations
 

@@ -232,7 +232,7 @@ def test_no_contact_carries_more_than_its_largest_pressure_times_its_area() -> N
 
 
 def test_peak_before_the_first_instant_that_is_wanted_is_not_missed() -> None:
-    """Nobody asked for it, in contrast to one between two instants."""
+    """Only a peak between two instants of the run counts as missed, not one before the first."""
     rubber, grid = vc.Material(vc.Zener(1e9, 1e10, 1e9), 0.3), vc.Grid((24, 24), (2.6e-3, 2.6e-3))
     missed = []
     for force, first in (([90.0, 40.0, 40.0], 1.0), ([40.0, 90.0, 40.0], 0.0)):
