@@ -7,6 +7,8 @@ import json
 import os
 import subprocess
 import sys
+import threading
+import time as clock
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -158,6 +160,44 @@ def test_a_server_uses_what_an_answer_needs_before_the_first_one(
         pass
     assert used == [True]
     assert not [str(each.message) for each in recwarn if each.category is AccuracyWarning]
+
+
+def test_a_server_that_closes_waits_for_what_its_thread_still_does(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two threads in HDF5 at once may end the process."""
+    begun, ended = threading.Event(), threading.Event()
+
+    def long_task() -> None:
+        begun.set()
+        clock.sleep(0.3)
+        ended.set()
+
+    monkeypatch.setattr(calculator, "_FIRST_USE", 0.0)
+    monkeypatch.setattr(calculator, "_use_first", long_task)
+    with asking(tmp_path / "page", keeps_spare=True):
+        assert begun.wait(60)
+        assert not ended.is_set()
+    assert ended.is_set()
+
+
+def test_a_task_whose_client_has_gone_keeps_its_turn_until_it_ends(tmp_path: Path) -> None:
+    page = calculator.Calculator(Folder(tmp_path / "page"), at_once=0)
+    at_work: list[str] = []
+
+    def long_task() -> None:
+        at_work.append("first")
+        clock.sleep(0.3)
+        at_work.remove("first")
+
+    async def asked() -> list[str]:
+        first = asyncio.create_task(page.do(long_task))
+        while not at_work:
+            await asyncio.sleep(0.01)
+        first.cancel()
+        return await page.do(lambda: list(at_work))
+
+    assert asyncio.run(asked()) == []
 
 
 # A parent that has ended, also within the line.

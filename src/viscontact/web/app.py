@@ -11,7 +11,6 @@ from pathlib import Path
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse
-from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp
 
@@ -54,7 +53,7 @@ def new_app(calculator: Calculator) -> ASGIApp:
             task.cancel()
             with suppress(asyncio.CancelledError):
                 await task
-        await run_in_threadpool(calculator.queue.close)
+        await calculator.do(calculator.queue.close)  # after what the thread still does
 
     # No documentation pages, as they would load scripts from other sites.
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import AsyncIterator, Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
 
-from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
 from viscontact import __version__
@@ -52,18 +52,18 @@ class Calculator:
         self.folder, self.cases = folder, CaseReader(folder)
         self.queue = RunQueue(folder, at_once, keeps_spare=keeps_spare)
         self.is_to_end, self._is_awaited = False, keeps_spare
-        self._turn = asyncio.Lock()
+        self._turn, self._thread = asyncio.Lock(), ThreadPoolExecutor(1)
         # Summaries of results; an entry is dropped with its run.
         self._summaries: WeakKeyDictionary[ManagedRun, tuple[str, dict[str, Any]]] = (
             WeakKeyDictionary()
         )
 
     async def do(self, task: Callable[[], T], request: Request | None = None) -> T:
-        """Call a heavy task in a thread, one at a time, as HDF5 is not thread-safe."""
+        """Call a heavy task in the only thread for these, as HDF5 is not thread-safe."""
         async with self._turn:
             if request is not None and await request.is_disconnected():
                 raise RequestError(_GONE, "the client has closed the connection")
-            return await run_in_threadpool(task)
+            return await asyncio.get_running_loop().run_in_executor(self._thread, task)
 
     async def status(self, run: ManagedRun) -> dict[str, Any]:
         """Return the status of a run, with a summary of its result once it is over."""
