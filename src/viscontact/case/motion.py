@@ -25,11 +25,17 @@ from viscontact.case.quantities import (
     SpeedCount,
 )
 from viscontact.case.section_choice import ChosenBy
-from viscontact.tables import read_rows, read_table
+from viscontact.tables import read_source, read_table
 
 #: Columns of a table of the path.
 _AXES = ("x", "y")
 _COLUMNS = ("time", *_AXES)
+
+
+def _axis(cell: str) -> str | None:
+    """Axis of the positions below a heading."""
+    name = cell.split("[")[0].strip()
+    return name if name in _AXES else None
 
 
 class MotionSection(Section):
@@ -100,10 +106,8 @@ class Travel(MotionSection):
 
     def _from_file(self, path: Path) -> Motion:
         try:
-            heads = [
-                cell for cell in read_rows(path)[0].cells if cell.split("[")[0].strip() in "xy"
-            ]
-            table = read_table(path, {cell: cell.strip()[0] for cell in heads if cell.strip()})
+            heading = read_source(path, lambda cell: _axis(cell) is not None).found.rows[0]
+            table = read_table(path, {c: axis for c in heading.cells if (axis := _axis(c))})
         except ValueError as error:
             raise ValueError(f"file: {error}") from error
         others = [table.headings[column] for column in table.columns if column not in _COLUMNS]

@@ -18,6 +18,9 @@ from viscontact.identification.force_curve import ForceCurve
 #: Suffixes of the files that afmformats reads, without those of tables.
 INSTRUMENT_FILES = (".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".h5", ".ibw")
 
+# Texts with metadata in comments, as afmformats writes them: other tables have this suffix, too.
+_EXPORTED, _METADATA, _FIRST_BYTES = ".tab", b"BEGIN METADATA", 10_000
+
 _NUMBERED = re.compile(r"(?P<file>.+)#(?P<number>\d+)")
 # The position that a sensor has measured comes before the one that was set at the piezo.
 _POSITIONS = ("height (measured)", "height (piezo)")
@@ -32,8 +35,17 @@ def split_number(path: Path) -> tuple[Path, int | None]:
 
 
 def is_instrument_file(path: Path) -> bool:
-    """True for the name of a file of an instrument, with or without the number of a curve."""
-    return split_number(path)[0].suffix.lower() in INSTRUMENT_FILES
+    """True for a file of an instrument, with or without the number of a curve."""
+    file = split_number(path)[0]
+    return file.suffix.lower() in INSTRUMENT_FILES or _is_exported_curve(file)
+
+
+def _is_exported_curve(file: Path) -> bool:
+    """True for a text as afmformats exports it: names in a comment, in SI units, and metadata."""
+    if file.suffix.lower() != _EXPORTED or not file.is_file():
+        return False
+    with file.open("rb") as opened:
+        return _METADATA in opened.read(_FIRST_BYTES)
 
 
 def read_force_curve(

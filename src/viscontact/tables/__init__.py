@@ -1,9 +1,10 @@
 """Measured tables: CSV files and spreadsheets whose header names columns and units."""
 
+from viscontact.tables.given_columns import GivenColumns
 from viscontact.tables.lines import read_line
 from viscontact.tables.names import QUANTITIES
 from viscontact.tables.reader import read_table
-from viscontact.tables.rows import read_rows
+from viscontact.tables.rows import read_plain, read_rows, read_source
 from viscontact.tables.sheets import is_spreadsheet, split_sheet
 from viscontact.tables.table import Table
 from viscontact.tables.text import (
@@ -16,13 +17,16 @@ from viscontact.tables.text import (
 
 __all__ = [
     "QUANTITIES",
+    "GivenColumns",
     "Row",
     "Table",
     "decimal_number",
     "is_spreadsheet",
     "looks_like_number",
     "read_line",
+    "read_plain",
     "read_rows",
+    "read_source",
     "read_table",
     "read_text",
     "require_file",

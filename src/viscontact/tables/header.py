@@ -96,13 +96,10 @@ def read_header(
     if in_two_rows:
         units = (*rows[1].cells, *[""] * len(cells))
         headings = [
-            _Heading(h.text, h.name, unit.strip("[]() "), rows[1].line, h.stress)
-            for h, unit in zip(headings, units, strict=False)
+            _with_unit(heading, unit.strip("[]() "), rows[1].line)
+            for heading, unit in zip(headings, units, strict=False)
         ]
-    meanings = [
-        _by_unit(heading, stated)
-        for heading, stated in zip(headings, _meanings(source, headings, columns), strict=True)
-    ]
+    meanings = _meanings(source, headings, columns)
     found = tuple(
         Column(place, heading.text, stated, _scale(source, heading, stated), heading.stress)
         for place, (heading, stated) in enumerate(zip(headings, meanings, strict=True))
@@ -110,8 +107,8 @@ def read_header(
     )
     found, level = _at_stress(source, found, stress)
     read = {column.place for column in found}
-    left = tuple(heading.text for place, heading in enumerate(headings) if place not in read)
-    _require_some(source, found, left)
+    left = tuple(h.text for place, h in enumerate(headings) if h.text and place not in read)
+    _require_some(source, rows[0].line, found, left)
     found = tuple(_settle_meaning(source, column, found) for column in found)
     _require_once(source, found)
     return Header(found, left, len(cells), 2 if in_two_rows else 1, level)
@@ -121,7 +118,7 @@ def _require_names(source: str, row: Row) -> None:
     if any(looks_like_number(cell) for cell in row.cells):
         raise ValueError(
             f"{source}:{row.line}: there is no header; the first row names columns and units, as "
-            "'time [s], creep_compliance [1/MPa]'"
+            "'time [s], creep_compliance [1/MPa]'; the names of all columns can be given in columns"
         )
 
 
@@ -144,6 +141,20 @@ def _at_stress(
     return tuple(column for column in columns if column.stress in (None, level)), level
 
 
+def quantity_named(cell: str, columns: Mapping[str, str | None]) -> str | None:
+    """Quantity that the text of a heading names, by itself or by `columns`; None if it names none.
+
+    >>> quantity_named("Zeit [min]", {}), quantity_named("u", {"u": "approach"})
+    ('time', 'approach')
+    """
+    found = _heading(cell, 0)
+    for name in (found.text, found.name):
+        if name in columns:
+            return columns[name]
+    stated = _by_unit(found, meaning(found.name))
+    return None if stated is None else stated.quantity
+
+
 def _heading(text: str, line: int) -> _Heading:
     name, stress = split_stress(text)
     if stress is not None:
@@ -164,8 +175,18 @@ def _unit_of(text: str, line: int) -> _Heading:
 
 
 def _are_units(headings: list[_Heading], cells: tuple[str, ...]) -> bool:
-    """True if the second row holds units: no unit in the first, and no numbers."""
-    return all(h.unit is None for h in headings) and not any(map(looks_like_number, cells))
+    """True if the second row holds units: it has no numbers, and a known name above has no unit."""
+    lacking = any(h.unit is None and (not h.name or meaning(h.name)) for h in headings)
+    without = lacking or all(h.unit is None for h in headings)
+    return without and not any(map(looks_like_number, cells))
+
+
+def _with_unit(heading: _Heading, unit: str, line: int) -> _Heading:
+    """Heading with the unit of the second row, unless it has one and the row none."""
+    if heading.unit is not None and not unit:
+        return heading
+    name = heading.text if heading.unit is not None else heading.name
+    return _Heading(heading.text, name, unit, line, heading.stress)
 
 
 def _meanings(
@@ -180,7 +201,8 @@ def _meanings(
         if not any(heading in (h.text, h.name) for h in headings):
             found = ", ".join(repr(h.text) for h in headings)
             raise ValueError(f"columns: {source} has no column {heading!r}; there are {found}")
-    meant = [_meaning(source, heading, given) for heading in headings]
+    meant = [_by_unit(h, _meaning(source, h, given)) for h in headings]
+    meant = _without_idle_moduli(meant)
     if all(each is None or each.quantity in _OF_CREEP_TEST for each in meant):
         return meant
     named = {heading for heading, quantity in given.items() if quantity in ("strain", "stress")}
@@ -190,10 +212,25 @@ def _meanings(
     ]
 
 
+def _without_idle_moduli(meant: list[Meaning | None]) -> list[Meaning | None]:
+    """Meanings without |G*| and the phase angle where storage and loss are there, or one lacks."""
+    found = {each.quantity for each in meant if each is not None}
+    has_loss = bool(found & {"loss_modulus", "loss_tangent"})
+    idle = set()
+    if "storage_modulus" in found or ("phase_angle" not in found and "loss_tangent" not in found):
+        idle.add("complex_modulus")
+    if has_loss or not found & {"storage_modulus", "complex_modulus"}:
+        idle.add("phase_angle")
+    return [None if each is not None and each.quantity in idle else each for each in meant]
+
+
 def _by_unit(heading: _Heading, stated: Meaning | None) -> Meaning | None:
-    """Meaning of a heading; a deflection in volts is the signal of a photodiode."""
-    is_signal = stated is not None and stated.quantity == "deflection"
-    return Meaning("signal") if is_signal and heading.unit in ("V", "mV") else stated
+    """Meaning of a heading; a deflection in volts is a signal, and a δ in degrees a phase."""
+    if stated is not None and stated.quantity == "deflection" and heading.unit in ("V", "mV"):
+        return Meaning("signal")
+    if heading.name.strip() == "δ" and heading.unit in ("°", "deg", "rad", "mrad"):
+        return Meaning("phase_angle")
+    return stated
 
 
 def _is_of_creep_test(stated: Meaning | None) -> bool:
@@ -269,12 +306,19 @@ def _angular(quantity: str, unit: str) -> UnitScale:
     return UnitScale(factor)
 
 
-def _require_some(source: str, found: tuple[Column, ...], left: tuple[str, ...]) -> None:
-    if not found:
-        raise ValueError(
-            f"{source}: none of the columns {', '.join(map(repr, left))} is known; names are e.g. "
-            f"{', '.join(QUANTITIES)}, each with its unit, as 'time [s]'"
-        )
+def _require_some(source: str, line: int, found: tuple[Column, ...], left: tuple[str, ...]) -> None:
+    if found:
+        return
+    listed = ", ".join(map(repr, left))
+    where = (
+        f"none of the columns {listed} is known"
+        if line == 1
+        else f"no line names a known quantity; line {line} looks most like a heading, with {listed}"
+    )
+    raise ValueError(
+        f"{source}: {where}; names are e.g. {', '.join(QUANTITIES)}, each with its unit, as "
+        "'time [s]'; the names of all columns can be given in columns"
+    )
 
 
 def _settle_meaning(source: str, column: Column, columns: tuple[Column, ...]) -> Column:

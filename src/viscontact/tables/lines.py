@@ -7,7 +7,7 @@ from os import PathLike
 from pathlib import Path
 
 from viscontact.tables.reader import read_table
-from viscontact.tables.rows import read_rows
+from viscontact.tables.rows import read_source
 
 #: Signs of the levels: a drop is positive downwards, a measured height upwards.
 _LEVELS = {"drop": 1.0, "height": -1.0}
@@ -43,7 +43,8 @@ def read_line(path: str | PathLike[str], along: str) -> tuple[list[float], list[
     ([0.0, 0.004], [-1.5e-06, 2e-06])
     """
     path = Path(path)
-    names = {cell: _name(cell) for cell in read_rows(path)[0].cells if cell}
+    heading = read_source(path, lambda cell: _name(cell) in (along, *_LEVELS)).found.rows[0]
+    names = {cell: _name(cell) for cell in heading.cells if cell}
     levels = [name for name in names.values() if name in _LEVELS]
     if along not in names.values() or len(levels) != 1:
         raise ValueError(

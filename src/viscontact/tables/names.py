@@ -20,6 +20,8 @@ QUANTITIES: dict[str, str | None] = {
     "storage_modulus": "pressure",
     "loss_modulus": "pressure",
     "loss_tangent": None,
+    "complex_modulus": "pressure",
+    "phase_angle": "angle",
     "temperature": "temperature",
     "set": None,
     "shift_factor": None,
@@ -73,6 +75,8 @@ _SYMBOLS = {
     "E'": Meaning("storage_modulus", "uniaxial"),
     "G''": Meaning("loss_modulus", "shear"),
     "E''": Meaning("loss_modulus", "uniaxial"),
+    **dict.fromkeys(("G*", "|G*|"), Meaning("complex_modulus", "shear")),
+    **dict.fromkeys(("E*", "|E*|"), Meaning("complex_modulus", "uniaxial")),
     **dict.fromkeys(("F", "P"), Meaning("force")),
     **dict.fromkeys(("d", "h", "δ"), Meaning("approach")),
 }
@@ -124,6 +128,15 @@ _WORDS = {
         ("loss_tangent", "loss_factor", "verlustfaktor", "tan_delta", "tandelta", "tan(delta)"),
         Meaning("loss_tangent"),
     ),
+    **dict.fromkeys(
+        ("complex_modulus", "absolute_modulus", "dynamic_modulus", "komplexer_modul"),
+        Meaning("complex_modulus"),
+    ),
+    "complex_shear_modulus": Meaning("complex_modulus", "shear"),
+    **dict.fromkeys(
+        ("phase_angle", "phase_shift", "phase_shift_angle", "loss_angle", "delta", "phasenwinkel"),
+        Meaning("phase_angle"),
+    ),
     **dict.fromkeys(("tan_d", "tan_δ", "tanδ", "tan(δ)"), Meaning("loss_tangent")),
     **dict.fromkeys(("set", "sets"), Meaning("set")),
     **dict.fromkeys(("shift_factor", "at", "a_t"), Meaning("shift_factor")),
@@ -150,14 +163,33 @@ _WORDS = {
     },
 }  # fmt: skip
 
+_LONGEST_NAME = 100
 _PRIMES = str.maketrans({"’": "'", "′": "'", "‘": "'", "`": "'", "´": "'", "″": "''", '"': "''"})
 # "E(t)" is E; the argument is redundant.
 _ARGUMENT = re.compile(r"\s*\((?:t|f|ω|w|omega|time|t,\s*T)\)\s*$")
 
 
+# "Storage modulus G'", "Speichermodul (G')": the symbol repeats the words.
+_WITH_SYMBOL = re.compile(r"(?P<words>.+?)[\s,]+(?P<symbol>\S+)")
+
+
 def meaning(name: str) -> Meaning | None:
     """Meaning of a column's name without its unit; None if it is unknown."""
     plain = _ARGUMENT.sub("", name.translate(_PRIMES).strip())
+    found = _single(plain)
+    if found is not None or len(plain) > _LONGEST_NAME:
+        return found
+    match = _WITH_SYMBOL.fullmatch(plain)
+    if match is None:
+        return None
+    words, symbol = _single(match["words"]), _single(match["symbol"].strip("()[]"))
+    if words is None or symbol is None or words.quantity != symbol.quantity:
+        return None
+    return symbol if words.data in (None, symbol.data) else None
+
+
+def _single(plain: str) -> Meaning | None:
+    """Meaning of a symbol or of words."""
     return _SYMBOLS.get(plain) or _WORDS.get(re.sub(r"[\s_-]+", "_", plain).lower())
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from os import PathLike
 from pathlib import Path
 
@@ -11,18 +11,22 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.tables.creep_tests import with_creep_compliance
-from viscontact.tables.header import Column, Header, read_header
+from viscontact.tables.given_columns import GivenColumns, parted_columns, with_given_heading
+from viscontact.tables.header import Column, Header, quantity_named, read_header
+from viscontact.tables.headings import FoundTable
 from viscontact.tables.isochronous import isochronous_table
-from viscontact.tables.rows import read_source
+from viscontact.tables.oscillations import with_moduli
+from viscontact.tables.rows import read_plain, read_source
 from viscontact.tables.table import Table, read_only
 from viscontact.tables.text import Row, decimal_number
 
 
 def read_table(
     path: str | PathLike[str],
-    columns: Mapping[str, str | None] | None = None,
+    columns: GivenColumns = None,
     *,
     stress: float | None = None,
+    wanted: Collection[str] = (),
 ) -> Table:
     r"""Read a measured table from a CSV file or a spreadsheet.
 
@@ -31,14 +35,19 @@ def read_table(
     path : path-like
         The file: text, or a spreadsheet (XLSX, XLSM, XLS, ODS), with its sheet behind
         ``#`` (``creep.xlsx#Sheet2``) or the first sheet that holds a table. The header names
-        columns and units in one row (``time [s], E' (MPa)``) or two (names, then units).
-    columns : mapping, optional
+        columns and units in one row (``time [s], E' (MPa)``) or two (names, then units), below
+        any lines of an instrument or in a comment.
+    columns : mapping or str, optional
         Meaning of columns with unknown names: heading to a quantity (a key of
         `viscontact.tables.names.QUANTITIES`, or ``"frequency"``), or to None to leave the
-        column out.
+        column out; as text ``"E_1=relaxation_modulus, remark="``. Or names of all columns, for a
+        file without a header or in place of its own: ``"time [s], , force [nN]"``, with nothing
+        for a column that is not read.
     stress : float, optional
         Stress of a creep test that is given as strain, where neither a heading nor a column
         states it, or the one that is meant where there are several [Pa].
+    wanted : collection of str, optional
+        Quantities for which the table is read: a sheet that has one of them is preferred.
 
     Returns
     -------
@@ -54,9 +63,12 @@ def read_table(
 
     Notes
     -----
-    Text may be UTF-8 (with or without a byte-order mark), UTF-16, Windows-1252 or Latin-1; cells
-    are separated by tabs, semicolons or commas; numbers may have decimal commas where the
-    separator is none. Frequencies arrive in rad/s, whether they are written in Hz or so;
+    Text may be UTF-8 or UTF-16 (with or without a byte-order mark), Windows-1252 or Latin-1; cells
+    are separated by tabs, semicolons, commas, bars or blanks; numbers may have decimal commas where
+    the separator is none. The header is the row with numbers below it that names most quantities.
+    Where the same header comes again, as rheometers write one for each interval, the rows below it
+    belong to the same table. Absolute modulus and phase angle arrive as storage and loss modulus.
+    Frequencies arrive in rad/s, whether they are written in Hz or so;
     temperatures in K; logarithms of shift factors (``log_aT``, decimal, or ``ln_aT``) as
     a_T. A creep modulus E_c arrives as the creep compliance 1/E_c. The strain of a creep test
     arrives as strain over stress; its stress is in its heading (``strain at 5 MPa [%]``), in a
@@ -76,25 +88,63 @@ def read_table(
     >>> table.data, [round(float(values[0]), 6) for values in table.columns.values()]
     ('uniaxial', [0.628319, 8097200000.0, 223.15])
     """
-    path, rows = read_source(Path(path))
+    meanings, names = parted_columns(columns)
+    path, rows = _table_rows(Path(path), meanings, names, frozenset(wanted))
     isochronous = isochronous_table(path, rows, stress)
     if isochronous is not None:
         return isochronous
-    header = read_header(path.name, rows[:2], columns or {}, stress)
+    header = read_header(path.name, rows[:2], meanings, stress)
     body = rows[header.rows :]
     if not body:
         raise ValueError(f"{path.name} has a header and no rows; export the measured values too")
     values = _values(path.name, header, body)
-    names = [column.quantity for column in header.columns]
+    quantities = [column.quantity for column in header.columns]
     table = Table(
         source=path,
-        columns={n: read_only(v.copy()) for n, v in zip(names, values.T, strict=True)},
+        columns={n: read_only(v.copy()) for n, v in zip(quantities, values.T, strict=True)},
         data=header.data,
         headings={c.quantity: c.heading for c in header.columns},
         lines=np.array([row.line for row in body], dtype=np.int64),
         left_out=header.left_out,
     )
-    return with_creep_compliance(table, header.stress)
+    return with_creep_compliance(with_moduli(table), header.stress)
+
+
+def _table_rows(
+    path: Path,
+    meanings: Mapping[str, str | None],
+    names: tuple[str, ...],
+    wanted: frozenset[str],
+) -> tuple[Path, list[Row]]:
+    """Path with the sheet that is read, and the rows of its table from the heading on."""
+
+    def known(cell: str) -> bool:
+        return quantity_named(cell, meanings) is not None
+
+    def suits(found: FoundTable) -> bool:
+        return not wanted.isdisjoint(quantity_named(c, meanings) for c in found.rows[0].cells)
+
+    if names:
+        path, text = read_plain(path)
+        return path, with_given_heading(path.name, text.rows, names, known)
+    source = read_source(path, known, suits if wanted else None)
+    if source.found.known == 0 and source.others:
+        raise ValueError(
+            f"{source.path.name}: holds no table with a known heading; "
+            f"{_listed_sheets(source.others)}"
+        )
+    if source.found.further:
+        raise ValueError(
+            f"{source.path.name}: has several tables, with headings in the lines "
+            f"{', '.join(map(str, source.found.further))}; save the one that is meant in a file "
+            "of its own"
+        )
+    return source.path, source.found.rows
+
+
+def _listed_sheets(names: tuple[str, ...]) -> str:
+    listed = ", ".join(map(repr, names))
+    return f"the sheet {listed} does" if len(names) == 1 else f"the sheets {listed} do"
 
 
 def _values(source: str, header: Header, rows: list[Row]) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 import zipfile
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,8 +57,11 @@ def is_spreadsheet(path: Path) -> bool:
     return split_sheet(path)[0].suffix.lower() in SPREADSHEETS
 
 
-def read_sheet(path: Path) -> Sheet:
-    """Read the named sheet of a spreadsheet, or the first with a table; rows count from 1."""
+def read_sheet(path: Path, holds: Callable[[list[Row]], bool] | None = None) -> Sheet:
+    """Read the named sheet of a spreadsheet, or the first with a table; rows count from 1.
+
+    `holds` tells whether rows are the wanted table; without it, numbers below a row are one.
+    """
     # Titles above the table, and empty columns before and behind it, are left out.
     from python_calamine import CalamineError, CalamineWorkbook  # slow to load, and rarely needed
 
@@ -66,7 +70,7 @@ def read_sheet(path: Path) -> Sheet:
     _refuse_far_cells(file)
     try:
         with CalamineWorkbook.from_path(file) as book:
-            return _choose_sheet(file.name, book, wanted)
+            return _choose_sheet(file.name, book, wanted, holds or _holds_table)
     except (CalamineError, OSError) as error:
         raise ValueError(
             f"{file.name}: cannot be read as a spreadsheet: {error}; open it and save it again, "
@@ -74,7 +78,9 @@ def read_sheet(path: Path) -> Sheet:
         ) from error
 
 
-def _choose_sheet(name: str, book: CalamineWorkbook, wanted: str | None) -> Sheet:
+def _choose_sheet(
+    name: str, book: CalamineWorkbook, wanted: str | None, holds: Callable[[list[Row]], bool]
+) -> Sheet:
     if wanted is not None:
         if wanted not in book.sheet_names:
             near = difflib.get_close_matches(wanted, book.sheet_names, n=1)
@@ -84,16 +90,26 @@ def _choose_sheet(name: str, book: CalamineWorkbook, wanted: str | None) -> Shee
         rows = _rows(book, wanted)
         if not rows:
             raise ValueError(f"{name}#{wanted} is empty")
-        return Sheet(wanted, rows)
+        others = () if holds(rows) else _holding(_shown_sheets(book), holds)
+        return Sheet(wanted, rows, tuple(each for each in others if each != wanted))
+    read = _shown_sheets(book)
+    if not read:
+        raise ValueError(f"{name} is empty; the first row of a table names columns and units")
+    found = _holding(read, holds)
+    first = (*found, *_holding(read, _holds_table), *read)[0]
+    return Sheet(first, read[first], tuple(each for each in found if each != first))
+
+
+def _shown_sheets(book: CalamineWorkbook) -> dict[str, list[Row]]:
+    """Rows of the sheets that are neither hidden nor empty."""
     shown = [
         each.name for each in book.sheets_metadata if each.visible == type(each.visible).Visible
     ]
-    read = {each: rows for each in shown if (rows := _rows(book, each))}
-    if not read:
-        raise ValueError(f"{name} is empty; the first row of a table names columns and units")
-    first = next((each for each, rows in read.items() if _holds_table(rows)), next(iter(read)))
-    others = tuple(each for each in read if each != first and _holds_table(read[each]))
-    return Sheet(first, read[first], others)
+    return {each: rows for each in shown if (rows := _rows(book, each))}
+
+
+def _holding(sheets: dict[str, list[Row]], holds: Callable[[list[Row]], bool]) -> tuple[str, ...]:
+    return tuple(name for name, rows in sheets.items() if holds(rows))
 
 
 def _holds_table(rows: list[Row]) -> bool:

@@ -1,20 +1,18 @@
-"""Text files of instruments: encoding, separators, rows of cells, and numbers in them."""
+"""Text files of instruments: encoding, rows of cells, and numbers in them."""
 
 from __future__ import annotations
 
-import csv
 import difflib
-import io
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
-# Upper limits on a table of measured points; larger records are to be thinned out.
-_LARGEST_FILE, _MOST_ROWS = 50_000_000, 1_000_000
+# Upper limit on a file of measured points; larger records are to be thinned out.
+_LARGEST_FILE = 50_000_000
+# Characters that decide on the encoding of a text without a byte-order mark.
+_SAMPLED = 2000
 
-_COMMENTS = ("#", "%", "//")
 _BYTE_ORDER_MARKS = ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"", "utf-8-sig"))
 # Spreadsheets under another name: packed (xlsx, also those of other programs) and older (xls).
 _WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
@@ -29,26 +27,6 @@ class Row:
 
     line: int
     cells: tuple[str, ...]
-
-
-def rows_of_text(path: Path, example: str) -> list[Row]:
-    """Rows of a text file that are neither empty nor comments; `example` is for messages."""
-    text = read_text(path)
-    lines = [line for line in text.splitlines() if line.strip()]
-    first = next((line for line in lines if not _is_comment(line)), "")
-    rows: list[Row] = []
-    try:
-        for row in _split_rows(text, _separator(first)):
-            rows.append(row)
-            if len(rows) > _MOST_ROWS:
-                raise ValueError(
-                    f"{path.name}: more than {_MOST_ROWS} rows; keep fewer of the measured points"
-                )
-    except csv.Error as error:
-        raise ValueError(f"{path.name}: cannot be read as CSV: {error}") from error
-    if not rows:
-        raise ValueError(f"{path.name} is empty; a table begins with e.g. {example!r}")
-    return rows
 
 
 def require_file(path: str | PathLike[str]) -> Path:
@@ -90,7 +68,7 @@ def read_text(path: Path) -> str:
     Parameters
     ----------
     path : Path
-        A file of no more than 50 MB in UTF-8, UTF-16 with a byte-order mark, Windows-1252 or
+        A file of no more than 50 MB in UTF-8, UTF-16, Windows-1252 or
         Latin-1.
 
     Returns
@@ -191,8 +169,10 @@ def _nearest(path: Path) -> str:
 
 def _decode(data: bytes) -> str | None:
     marked = next(encoding for mark, encoding in _BYTE_ORDER_MARKS if data.startswith(mark))
+    if marked == "utf-8-sig":
+        marked = _unmarked_utf_16(data) or marked
     # Latin-1 last: it accepts all bytes.
-    encodings = (marked,) if marked == "utf-16" else (marked, "cp1252", "latin-1")
+    encodings = (marked,) if marked.startswith("utf-16") else (marked, "cp1252", "latin-1")
     for encoding in encodings:
         try:
             return data.decode(encoding)
@@ -201,17 +181,10 @@ def _decode(data: bytes) -> str | None:
     return None
 
 
-def _separator(header: str) -> str:
-    # A semicolon takes precedence over a comma, which may then be part of names and numbers.
-    return next((mark for mark in "\t;," if mark in header), ",")
-
-
-def _split_rows(text: str, separator: str) -> Iterator[Row]:
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
-    for cells in reader:
-        if any(cell.strip() for cell in cells) and not _is_comment(cells[0]):
-            yield Row(reader.line_num, tuple(cell.strip() for cell in cells))
-
-
-def _is_comment(line: str) -> bool:
-    return line.lstrip().startswith(_COMMENTS)
+def _unmarked_utf_16(data: bytes) -> str | None:
+    """Byte order of a text in UTF-16 without a mark: every other byte is mostly zero."""
+    half = len(data[: 2 * _SAMPLED]) // 2
+    for offset, encoding in ((1, "utf-16-le"), (0, "utf-16-be")):
+        if data[offset : 2 * half : 2].count(0) > 0.8 * half > 0:
+            return encoding
+    return None

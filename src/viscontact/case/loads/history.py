@@ -47,6 +47,11 @@ class History(Load):
         "approach [um] in place of the force",
         examples=["load.csv"],
     )
+    columns: str | None = Field(
+        default=None,
+        description="names of all columns of a table without a header, or in place of its own",
+        examples=["time [s], force [N]"],
+    )
     sentences: Sentences | None = None
 
     @property
@@ -64,6 +69,8 @@ class History(Load):
             )
         if self.file is not None:
             return self._from_file(Path(self.file))
+        if self.columns is not None:
+            raise ValueError("columns: goes with file; leave it out")
         if self.mean_pressure is not None:
             return self._from_pressures(area)
         if self.sentences is not None:
@@ -103,7 +110,7 @@ class History(Load):
         return _history(*course, self._tail)
 
     def _from_file(self, path: Path) -> LoadHistory:
-        columns = _read_table(path)
+        columns = _read_table(path, self.columns)
         twice = sorted(columns.keys() & self.model_fields_set)
         if twice:
             raise ValueError(f"{twice[0]} is given in the case and in {path.name}; give it once")
@@ -138,14 +145,15 @@ def _history(
     return ApproachHistory(times, levels, **tilts)
 
 
-def _read_table(path: Path) -> dict[str, list[float]]:
+def _read_table(path: Path, names: str | None) -> dict[str, list[float]]:
     """Read a load history from a CSV file."""
     try:
-        table = read_table(path)
+        table = read_table(path, names, wanted=("force", "approach"))
         _require_columns(table)
         _refuse_decrease(table)
     except ValueError as error:
-        raise ValueError(f"file: {error}") from error
+        at = "" if str(error).startswith("columns: ") else "file: "
+        raise ValueError(f"{at}{error}") from error
     values = {name: column.tolist() for name, column in table.columns.items()}
     values["times"] = values.pop("time")
     return values

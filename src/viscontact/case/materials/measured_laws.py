@@ -75,9 +75,10 @@ class TableLaw(FromFile):
         description="stress of a creep test given as strain; of several tests, the one to use",
         examples=["5 MPa"],
     )
-    columns: dict[str, str | None] = Field(
+    columns: dict[str, str | None] | str = Field(
         default={},
-        description="quantities of columns with unclear headings, e.g. 'E: relaxation_modulus'",
+        description="quantities of columns with unclear headings, e.g. 'E: relaxation_modulus'; or "
+        "names of all columns, where the table has none, as 'time [s], G [MPa]'",
         examples=[{"E_1": "relaxation_modulus", "remark": None}],
     )
 
@@ -101,13 +102,18 @@ class TableLaw(FromFile):
     def table(self) -> Table:
         """The table, or its chosen set, checked against the other keys."""
         try:
-            table = self._chosen_columns(read_table(self.file, self.columns, stress=self.stress))
+            table = self._chosen_columns(self._whole_table)
             table = table.ascending("time") if "time" in table else table
         except ValueError as error:
             at = "" if str(error).startswith("columns: ") else "file: "
             raise ValueError(f"{at}{error}") from error
         self._require_test(table)
         return table
+
+    @property
+    def _whole_table(self) -> Table:
+        wanted = (*_STATING, "modulus", "creep_modulus", "strain", "stress", "complex_modulus")
+        return read_table(self.file, self.columns, stress=self.stress, wanted=wanted)
 
     @property
     def _quantity(self) -> str:

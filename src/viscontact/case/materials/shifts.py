@@ -59,7 +59,7 @@ class Factors(Rule):
     def build(self) -> laws.Shift:
         """Return the rule, linear in ln a_T between the rows."""
         try:
-            table = read_table(self.file)
+            table = read_table(self.file, wanted=("shift_factor",))
             order = np.argsort(table["temperature"], kind="stable")
             temperatures, factors = table["temperature"][order], table["shift_factor"][order]
             return laws.TabulatedShift(temperatures.tolist(), factors.tolist())

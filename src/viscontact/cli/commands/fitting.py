@@ -64,6 +64,15 @@ Stress = Annotated[
         "the one at this stress is read.",
     ),
 ]
+Columns = Annotated[
+    str | None,
+    typer.Option(
+        "--columns",
+        metavar="NAMES",
+        help="Names of all columns of a table without a header, as 'time [s], force [nN]', with "
+        "nothing for one that is not read; or the quantities of some, as 'u=approach'.",
+    ),
+]
 Reference = Annotated[
     str | None,
     typer.Option(
@@ -207,6 +216,7 @@ def fit(
     fluid: Fluid = False,
     weight: Weight = None,
     stress: Stress = None,
+    columns: Columns = None,
     reference: Reference = None,
     temperature: Temperature = None,
     indenter: Body = None,

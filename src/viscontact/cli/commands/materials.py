@@ -64,6 +64,15 @@ Stress = Annotated[
         "the one at this stress is read.",
     ),
 ]
+Columns = Annotated[
+    str | None,
+    typer.Option(
+        "--columns",
+        metavar="NAMES",
+        help="Names of all columns of a table without a header, as 'time [s], G [MPa]', with "
+        "nothing for one that is not read; or the quantities of some, as 'E_1=relaxation_modulus'.",
+    ),
+]
 SetNumber = Annotated[
     float | None, typer.Option("--set", metavar="N", help="Number of the set in a table.")
 ]
@@ -103,6 +112,7 @@ def material(
     bulk_modulus: BulkModulus = None,
     number: SetNumber = None,
     stress: Stress = None,
+    columns: Columns = None,
     modulus_unit: ModulusUnit = None,
     time_unit: TimeUnit = None,
     temperature_unit: TemperatureUnit = None,
@@ -117,6 +127,7 @@ def material(
         bulk_modulus=bulk_modulus,
         set=number,
         stress=stress,
+        columns=columns,
         modulus_unit=modulus_unit,
         time_unit=time_unit,
         temperature_unit=temperature_unit,

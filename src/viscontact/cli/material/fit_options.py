@@ -30,6 +30,7 @@ class FitArguments:
     law: str
     weight: Sequence[str] = ()
     stress: str | None = None
+    columns: str | None = None
     spring_constant: str | None = None
     sensitivity: str | None = None
 
@@ -111,8 +112,12 @@ class FitArguments:
 
     def instrument_curve(self, file: Path) -> ForceCurve:
         """Return a force curve of a file of an instrument."""
-        if self.sensitivity is not None or self.stress is not None:
-            option = "--stress" if self.sensitivity is None else "--sensitivity"
+        idle = {
+            "--stress": self.stress,
+            "--sensitivity": self.sensitivity,
+            "--columns": self.columns,
+        }
+        for option in (option for option, given in idle.items() if given is not None):
             raise ValueError(f"{file.name}: {option} does not go with this file; leave it out")
         return read_force_curve(file, spring_constant=self.stiffness())
 

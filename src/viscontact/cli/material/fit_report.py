@@ -16,7 +16,7 @@ from viscontact.bodies.laws import WLF
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.table_fit import fit_measured, measured_columns
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
-from viscontact.cli.material.table_choice import say_chosen
+from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.identification import (
@@ -37,6 +37,12 @@ from viscontact.tables import Table, read_table
 from viscontact.units.temperatures import in_celsius
 
 _ROOM = 293.15  # [K]
+# Quantities one of which a table has that can be fitted.
+_FITTED = (
+    *("storage_modulus", "complex_modulus", "relaxation_modulus", "modulus"),
+    *("creep_compliance", "creep_modulus", "strain", "stress"),
+    *("force", "approach", "position", "deflection", "signal"),
+)
 
 
 def report_fit(
@@ -60,7 +66,7 @@ def report_fit(
 
 
 def _from_table(file: Path, arguments: FitArguments) -> tuple[str, DeferredFigure]:
-    table = _read_table(file, arguments.stress)
+    table = _read_table(file, arguments)
     say_chosen(file, table)
     try:
         return _fit_table(table, arguments)
@@ -196,11 +202,12 @@ def _warnings_said(worded: Callable[[Exception | str], str] = str) -> Iterator[N
         say(f"warning: {worded(warning.message)}")
 
 
-def _read_table(file: Path, stress: str | None) -> Table:
+def _read_table(file: Path, arguments: FitArguments) -> Table:
     try:
-        return read_table(file, stress=read_stress(stress))
+        stress = read_stress(arguments.stress)
+        return read_table(file, arguments.columns, stress=stress, wanted=_FITTED)
     except (ValueError, OSError) as error:
-        refuse(str(error))
+        refuse(as_option(str(error)))
 
 
 def _with_lines(fit: Fit, table: Table) -> Fit:

@@ -12,7 +12,7 @@ from viscontact.bodies.materials.cards import is_card
 from viscontact.case import CaseError, read_material, read_section, shipped_material
 from viscontact.cli.material.fit_options import read_stress
 from viscontact.cli.material.named_material import MaterialDisplay
-from viscontact.cli.material.table_choice import say_chosen
+from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.tables import Table, is_spreadsheet, read_table, read_text
 
@@ -33,6 +33,7 @@ class MaterialOptions:
     bulk_modulus: str | None = None
     set: float | None = None
     stress: str | None = None
+    columns: str | None = None
     modulus_unit: str | None = None
     time_unit: str | None = None
     temperature_unit: str | None = None
@@ -46,7 +47,7 @@ class MaterialOptions:
 
 def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -> MaterialDisplay:
     """Return a material by its shipped name or from a file; refuse options without effect."""
-    idle = ["data", "set", "stress", "name", "poisson_ratio", "bulk_modulus"]
+    idle = ["data", "set", "stress", "columns", "name", "poisson_ratio", "bulk_modulus"]
     units = [] if writes else ["modulus_unit", "time_unit", "temperature_unit"]
     if which in materials.names():
         _refuse_unused(which, "a shipped material", typed, [*idle, *units])
@@ -58,7 +59,7 @@ def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -
         _refuse_unused(which, "a table", typed, ["name", *units])
         return _from_table(path, typed)
     if kind == "card":
-        _refuse_unused(which, "a card", typed, ["data", "set", "stress"])
+        _refuse_unused(which, "a card", typed, ["data", "set", "stress", "columns"])
         return _from_card(path, typed)
     _refuse_unused(which, "a case file", typed, [*idle, *units])
     try:
@@ -98,10 +99,12 @@ def _kind(path: Path) -> str:
 
 def _from_table(path: Path, typed: MaterialOptions) -> MaterialDisplay:
     try:
-        table = read_table(path, stress=read_stress(typed.stress))
+        table = read_table(
+            path, typed.columns, stress=read_stress(typed.stress), wanted=_QUANTITIES
+        )
         quantity = _quantity(table)
     except ValueError as error:
-        refuse(str(error))
+        refuse(as_option(str(error)))
     say_chosen(path, table)
     data = typed.data or table.data
     if data is None:
@@ -109,7 +112,7 @@ def _from_table(path: Path, typed: MaterialOptions) -> MaterialDisplay:
             f"{path.name}: the headings do not say what kind of test it is; add --data shear, "
             "--data uniaxial or --data deviatoric"
         )
-    volume = typed.given("poisson_ratio", "bulk_modulus", "set", "stress")
+    volume = typed.given("poisson_ratio", "bulk_modulus", "set", "stress", "columns")
     section = {"law": "table", "file": str(path), "quantity": quantity, "data": data, **volume}
     return MaterialDisplay(str(path), _read_section(path, section).build())
 
@@ -167,8 +170,7 @@ def _in_options(path: Path, line: str) -> str:
     why = why.replace("say which with set:", "say which with --set:")
     why = why.replace(", and give file: law.yaml in place of law: table", "")
     why = why.replace("; name one of ", "; choose one with --name: ").replace("name=", "--name")
-    # Only a case file can name the columns.
-    why = why.replace("with columns=", "in a case file with columns: ")
+    why = as_option(why)
     if "smooth out the noise" in why:
         why += f"; `viscontact fit {path}` does"
     return why if path.name in why else f"{path.name}: {why}"

@@ -1,7 +1,8 @@
-"""Messages on the part of a file that is read as a table."""
+"""Messages on the part of a file that is read as a table, in the words of the command line."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from viscontact.cli.terminal.messages import say
@@ -15,3 +16,17 @@ def say_chosen(file: Path, table: Table) -> None:
         say(f"{file.name}: the sheet {sheet!r} is read; choose another one as {file.name}#SHEET")
     if table.left_out:
         say(f"{table.source.name}: columns left out: {', '.join(table.left_out)}")
+
+
+def as_option(why: str) -> str:
+    """Return a message of the reader of tables in the words of the command line."""
+    # Meanings of columns as Python writes them: columns={'E': 'storage_modulus'}.
+    why = re.sub(r"columns=\{(['\"])(.+?)\1: '?(\w+)'?\}", _typed_meaning, why)
+    why = re.sub(r"^columns: ", "--columns: ", why)
+    return why.replace("with columns=", "with --columns").replace(
+        "can be given in columns", "can be given by --columns 'time [s], ...'"
+    )
+
+
+def _typed_meaning(match: re.Match[str]) -> str:
+    return f"--columns '{match[2]}={'' if match[3] == 'None' else match[3]}'"

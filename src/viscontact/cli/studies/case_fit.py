@@ -13,6 +13,7 @@ from viscontact.cli.studies.execution import Records, performed, write_report
 from viscontact.cli.studies.typed_options import bounds, by_key, case_of, settings_of
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.studies.calibration.fit_case import fit_case
+from viscontact.studies.calibration.record import ContactRecord, read_record
 from viscontact.studies.calibration.result import CaseFit
 
 #: Options of other fits, and of fits to runs, by their parameters.
@@ -78,11 +79,17 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "case": case_of(typed),
         **{name: typed[name] for name in ("drive", "rows", "runs")},
-        "records": typed["files"],
         "change": by_key("--change", typed["change"], remedy, bounds),
         **{name: text if text is None else bounds(text) for name, text in ranges.items()},
         "settings": settings_of(typed["settings"]),
     }
+
+
+def _records(typed: Mapping[str, Any]) -> list[ContactRecord] | list[Path]:
+    """Records of the files; read here if the names of their columns are given."""
+    files: list[Path] = typed["files"]
+    names = typed["columns"]
+    return files if names is None else [read_record(file, names) for file in files]
 
 
 def _fit(typed: Mapping[str, Any], trials: Path) -> CaseFit:
@@ -93,7 +100,7 @@ def _fit(typed: Mapping[str, Any], trials: Path) -> CaseFit:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", AccuracyWarning)  # printed from the notes
-                return fit_case(**arguments, trials=trials, **how)
+                return fit_case(records=_records(typed), **arguments, trials=trials, **how)
         except ValueError:
             if not begun:
                 trials.unlink(missing_ok=True)

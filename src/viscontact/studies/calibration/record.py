@@ -12,7 +12,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Control
 from viscontact.bodies.series_fits.columns import columns_over_time
-from viscontact.tables import read_table
+from viscontact.tables import GivenColumns, read_table
 from viscontact.units.numbers import store
 
 _LEAST_ROWS = 5
@@ -93,9 +93,9 @@ class ContactRecord:
         return ContactRecord(times, means.get("force"), means.get("approach"), self.name)
 
 
-def read_record(path: str | PathLike[str]) -> ContactRecord:
+def read_record(path: str | PathLike[str], names: GivenColumns = None) -> ContactRecord:
     """Read a record: columns time, and force or approach; ValueError names the line."""
-    table = read_table(path)
+    table = read_table(path, names, wanted=("force", "approach"))
     columns = {name: table[name] for name in ("force", "approach") if name in table}
     if not columns:
         raise ValueError(
