@@ -365,3 +365,14 @@ def test_schema_knows_every_kind_of_load_and_spacing() -> None:
     time = defs["Time"]
     assert time["required"] == ["end"]
     assert time["properties"]["spacing"]["enum"] == ["uniform", "log", "adaptive", "cells"]
+
+
+def test_names_of_the_columns_are_given_where_a_history_has_none(tmp_path: Path) -> None:
+    (tmp_path / "bare.csv").write_text("0;0;0\n1;0,5;3\n2;0,5;4\n")
+    load = {"kind": "history", "file": "bare.csv", "columns": "time [s];;force [N]"}
+    found = read(tmp_path, load=load).load
+    assert found.level_at(np.array([0.5, 2.0])).tolist() == [1.5, 4.0]
+    with pytest.raises(CaseError, match=r"load\.columns: 2 names, but bare\.csv has 3 columns"):
+        read(tmp_path, load=load | {"columns": "time [s], force [N]"})
+    with pytest.raises(CaseError, match=r"load\.columns: goes with file"):
+        read(tmp_path, load={"kind": "history", "sentences": "hold for 2 s", "columns": "a"})

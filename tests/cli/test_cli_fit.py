@@ -338,3 +338,25 @@ def test_a_force_curve_without_its_constants_is_refused(last, options, why, tmp_
     tip = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5"]
     assert main(["fit", str(path), *tip, *options]) == 2
     assert why in capsys.readouterr().err
+
+
+def test_names_of_the_columns_are_given_where_a_table_has_none(tmp_path, capsys):
+    bare = written(tmp_path / "bare.csv", ("0", "0", "3000"), np.arange(1, 26), T, E.relaxation(T))
+    body = ["--data", "uniaxial", "--poisson-ratio", "0.4"]
+    for command in ("fit", "material"):
+        options = [command, str(bare), *body]
+        assert main(options) == 2
+        assert "can be given by --columns 'time [s], ...'" in " ".join(
+            capsys.readouterr().err.split()
+        )
+        assert main([*options, "--columns", "time [s], E [Pa]"]) == 2
+        assert "--columns: 2 names, but bare.csv has 3 columns" in capsys.readouterr().err
+    bare.write_text(bare.read_text().partition("\n")[2], encoding="utf-8")
+    for command in ("fit", "material"):
+        assert main([command, str(bare), *body, "--columns", ", time [s], E [Pa]"]) == 0
+        assert "left out" not in capsys.readouterr().err
+    headed = written(tmp_path / "headed.csv", ("time [s]", "stiffness [Pa]"), T, E.relaxation(T))
+    meant = ["--columns", "stiffness=relaxation_modulus"]
+    assert main(["material", str(headed), *body, *meant]) == 0
+    assert main(["material", "pmma-paper", *meant]) == 2
+    assert "to which --columns does not apply" in capsys.readouterr().err

@@ -25,6 +25,8 @@ _LOOSE = (
 )
 _LONGEST_HEADING = 200
 _NO_UNIT = ("", "-", "–", "—", "1", "none")
+# Units as some programs write them.
+_SPELT = {"Sec": "s", "sek": "s", "Sek": "s", "Min": "min", "° C": "degC", "Deg C": "degC"}
 # Stress and strain are those of a creep test if there is nothing else to be measured.
 _OF_CREEP_TEST = ("time", "temperature", "set", "creep_modulus", "strain", "stress")
 
@@ -270,11 +272,12 @@ def _scale(source: str, heading: _Heading, stated: Meaning) -> UnitScale:
             f"{where}: has no unit; write e.g. '{heading.name} [{example}]', or a second row "
             "of units"
         )
+    unit = _SPELT.get(heading.unit, heading.unit)
     try:
         if frequency:
-            return _angular(stated.quantity, heading.unit)
+            return _angular(stated.quantity, unit)
         assert dimension is not None  # only frequencies have none
-        return parse_scale(heading.unit, dimension)
+        return parse_scale(unit, dimension)
     except ValueError as error:
         raise ValueError(f"{where}: {error}") from error
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ Names = Callable[[str], bool]
 
 # Rows from the names to the first numbers: units, and a line of remarks.
 _TO_NUMBERS = 3
+_SIGNAL = re.compile(r"Sig\d+")
 # Words before the columns in comments of instruments: "# columns: time height".
 _LEADING_WORDS = ("columns:", "units:", "fancynames:")
 
@@ -34,10 +36,14 @@ def find_table(rows: list[Row], comments: list[Row], names: Names) -> FoundTable
     Lines above it are left out, as spreadsheets do. Where none names a column, a comment above the
     numbers may; where that does not either, the row above the first numbers is returned.
     """
+    numbers = _first_of_numbers(rows)
+    if numbers is not None:
+        heading = _listed_signals(rows[:numbers], len(rows[numbers].cells))
+        if heading and _count(heading[0], names):
+            return FoundTable([*heading, *rows[numbers:]], _count(heading[0], names))
     best, known = _best_heading(rows, names)
     if known:
         return FoundTable(_joined(rows, best), known, _different(rows, best, names))
-    numbers = next((i for i, row in enumerate(rows) if _is_of_numbers(row)), None)
     if numbers is not None:
         heading = _commented_heading(rows[numbers], comments, names)
         if heading:
@@ -73,20 +79,45 @@ def _stands_above_numbers(rows: list[Row], index: int, names: Names) -> bool:
     )
 
 
+def _first_of_numbers(rows: list[Row]) -> int | None:
+    """Index of the first of the consecutive rows of a width that hold most numbers, or None."""
+    best, most = None, 0
+    first, count = 0, 0
+    for i, row in enumerate(rows):
+        if not _is_of_numbers(row):
+            count = 0
+            continue
+        if not count or len(row.cells) != len(rows[i - 1].cells):
+            first, count = i, 0
+        count += sum(map(looks_like_number, row.cells))
+        if count > most:
+            best, most = first, count
+    return best
+
+
 def _is_of_numbers(row: Row) -> bool:
     """True for a row of a table without names: half of its cells, or more, are numbers."""
     filled = [cell for cell in row.cells if cell]
     return 2 * sum(map(looks_like_number, filled)) >= len(filled)
 
 
+def _listed_signals(above: list[Row], width: int) -> list[Row]:
+    """Heading of a table whose signals are listed above it, one in a line: "Sig2, Temperature"."""
+    listed = [row for row in above if len(row.cells) > 1 and _SIGNAL.fullmatch(row.cells[0])]
+    if len(listed) != width:
+        return []
+    return [Row(listed[0].line, tuple(row.cells[1] for row in listed))]
+
+
 def _likeliest(rows: list[Row], numbers: int | None) -> int:
     """Index of the row that looks most like a heading where none has a known name."""
     if not numbers:
         return 0
-    width = len(rows[numbers].cells)
+    least = max(len(rows[numbers].cells) - 1, 1)
     above = range(max(numbers - _TO_NUMBERS, 0), numbers)
-    alike = [i for i in above if sum(map(bool, rows[i].cells)) >= max(width - 1, 1)]
-    return alike[0] if alike else 0
+    filled = {i: sum(map(bool, rows[i].cells)) for i in above}
+    named = [i for i in above if not any(map(looks_like_number, rows[i].cells))]
+    return max((i for i in named if filled[i] >= least), key=lambda i: (filled[i], -i), default=0)
 
 
 def _commented_heading(first: Row, comments: list[Row], names: Names) -> list[Row]:

@@ -81,7 +81,10 @@ _SYMBOLS = {
     **dict.fromkeys(("d", "h", "δ"), Meaning("approach")),
 }
 _WORDS = {
-    **dict.fromkeys(("time", "times", "zeit", "temps", "test_time"), Meaning("time")),
+    **dict.fromkeys(
+        ("time", "times", "zeit", "temps", "test_time", "running_time", "prüfzeit"),
+        Meaning("time"),
+    ),
     **dict.fromkeys(("frequency", "freq", "freq.", "frequenz"), Meaning("frequency")),
     **dict.fromkeys(
         ("angular_frequency", "ang._frequency", "angular_freq", "omega", "kreisfrequenz"),
@@ -147,7 +150,10 @@ _WORDS = {
     **dict.fromkeys(
         ("ln_at", "ln_a_t", "ln(at)"), Meaning("shift_factor", logarithm=2.718281828459045)
     ),
-    **dict.fromkeys(("force", "load", "kraft"), Meaning("force")),
+    **dict.fromkeys(
+        ("force", "load", "kraft", "axial_force", "standard_force", "standardkraft"),
+        Meaning("force"),
+    ),
     **dict.fromkeys(
         ("approach", "depth", "indentation", "indentation_depth", "eindringtiefe"),
         Meaning("approach"),
@@ -156,7 +162,7 @@ _WORDS = {
         ("position", "piezo_position", "piezo", "z_position", "z_piezo", "z_sensor"),
         Meaning("position"),
     ),
-    **dict.fromkeys(("deflection", "cantilever_deflection"), Meaning("deflection")),
+    **dict.fromkeys(("deflection", "cantilever_deflection", "vdeflection"), Meaning("deflection")),
     **dict.fromkeys(("signal", "deflection_signal", "photodiode_signal"), Meaning("signal")),
     **{
         name: Meaning(name) for name in ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
