@@ -71,6 +71,7 @@ from .bodies.loads import triangle as triangle
 from .bodies.materials.cards import Card as Card
 from .bodies.materials.cards import read_abaqus as read_abaqus
 from .bodies.materials.cards import read_ansys as read_ansys
+from .bodies.materials.cards import read_ls_dyna as read_ls_dyna
 from .bodies.materials.cards import write_abaqus as write_abaqus
 from .bodies.materials.cards import write_ansys as write_ansys
 from .bodies.materials.layers import Layer as Layer

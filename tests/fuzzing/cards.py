@@ -1,4 +1,4 @@
-"""Material cards of Abaqus and Ansys: good ones by our own writers, and what becomes of them."""
+"""Material cards: good ones, of Abaqus and Ansys by our own writers, and what becomes of them."""
 
 from __future__ import annotations
 
@@ -26,6 +26,19 @@ CARDS = {
     "test.inp": write_abaqus(_TABLE, modulus_unit="MPa", time_unit="s"),
     "two.inp": "".join(write_abaqus(card, **_UNITS) for card in (_SERIES, _RUBBER)),
     "card.mac": write_ansys(_RUBBER, **_UNITS),
+    "frequency.inp": "*MATERIAL, NAME=PAD\n*ELASTIC\n10., 0.49\n*VISCOELASTIC, FREQUENCY=TABULAR\n"
+    "0.3, -0.1, 0., 0., 0.01\n0.5, -0.4, 0., 0., 0.1\n0.3, -0.9, 0., 0., 1.\n",
+    "formula.inp": "*ELASTIC\n10., 0.49\n*VISCOELASTIC, FREQUENCY=FORMULA\n0.05, -0.05, 0.5\n",
+    "arrhenius.inp": "*PHYSICAL CONSTANTS, UNIVERSAL GAS=8.3, ABSOLUTE ZERO=-273.15\n"
+    "*MATERIAL, NAME=A\n*ELASTIC\n2e3, 0.35\n*VISCOELASTIC, FREQ=PRONY\n0.3, 0., 0.1\n*TRS, DEF=ARRHENIUS\n20., 8e4\n",
+    "library.mpl": "/COM,ANSYS\nTBDEL,ALL,_MATL\nMPTEMP,R5.0, 1, 1,  0.0    ,\n"
+    "MPDATA,R5.0, 1,EX  ,_MATL , 1,  1000.0    ,\nMPDATA,R5.0, 1,PRXY,_MATL , 1, 0.45 ,\n"
+    "TB,PRON,_MATL   ,   1,   2,SHEA\nTBFIELD,Temps,0.0\nTBDATA,1,3.0e-01,1.0e-01,2.0e-01\n"
+    "TBDATA,4,1.0\n",
+    "six.k": "*KEYWORD\n*MAT_VISCOELASTIC\n$#     mid\n         1  1.05E-09    2000.0     330.0"
+    "      80.0       1.0\n*END\n",
+    "many.k": "*PARAMETER\nR       g1     150.0\n*MAT_GENERAL_VISCOELASTIC_TITLE\nrubber\n"
+    "         1  1.05E-09    2000.0\n\n       &g1      10.0\n     100.0       1.0\n      80.0\n",
 }
 
 _LINES = (
@@ -68,6 +81,26 @@ _LINES = (
         "TBDATA,1,A,A",
         "! why",
         "$" * 99,
+    ),
+    *(
+        "*CREEP",
+        "*VISC",
+        "*",
+        "*VISCOUS, LAW=TIME",
+        "*HYSTERESIS",
+        "*VISCOELASTIC, FREQUENCY=FORMULA",
+        "0.1, -0.2, 0., 0., 1e300",
+    ),
+    *("TB,CREEP,1", "TB,PRON,1,,,INTE", "TBFIELD,FREQ,1", "MPDATA,R5.0,9,EX,1,1,1,2,3", "MPDATA"),
+    *("MPTEMP", "TBDELE,ALL,ALL", "TBCOPY,ALL,1,2", "MPDELE,EX,_MATL", "MP,VISC,1,1", "TBPT,,1,2"),
+    *("*MAT_006", "*mat_76_title", "*MAT_ELASTIC+", "*MAT_RIGID", "*MAT_ADD_INELASTICITY", "*MAT_"),
+    *("*PARAMETER", "*PARAMETER_EXPRESSION", "*KEYWORD LONG=Y", "&g1", "       401", "\t1\t2"),
+    *(
+        "BEGIN BULK",
+        "/MAT/LAW34/1",
+        "$ENTER MATERIAL",
+        "<?xml version='1.0'?>",
+        "!MATERIAL, NAME=x",
     ),
     *("," * 5000, "*ELASTIC" + "," * 5000, '*MATERIAL, NAME="' + '"a,' * 2000, "*" * 3000),
 )

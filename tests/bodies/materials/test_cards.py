@@ -22,6 +22,7 @@ from viscontact.bodies.materials.cards import (
     read_ansys,
     read_card,
     read_cards,
+    read_ls_dyna,
     write_abaqus,
     write_ansys,
 )
@@ -235,8 +236,9 @@ def test_combined_test_data_that_agree_are_a_constant_poissons_ratio(tmp_path: P
         ("1.D2", "1e999", "card.txt:12: '1e999' is beyond all numbers"),
         ("0.2, , 1.D2", "0.2, 0.2", "card.txt:12: must have 3 numbers, got 2"),
         ("0.2, , 1.D2", "0.7, , 1.D2", None),
-        ("time=PRONY", "time=FREQUENCY DATA", "TIME=FREQUENCY DATA is not read (its frequencies a"),
-        ("time=PRONY", "frequency=TABULAR", "*VISCOELASTIC, FREQUENCY is not read"),
+        ("time=PRONY", "time=FREQUENCY DATA", "card.txt:10: must have 5 numbers, got 3"),
+        ("time=PRONY", "frequency=TABULAR", "FREQUENCY needs long-term moduli, and *ELASTIC has"),
+        ("time=PRONY", "time=FREQUENCY DATA, preload=UNIAXIAL", "PRELOAD is not read"),
         ("time=PRONY", "nonlinear", "*VISCOELASTIC, NONLINEAR is not read"),
         ("time=PRONY", "time=PRUNY", "TIME=PRUNY: must be one of PRONY, CREEP TEST DATA"),
         (", time=PRONY", "", "must say TIME=PRONY"),
@@ -278,7 +280,15 @@ def test_abaqus_card_that_cannot_be_read_is_refused_at_its_line(
         ("MP,EX,1,3000", "MP,EX,1,E0", "card.txt:3: 'E0' is not a number"),
         ("MP,EX,1,3000", "MP,EX,1,3000,-2", "MP,EX depends on temperature"),
         ("MP,EX,1,3000", "MP,EX,1,3000\nMP,NUXY,1,.3", "PRXY and NUXY of an isotropic material"),
-        ("MP,EX,1,3000", "MPTEMP,1,0\nMPDATA,EX,1,1,3000", "MPDATA is not read"),
+        ("MP,EX,1,3000", "MPTEMP,1,0,9\nMPDATA,EX,1,1,3,2", "MPDATA,EX depends on temperature"),
+        ("MP,EX,1,3000", "MPDATA,EX,1,1,3\nMPDATA,EX,1,2,2", "MPDATA,EX depends on temperature"),
+        ("MP,EX,1,3000", "MPDATA,EX,1", "MPDATA,EX has no value; give a constant with MP,EX"),
+        ("MP,EX,1,3000", "MP,EX,1,3000\nTBCOPY,ALL,2,1", "TBCOPY is not read"),
+        ("TBDATA,1,0.3", "TBFIELD,FREQ,1\nTBDATA,1,0.3", "TBFIELD,FREQ is not read"),
+        ("TBDATA,1,0.3", "TBPT,DEFI,1,2\nTBDATA,1,0.3", "points (TBPT) are not read"),
+        ("TBDATA,1,0.3,10\nTBDATA,,0.2,100\n", "", "TB,PRONY,,,,SHEAR: has no TBDATA"),
+        ("TB,PRONY", "TBDELE,ALL,1\nTB,PRONY", None),
+        ("TBDATA,,0.2,100\n", "TBDATA,,0.2,100\nTB,SHIFT,1,,,WLF\nTBDELE,PRON,1\n", "needs TB,PR"),
         ("MP,EX,1,3000", "MP,EX,1.5,3000", "a material's number is whole and positive"),
         ("TB,PRONY", "TB,SHIFT,1,,,USER\nTB,PRONY", "TB,SHIFT with 'USER' is not read"),
         ("TB,PRONY", "TB,SHIFT,1,,,WLF\nTBDATA,1,1,2,3,4\nTB,PRONY", "has more than 3 values"),
@@ -287,15 +297,19 @@ def test_abaqus_card_that_cannot_be_read_is_refused_at_its_line(
     ],
 )  # fmt: skip
 def test_ansys_card_that_cannot_be_read_is_refused_at_its_line(
-    old: str, new: str, said: str, tmp_path: Path
+    old: str, new: str, said: str | None, tmp_path: Path
 ) -> None:
     assert old in ANSYS
+    if said is None:
+        assert read(tmp_path, ANSYS.replace(old, new, 1)) == read(tmp_path, ANSYS)
+        return
     assert said in problem(tmp_path, ANSYS.replace(old, new, 1), temperature_unit="K")
 
 
 def test_file_of_neither_program_is_refused(tmp_path: Path) -> None:
-    assert "is no Abaqus card" in problem(tmp_path, "time [s], E [MPa]\n1, 2\n")
-    assert "has commands of both" in problem(tmp_path, ABAQUS + ANSYS)
+    assert "is no card of a program that is read" in problem(tmp_path, "time [s], E [MPa]\n1, 2\n")
+    both = problem(tmp_path, ABAQUS + ANSYS)
+    assert "has commands of Abaqus (*ELASTIC, *VISCOELASTIC) and of Ansys (MP,EX and TB" in both
     for reader in (read_abaqus, read_ansys):
         with pytest.raises(ValueError, match="is it an"):
             read(tmp_path, "", reader)
@@ -403,15 +417,21 @@ def test_shift_is_the_same_after_a_card(write: Writer, reader: Any, tmp_path: Pa
         write(table, **IN_MPA, temperature_unit="K")
 
 
-def test_arrhenius_shift_is_written_for_ansys_and_refused_for_abaqus(tmp_path: Path) -> None:
+@WRITERS
+@pytest.mark.parametrize("unit", ["K", "degF"])
+def test_arrhenius_shift_is_the_same_after_a_card(
+    write: Writer, reader: Any, unit: str, tmp_path: Path
+) -> None:
     card = Card("1", vc.Material(vc.Zener(1e9, 2e9, 1e10), 0.3), vc.Arrhenius(293.15, 8e4))
-    found = back(tmp_path, card, write_ansys, read_ansys, **IN_MPA, temperature_unit="K")
+    if write is write_ansys and unit != "K":
+        with pytest.raises(ValueError, match="absolute temperatures"):
+            write(card, **IN_MPA, temperature_unit=unit)
+        return
+    found = back(tmp_path, card, write, reader, **IN_MPA, temperature_unit=unit)
     assert isinstance(found.shift, vc.Arrhenius)
     assert found.shift.activation_energy == close_to(8e4, rel=1e-14)
-    with pytest.raises(ValueError, match="Abaqus cards take a WLF shift, got Arrhenius"):
-        write_abaqus(card, **IN_MPA, temperature_unit="K")
-    with pytest.raises(ValueError, match="absolute temperatures"):
-        write_ansys(card, **IN_MPA, temperature_unit="degC")
+    assert found.shift.reference_temperature == close_to(293.15, rel=1e-14)
+    assert found.notes == ()
 
 
 @pytest.mark.parametrize("volume", [{"poisson_ratio": 0.5}, {"poisson_ratio": 0.3}])
@@ -479,6 +499,8 @@ PIECES = st.sampled_from(
     ["*Material, name=A\n", "*Elastic\n", "*Viscoelastic, time=PRONY\n", "3., 0.3\n", "0.5,0.,1.\n",
      "*Trs\n", "*Shear Test Data, shrinf=.5\n", "time=RELAXATION TEST DATA", ",", "\n", "1e400",
      '"', "MP,EX,1,3\n", "MP,PRXY,1,.3\n", "TB,PRONY,1,1,1,SHEAR\n", "TBDATA,1,.5,1\n", "TBDATA,",
+     "*MAT_006\n", "*mat_76_TITLE\n", "1,,2.,3.,1.,.5\n", "3.         2.\n", "*PARAMETER\nRa,1\n",
+     "MPDATA,R5.0,1,EX,1,1,3\n", "TBDELE,ALL,ALL\n", "*Viscoel, freq=TABULAR\n", "&a", "*Creep\n",
      "$", "TB,SHIFT,1,,,WLF\n", "=", "*", "!", "-1", "TBTEMP,", "x", "0.5, 1.\n", "*Step\n"]
 )  # fmt: skip
 CARDS = (
@@ -490,6 +512,7 @@ CARDS = (
         "0.5,0.,1.\n",
     ],
     ["MP,EX,1,3\n", "MP,PRXY,1,.3\n", "TB,PRONY,1,1,1,SHEAR\n", "TBDATA,1,.5,1\n"],
+    ["*MAT_076\n", "1,,3.\n", "\n", "2.,1.\n", "1.,0.\n"],
 )
 
 
@@ -509,7 +532,7 @@ def test_any_file_is_a_card_or_a_value_error(
 ) -> None:
     path = tmp_path_factory.getbasetemp() / "any.txt"
     path.write_bytes(text.encode("utf-8", "surrogatepass"))
-    for reader in (read_abaqus, read_ansys, read_cards):
+    for reader in (read_abaqus, read_ansys, read_ls_dyna, read_cards):
         with suppress(ValueError):
             for card in some(reader(path, **IN_SI, temperature_unit="K")):
                 assert np.isfinite(card.material.law(1.0))

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from viscontact.bodies import laws
 from viscontact.bodies.laws import Law
-from viscontact.bodies.materials.cards import Card, read_card
+from viscontact.bodies.materials.cards import Card, is_card, read_card, unread_program
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.table_fit import is_oscillation
@@ -22,7 +22,7 @@ from viscontact.case.materials.base import Medium
 from viscontact.case.materials.measured_record import measured_record
 from viscontact.case.materials.oscillation import fit_note, fit_oscillation, fit_warning
 from viscontact.case.quantities import Modulus
-from viscontact.tables import Table, read_table
+from viscontact.tables import Table, read_table, read_text
 from viscontact.units.parsing import parse_scale
 from viscontact.units.temperatures import in_celsius
 
@@ -106,9 +106,21 @@ class TableLaw(FromFile):
             table = table.ascending("time") if "time" in table else table
         except ValueError as error:
             at = "" if str(error).startswith("columns: ") else "file: "
-            raise ValueError(f"{at}{error}") from error
+            raise ValueError(f"{at}{self._other_kind() or error}") from error
         self._require_test(table)
         return table
+
+    def _other_kind(self) -> str | None:
+        """What a file that is no table is, if that is known."""
+        try:
+            text = read_text(Path(self.file))
+        except ValueError:
+            return None
+        name = Path(self.file).name
+        unread = unread_program(text, name)
+        if unread is None and is_card(text):
+            return f"{name}: is a material card; give law: card, with modulus_unit and time_unit"
+        return unread
 
     @property
     def _whole_table(self) -> Table:
@@ -256,11 +268,12 @@ def _set_list(sets: tuple[Table, ...]) -> str:
 
 
 class CardLaw(FromFile):
-    """The material of an Abaqus or Ansys card: its law, its volume behaviour and its shift."""
+    """A material of Abaqus, Ansys or LS-DYNA: its law, its volume behaviour and its shift."""
 
     law: Literal["card"]
     file: DataFile = Field(
-        description="Abaqus (*ELASTIC, *VISCOELASTIC, *TRS) or Ansys (MP, TB,PRONY, TB,SHIFT)",
+        description="Abaqus (*ELASTIC, *VISCOELASTIC, *TRS), Ansys (MP, TB,PRONY, TB,SHIFT) or "
+        "LS-DYNA (*MAT_001, _006, _076)",
         examples=["polymer.inp"],
     )
     modulus_unit: str = Field(description="of the card's moduli", examples=["MPa"])
@@ -305,7 +318,7 @@ class CardLaw(FromFile):
         if card.shift is not None and self.shift is not None:
             raise ValueError("shift: is given in the card; leave it out")
         return self._at_temperature(
-            replace(card.material, notes=card.notes, warning=self.warning),
+            replace(card.material, notes=card.notes, warning=self.warning or card.material.warning),
             card.shift or (self.shift.build() if self.shift else None),
         )
 

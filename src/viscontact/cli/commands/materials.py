@@ -17,8 +17,8 @@ Which = Annotated[
     str | None,
     typer.Argument(
         metavar="[NAME|FILE]",
-        help="A shipped material, a case file, a measured table, or an Abaqus or Ansys card; "
-        "by default the shipped materials are listed.",
+        help="A shipped material, a case file, a measured table, or a card of Abaqus, Ansys or "
+        "LS-DYNA; by default the shipped materials are listed.",
     ),
 ]
 Output = Annotated[

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.bodies.materials import library as materials
-from viscontact.bodies.materials.cards import is_card
+from viscontact.bodies.materials.cards import is_card, unread_program
 from viscontact.case import CaseError, read_material, read_section, shipped_material
 from viscontact.cli.material.fit_options import read_stress
 from viscontact.cli.material.named_material import MaterialDisplay
@@ -17,7 +17,7 @@ from viscontact.cli.terminal.messages import refuse, say
 from viscontact.tables import Table, is_spreadsheet, read_table, read_text
 
 _CASE_SUFFIXES = (".yaml", ".yml", ".toml")
-_CARD_SUFFIXES = (".inp", ".mac", ".cdb", ".ans", ".apdl")
+_CARD_SUFFIXES = (".inp", ".mac", ".cdb", ".ans", ".apdl", ".mpl", ".k", ".key", ".dyn")
 _CASE_KEYS = re.compile(r"^(?:material|law)[ \t]*:", re.M)
 _QUANTITIES = ("creep_compliance", "relaxation_modulus")
 # Keys of a case file that are options here.
@@ -90,6 +90,9 @@ def _kind(path: Path) -> str:
         text = read_text(path)
     except ValueError as error:
         refuse(str(error))
+    unread = unread_program(text, path.name)
+    if unread is not None:
+        refuse(unread)
     if is_card(text):
         return "card"
     if _CASE_KEYS.search(text):

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 
-from viscontact.bodies.laws import WLF, Shift
-from viscontact.bodies.materials.cards.abaqus_syntax import Block, read_blocks
-from viscontact.bodies.materials.cards.abaqus_test_data import tested_material
+from viscontact.bodies.laws import WLF, Arrhenius, Shift
+from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
+from viscontact.bodies.materials.cards import time_dependence
+from viscontact.bodies.materials.cards.abaqus_keywords import (
+    BEYOND,
+    NOTED,
+    READ,
+    TEST_DATA,
+    meanings,
+)
+from viscontact.bodies.materials.cards.abaqus_syntax import Block, DataLine, read_blocks
+from viscontact.bodies.materials.cards.abaqus_viscoelastic import over_frequency, relaxation_of
 from viscontact.bodies.materials.cards.card import Card, CardUnits, card_units
-from viscontact.bodies.materials.cards.prony_terms import Moduli, checked_terms, relaxing_material
-from viscontact.bodies.materials.material import Material
+from viscontact.bodies.materials.cards.prony_terms import Moduli
+from viscontact.bodies.materials.cards.record import NoRelaxation, Record, Relaxation
 from viscontact.tables import read_text
 
-_TEST_DATA = ("SHEAR TEST DATA", "VOLUMETRIC TEST DATA", "COMBINED TEST DATA")
-_READ = ("ELASTIC", "VISCOELASTIC", "TRS", *_TEST_DATA)
-# Keywords that end the materials of a whole model.
-_BEYOND = ("STEP", "PART", "ASSEMBLY", "NODE", "ELEMENT", "BOUNDARY", "SURFACE INTERACTION",
-           "INITIAL CONDITIONS", "SOLID SECTION", "END PART", "END ASSEMBLY")  # fmt: skip
-_TIMES = ("PRONY", "CREEP TEST DATA", "RELAXATION TEST DATA", "FREQUENCY DATA")
+# Activation energies of polymers and glasses [J/mol].
+_USUAL_ENERGIES = (1e3, 2e6)
 
 
 @dataclass
@@ -30,6 +36,7 @@ class _Section:
     where: str
     blocks: dict[str, Block] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    refusals: list[str] = field(default_factory=list)
 
 
 def read_abaqus(
@@ -66,12 +73,19 @@ def read_abaqus(
     Notes
     -----
     ``*ELASTIC`` (E, ν; isotropic, one temperature), which is of the long term unless
-    ``MODULI=INSTANTANEOUS``; ``*VISCOELASTIC`` with ``TIME=PRONY`` (lines of g_i, k_i, τ_i),
-    ``TIME=CREEP TEST DATA`` or ``TIME=RELAXATION TEST DATA``, which are used as measured; ``*TRS``
-    with ``DEFINITION=WLF``. Other keywords are noted. Abaqus 2016 Keywords Reference Guide under
-    these names, Analysis User's Guide, section 22.7.1, "Time domain viscoelasticity":
+    ``MODULI=INSTANTANEOUS``; ``*VISCOELASTIC`` with ``TIME=`` or ``FREQUENCY=PRONY`` (lines of
+    g_i, k_i, τ_i); ``CREEP TEST DATA`` or ``RELAXATION TEST DATA``, which are used as measured;
+    ``FREQUENCY=TABULAR`` or ``TIME=FREQUENCY DATA``, to which a series is fitted;
+    ``FREQUENCY=FORMULA`` where it is a law in time, a spring beside a spring-pot; ``*TRS`` with
+    ``DEFINITION=WLF`` or ``ARRHENIUS``, whose energy is in J/mol unless ``*PHYSICAL CONSTANTS``
+    states the ``UNIVERSAL GAS`` constant. A material with another keyword that states a dependence
+    on time or rate, such as ``*CREEP``, is refused; other keywords are noted. Keywords and
+    parameters may be abbreviated. Abaqus 2016 Keywords Reference Guide under these names, Analysis
+    User's Guide, section 22.7.1, "Time domain viscoelasticity":
     g_R(t) = 1 - sum g_i (1 - exp(-t/τ_i)), G(t) = G_0 g_R(t), and k_i likewise for the bulk
-    modulus: k_i = 0 is an elastic bulk modulus, k_i = g_i a constant Poisson's ratio.
+    modulus: k_i = 0 is an elastic bulk modulus, k_i = g_i a constant Poisson's ratio; section
+    22.7.2, "Frequency domain viscoelasticity": lines of ω Re g* = G''/G_inf,
+    ω Im g* = 1 - G'/G_inf, the same of the bulk modulus, and f in cycles per time.
 
     Examples
     --------
@@ -85,7 +99,8 @@ def read_abaqus(
     """
     path = Path(path)
     units = card_units(modulus_unit, time_unit, temperature_unit)
-    sections = _sections(read_blocks(path.name, read_text(path)))
+    blocks = read_blocks(path.name, read_text(path))
+    sections = _sections(blocks)
     if name is not None:
         chosen = [s for s in sections if s.name.upper() == name.upper()]
         if not chosen:
@@ -96,7 +111,8 @@ def read_abaqus(
         raise ValueError(
             f"{path.name}: has no *ELASTIC and no *VISCOELASTIC; is it an Abaqus input file?"
         )
-    return tuple(_card(section, units) for section in sections)
+    constants = [block for block in blocks if block.keyword == "PHYSICAL CONSTANTS"]
+    return tuple(_record(section, units, constants).card for section in sections)
 
 
 def _sections(blocks: list[Block]) -> list[_Section]:
@@ -104,37 +120,78 @@ def _sections(blocks: list[Block]) -> list[_Section]:
     current: _Section | None = None
     for block in blocks:
         if block.keyword == "MATERIAL":
-            current = _Section(block.parameters.get("NAME", ""), block.where)
+            current = _Section(block.given("NAME") or "", block.where)
             sections.append(current)
-        elif block.keyword in _BEYOND:
+        elif block.keyword in BEYOND:
             current = None
-        elif block.keyword in _READ:
-            if current is None:  # a card without *MATERIAL
-                current = _Section("", block.where)
-                sections.append(current)
-            _collect(current, block)
         elif current is not None:
-            current.notes.append(f"{block.where}: *{block.keyword} is not used")
+            _collect(current, block)
+        elif block.keyword in READ or block.keyword in time_dependence.ABAQUS:
+            # A card without *MATERIAL.
+            current = _Section("", block.where)
+            sections.append(current)
+            _collect(current, block)
     return sections
 
 
 def _collect(section: _Section, block: Block) -> None:
-    if block.keyword in section.blocks:
-        raise ValueError(
-            f"{block.where}: *{block.keyword} occurs twice in material {section.name!r}"
+    """Sort a block of a material: read, refused or noted."""
+    keyword = block.keyword
+    why = _why_refused(block)
+    if why is not None:
+        section.refusals.append(why)
+    elif keyword not in READ:
+        if keyword != "PHYSICAL CONSTANTS":
+            section.notes.append(f"{block.where}: *{keyword} is not used")
+    elif keyword in section.blocks:
+        section.refusals.append(
+            f"{block.where}: *{keyword} occurs twice in material {section.name!r}"
         )
-    section.blocks[block.keyword] = block
+    else:
+        section.blocks[keyword] = block
 
 
-def _card(section: _Section, units: CardUnits) -> Card:
+def _why_refused(block: Block) -> str | None:
+    """Return why a material with this block is refused; None if it is not."""
+    keyword = block.keyword
+    if keyword in time_dependence.ABAQUS:
+        what = time_dependence.ABAQUS[keyword]
+        return time_dependence.refusal(block.where, f"*{keyword}", what)
+    for parameter in time_dependence.ABAQUS_PARAMETERS.get(keyword, ()):
+        if block.given(parameter) is not None:
+            return time_dependence.refusal(
+                block.where, f"*{keyword}, {parameter}", "rate-dependent plasticity"
+            )
+    if keyword == "INCLUDE":
+        return (
+            f"{block.where}: *INCLUDE is not followed, and may hold more of the material; put its "
+            "lines in its place"
+        )
+    if keyword in NOTED or keyword in READ:
+        return None
+    meant = [w for w in meanings(keyword) if w in READ or w in time_dependence.ABAQUS]
+    if keyword and meant:
+        either = " or ".join(meant[:4])
+        return f"{block.where}: *{keyword} may stand for {either}; write the keyword out"
+    if time_dependence.states_time(keyword):
+        return time_dependence.refusal(block.where, f"*{keyword}")
+    return None
+
+
+def _record(section: _Section, units: CardUnits, constants: list[Block]) -> Record:
+    if section.refusals:
+        raise ValueError(section.refusals[0])
     if "ELASTIC" not in section.blocks:
         raise ValueError(
             f"{section.where}: material {section.name!r} has no *ELASTIC; give E and nu (of a "
             "hyperelastic material its initial ones), or read another material with name="
         )
     moduli = _moduli(section.blocks["ELASTIC"], units)
-    shift = _shift(section.blocks["TRS"], units) if "TRS" in section.blocks else None
-    return Card(section.name, _material(section, moduli, units), shift, tuple(section.notes))
+    relaxation = _relaxation(section, moduli, units)
+    shift = None
+    if "TRS" in section.blocks:
+        shift = _shift(section.blocks["TRS"], units, constants, section.notes)
+    return Record(section.name, moduli, relaxation, shift, tuple(section.notes))
 
 
 def _moduli(block: Block, units: CardUnits) -> Moduli:
@@ -149,60 +206,82 @@ def _moduli(block: Block, units: CardUnits) -> Moduli:
     return Moduli(block.data[0].where, modulus * units.modulus, ratio, kind == "INSTANTANEOUS")
 
 
-def _material(section: _Section, moduli: Moduli, units: CardUnits) -> Material:
+def _relaxation(section: _Section, moduli: Moduli, units: CardUnits) -> Relaxation:
     block = section.blocks.get("VISCOELASTIC")
-    tests = [section.blocks[word] for word in _TEST_DATA if word in section.blocks]
+    tests = [section.blocks[word] for word in TEST_DATA if word in section.blocks]
     if block is None:
-        if tests:
-            raise ValueError(f"{tests[0].where}: test data need *VISCOELASTIC, TIME=... above")
-        return relaxing_material(moduli, checked_terms("", [], []), checked_terms("", [], []))
-    kind = _kind(block)
-    if kind == "PRONY":
-        return _prony(block, moduli, units)
-    for word in ("ERRTOL", "NMAX"):
-        if word in block.parameters:
-            section.notes.append(
-                f"{block.where}: {word} is not used: test data are taken as measured"
+        for lone in (*tests, *(section.blocks[w] for w in ("TRS",) if w in section.blocks)):
+            raise ValueError(
+                f"{lone.where}: *{lone.keyword} needs *VISCOELASTIC, TIME=... in its material"
             )
-    return tested_material(block, tests, kind == "CREEP TEST DATA", moduli, units, section.notes)
-
-
-def _kind(block: Block) -> str:
-    if "FREQUENCY" in block.parameters or "NONLINEAR" in block.parameters:
-        word = "FREQUENCY" if "FREQUENCY" in block.parameters else "NONLINEAR"
+        return NoRelaxation()
+    if over_frequency(block) and moduli.instantaneous:
         raise ValueError(
-            f"{block.where}: *VISCOELASTIC, {word} is not read; give TIME=PRONY or test data"
+            f"{block.where}: *VISCOELASTIC, FREQUENCY needs long-term moduli, and *ELASTIC has "
+            "MODULI=INSTANTANEOUS; remove that, or give TIME= in place of FREQUENCY="
         )
-    block.choice("TYPE", ("ISOTROPIC",), "ISOTROPIC")
-    if "TIME" not in block.parameters:
-        raise ValueError(f"{block.where}: *VISCOELASTIC must say TIME=PRONY or another kind")
-    kind = block.choice("TIME", _TIMES, "")
-    if kind == "FREQUENCY DATA":
+    return relaxation_of(block, tests, units, section.notes)
+
+
+def _shift(block: Block, units: CardUnits, constants: list[Block], notes: list[str]) -> Shift:
+    kind = block.choice("DEFINITION", ("WLF", "ARRHENIUS", "USER", "TNM"), "WLF")
+    if kind not in ("WLF", "ARRHENIUS"):
         raise ValueError(
-            f"{block.where}: *VISCOELASTIC, TIME=FREQUENCY DATA is not read (its frequencies are "
-            "cycles per time); put storage and loss moduli into a CSV file and fit them"
+            f"{block.where}: *TRS, DEFINITION={block.given('DEFINITION')} is not read; give "
+            "DEFINITION=WLF or ARRHENIUS"
         )
-    return kind
-
-
-def _prony(block: Block, moduli: Moduli, units: CardUnits) -> Material:
-    if not block.data:
-        raise ValueError(f"{block.where}: *VISCOELASTIC, TIME=PRONY has no lines of g, k, tau")
-    rows = [line.numbers(3, 3) for line in block.data]
-    times = [tau * units.time for _, _, tau in rows]
-    shear = checked_terms(f"{block.where}: shear terms g", [g for g, _, _ in rows], times)
-    bulk = checked_terms(f"{block.where}: bulk terms k", [k for _, k, _ in rows], times)
-    return relaxing_material(moduli, shear, bulk)
-
-
-def _shift(block: Block, units: CardUnits) -> Shift:
-    if block.choice("DEFINITION", ("WLF", "ARRHENIUS", "USER", "TNM"), "WLF") != "WLF":
-        raise ValueError(
-            f"{block.where}: *TRS, DEFINITION={block.parameters['DEFINITION']} is not read; give "
-            "DEFINITION=WLF"
-        )
+    wanted = "theta_0, C1, C2" if kind == "WLF" else "theta_0, E_0"
     if len(block.data) != 1:
-        raise ValueError(f"{block.where}: *TRS must have one line of theta_0, C1, C2")
+        raise ValueError(f"{block.where}: *TRS must have one line of {wanted}")
     scale = units.kelvins(block.where)
-    reference, c1, c2 = block.data[0].numbers(3, 3)
-    return WLF(scale.factor * reference + scale.offset, c1, scale.factor * c2)
+    line = block.data[0]
+    if kind == "WLF":
+        reference, c1, c2 = line.numbers(3, 3)
+        return WLF(scale.factor * reference + scale.offset, c1, scale.factor * c2)
+    reference, energy = line.numbers(2, 2)
+    _require_same_zero(constants, units, block.where)
+    return Arrhenius(
+        scale.factor * reference + scale.offset,
+        _joules(line.where, energy, constants, scale.factor, notes),
+    )
+
+
+def _constant(constants: list[Block], name: str) -> float | None:
+    for block in constants:
+        given = block.given(name)
+        if given is not None:
+            [value] = DataLine(f"{block.where}: {name}", (given,)).numbers(1, 1)
+            return value
+    return None
+
+
+def _joules(
+    where: str, energy: float, constants: list[Block], degree: float, notes: list[str]
+) -> float:
+    """Return an activation energy [J/mol], by the gas constant of the file if it has one."""
+    gas = _constant(constants, "UNIVERSAL GAS CONSTANT")
+    if gas is not None:
+        if not gas > 0:
+            raise ValueError(f"{where}: UNIVERSAL GAS of *PHYSICAL CONSTANTS must be positive")
+        return GAS_CONSTANT * degree * energy / gas
+    least, most = _USUAL_ENERGIES
+    if not least <= energy <= most:
+        raise ValueError(
+            f"{where}: {energy:g} is no activation energy in J/mol; state its unit by the gas "
+            "constant in it, *PHYSICAL CONSTANTS, UNIVERSAL GAS=... (8314.46 for mJ/mol and K)"
+        )
+    notes.append(
+        f"{where}: the activation energy is in J/mol, as there is no *PHYSICAL CONSTANTS with "
+        "UNIVERSAL GAS"
+    )
+    return energy
+
+
+def _require_same_zero(constants: list[Block], units: CardUnits, where: str) -> None:
+    """ValueError if the file's absolute zero is not that of the unit of temperature."""
+    zero, scale = _constant(constants, "ABSOLUTE ZERO"), units.kelvins(where)
+    if zero is not None and not math.isclose(scale.factor * zero + scale.offset, 0.0, abs_tol=1.0):
+        raise ValueError(
+            f"{where}: ABSOLUTE ZERO={zero:g} of *PHYSICAL CONSTANTS does not go with "
+            "temperature_unit; give 'degC' for -273.15, 'K' for 0, 'degF' for -459.67"
+        )

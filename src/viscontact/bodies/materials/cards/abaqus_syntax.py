@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from viscontact.bodies.materials.cards.abaqus_keywords import whole_keyword
 from viscontact.bodies.materials.cards.numbers import card_number
 
 
@@ -33,9 +34,17 @@ class Block:
     parameters: dict[str, str]
     data: tuple[DataLine, ...]
 
+    def given(self, name: str, least: int = 3) -> str | None:
+        """Return the value of a parameter, whose name may be abbreviated; None if not given."""
+        for written, value in self.parameters.items():
+            short = _word(written)
+            if short == _word(name) or (len(short) >= least and _word(name).startswith(short)):
+                return value
+        return None
+
     def choice(self, name: str, options: tuple[str, ...], default: str) -> str:
         """Return the word, maybe abbreviated, that a parameter has; ValueError for another."""
-        given = self.parameters.get(name)
+        given = self.given(name)
         if given is None:
             return default
         plain = _word(given)
@@ -53,7 +62,8 @@ def read_blocks(source: str, text: str) -> list[Block]:
 
     Abaqus 2016 Analysis User's Guide, section 1.2.1, "Input syntax rules": a keyword line begins
     with one star and continues on the next line if it ends with a comma; two stars begin a
-    comment; case and blanks are ignored, except in quotation marks.
+    comment; case and blanks are ignored, except in quotation marks. Abbreviated keywords are
+    returned whole.
     """
     blocks: list[Block] = []
     data: list[DataLine] = []
@@ -82,7 +92,7 @@ def _close(blocks: list[Block], where: str, heading: str, data: list[DataLine]) 
     for parameter in parameters:
         name, _, value = parameter.partition("=")
         found[_with_spaces(name)] = value.strip().strip('"')
-    blocks.append(Block(where, _with_spaces(keyword.removeprefix("*")), found, tuple(data)))
+    blocks.append(Block(where, whole_keyword(keyword.removeprefix("*")), found, tuple(data)))
 
 
 def _split_outside_quotes(heading: str) -> list[str]:

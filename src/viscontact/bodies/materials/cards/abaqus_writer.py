@@ -5,7 +5,14 @@ from __future__ import annotations
 import re
 from typing import Literal
 
-from viscontact.bodies.laws import WLF, Shift, TabulatedCreep, TabulatedRelaxation
+from viscontact.bodies.laws import (
+    WLF,
+    Arrhenius,
+    Shift,
+    TabulatedCreep,
+    TabulatedRelaxation,
+)
+from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
 from viscontact.bodies.materials.cards.card import Card, CardUnits, card_units, in_unit
 from viscontact.bodies.materials.cards.numbers import card_digits
 from viscontact.bodies.materials.cards.prony_terms import Moduli, constants, relative
@@ -38,7 +45,7 @@ def write_abaqus(
     -------
     str
         ``*MATERIAL``, ``*ELASTIC``, ``*VISCOELASTIC`` (``TIME=PRONY``, or test data of a
-        table) and ``*TRS``.
+        table) and ``*TRS``; above them ``*PHYSICAL CONSTANTS`` for an Arrhenius shift.
 
     Raises
     ------
@@ -75,6 +82,8 @@ def write_abaqus(
     lines = [f"** {_ascii(units.words)}", f"*MATERIAL, NAME={_label(card.name)}", *body]
     if card.shift is not None:
         lines += _shift(card.shift, units)
+    if isinstance(card.shift, Arrhenius):
+        lines.insert(1, _physical_constants(units))
     return "\n".join(lines) + "\n"
 
 
@@ -127,14 +136,25 @@ def _test_data(
 
 
 def _shift(shift: Shift, units: CardUnits) -> list[str]:
-    if not isinstance(shift, WLF):
+    if not isinstance(shift, WLF | Arrhenius):
         raise ValueError(
-            f"Abaqus cards take a WLF shift, got {type(shift).__name__}; fit one with "
+            f"Abaqus cards take a WLF or Arrhenius shift, got {type(shift).__name__}; fit one with "
             "viscontact.identification.fit_wlf, or write the law slowed to one temperature"
         )
     scale = units.kelvins("the card's shift")
     reference = in_unit(shift.reference_temperature, scale)
+    if isinstance(shift, Arrhenius):
+        return ["*TRS, DEFINITION=ARRHENIUS", _line(reference, shift.activation_energy)]
     return ["*TRS, DEFINITION=WLF", _line(reference, shift.c1, shift.c2 / scale.factor)]
+
+
+def _physical_constants(units: CardUnits) -> str:
+    """Absolute zero and gas constant [J/mol] in the card's degrees, for a shift in J/mol."""
+    scale = units.kelvins("the card's shift")
+    return (
+        f"*PHYSICAL CONSTANTS, ABSOLUTE ZERO={card_digits(in_unit(0.0, scale))}, "
+        f"UNIVERSAL GAS={card_digits(GAS_CONSTANT * scale.factor)}"
+    )
 
 
 def _line(*numbers: float) -> str:

@@ -8,11 +8,18 @@ from dataclasses import dataclass
 from viscontact.bodies.materials.cards.numbers import card_number
 
 _ASSIGNMENT = re.compile(r"(?P<name>[A-Za-z]\w{0,31})\s*=\s*(?P<value>[^,=]+)")
+# Characters of a command and of a label that count.
+_SIGNIFICANT = 4
+#: Material number of a library file, which Ansys sets when it reads the file.
+LIBRARY = "_MATL"
 
 
 @dataclass(frozen=True)
 class Command:
-    """One command in capitals with its fields, parameters substituted; `where` is file and line."""
+    """One command in capitals with its fields, parameters substituted; `where` is file and line.
+
+    The name has its first four letters, which are those that count.
+    """
 
     where: str
     name: str
@@ -22,6 +29,10 @@ class Command:
         """Return a field, counted from 0, in capitals; empty if it is missing."""
         return self.fields[place].upper() if place < len(self.fields) else ""
 
+    def label(self, place: int) -> str:
+        """Return the first four letters of a field, which are those that count."""
+        return self.word(place)[:_SIGNIFICANT]
+
     def number(self, place: int, default: float | None = None) -> float:
         """Return a field as a number; ValueError if it is not one, or empty without a default."""
         text = self.word(place)
@@ -29,14 +40,23 @@ class Command:
             return default
         return card_number(self.where, text)
 
+    def material(self, place: int) -> str:
+        """Return the number of a material, or `LIBRARY`; ValueError for anything else."""
+        if self.word(place) == LIBRARY:
+            return LIBRARY
+        number = self.number(place, default=1.0)
+        if number != int(number) or number < 1:
+            raise ValueError(f"{self.where}: a material's number is whole and positive")
+        return str(int(number))
+
 
 def read_commands(source: str, text: str) -> list[Command]:
     """Split the text of an APDL file into commands; `source` is its name, for messages.
 
     Mechanical APDL Command Reference: an exclamation mark begins a comment, a dollar sign another
-    command on the same line, fields are separated by commas, and case is ignored. Scalar
-    parameters that are set to a number (``E0=1000``) are substituted where a field is their name;
-    expressions are not evaluated.
+    command on the same line, fields are separated by commas, case is ignored, and of a command the
+    first four letters count. Scalar parameters that are set to a number (``E0=1000``) are
+    substituted where a field is their name; expressions are not evaluated.
     """
     parameters: dict[str, str] = {}
     commands: list[Command] = []
@@ -49,5 +69,6 @@ def read_commands(source: str, text: str) -> list[Command]:
             elif content:
                 fields = [field.strip() for field in content.split(",")]
                 known = tuple(parameters.get(field.upper(), field) for field in fields[1:])
-                commands.append(Command(f"{source}:{number}", fields[0].upper(), known))
+                name = fields[0].upper()[:_SIGNIFICANT]
+                commands.append(Command(f"{source}:{number}", name, known))
     return commands

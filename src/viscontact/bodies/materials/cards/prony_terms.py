@@ -1,4 +1,4 @@
-"""Relative Prony terms and elastic constants, from which Abaqus and Ansys cards define laws.
+"""Relative Prony terms and elastic constants, from which cards define laws.
 
 With the instant modulus G_0, G(t) = G_0 [1 - sum g_i (1 - exp(-t/τ_i))], and likewise the bulk
 modulus with k_i. The elastic constants E and ν are those of the instant modulus, or of the one
@@ -19,12 +19,17 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True)
 class Moduli:
-    """Elastic constants of a card, E [Pa] and ν [-], instantaneous or after all relaxation."""
+    """Elastic constants of a card, E [Pa] and ν [-], instantaneous or after all relaxation.
+
+    A card that states the bulk modulus [Pa] has it as `stated_bulk`, since near ν = 1/2 it cannot
+    be computed from the others.
+    """
 
     where: str
     youngs_modulus: float
     poisson_ratio: float
     instantaneous: bool
+    stated_bulk: float | None = None
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.youngs_modulus) and self.youngs_modulus > 0):
@@ -35,6 +40,17 @@ class Moduli:
                 f"{self.poisson_ratio!r}"
             )
 
+    @classmethod
+    def of_shear_and_bulk(cls, where: str, shear: float, bulk: float) -> Moduli:
+        """Return instantaneous constants from the moduli G and K [Pa]; ValueError unless > 0."""
+        for name, value in (("shear", shear), ("bulk", bulk)):
+            if not (math.isfinite(value) and value > 0):
+                raise ValueError(f"{where}: the {name} modulus must be positive, got {value!r}")
+        # Divided by the larger of both, so that no product of them is beyond all numbers.
+        g, k = shear / max(shear, bulk), bulk / max(shear, bulk)
+        ratio = (3 * k - 2 * g) / (2 * (3 * k + g))
+        return cls(where, 2 * (1 + ratio) * shear, ratio, instantaneous=True, stated_bulk=bulk)
+
     @property
     def shear(self) -> float:
         """Shear modulus [Pa]."""
@@ -43,6 +59,8 @@ class Moduli:
     @property
     def bulk(self) -> float:
         """Bulk modulus [Pa]; inf for an incompressible body."""
+        if self.stated_bulk is not None:
+            return self.stated_bulk
         nu = self.poisson_ratio
         return math.inf if nu == 0.5 else self.youngs_modulus / (3 * (1 - 2 * nu))
 
@@ -60,14 +78,20 @@ class Moduli:
 
 @dataclass(frozen=True)
 class Terms:
-    """Relative terms of a card in shear or volume: weights g_i or k_i [-], times τ_i [s]."""
+    """Relative terms of a card in shear or volume: weights g_i or k_i [-], times τ_i [s].
+
+    A card that states the part that does not relax [-] has it as `stated_left`.
+    """
 
     weights: tuple[float, ...] = ()
     times: tuple[float, ...] = ()
+    stated_left: float | None = None
 
     @property
     def left(self) -> float:
         """The part that does not relax, 1 - sum g_i."""
+        if self.stated_left is not None:
+            return self.stated_left
         left = math.fsum([1.0, *(-g for g in self.weights)])
         return 0.0 if abs(left) < _ROUNDING else left
 

@@ -1,22 +1,48 @@
-"""Reader of Abaqus and Ansys cards, distinguished by their content."""
+"""Reader of cards of any program, which is recognised by the content of the file."""
 
 from __future__ import annotations
 
 import re
 from os import PathLike
 from pathlib import Path
+from typing import Protocol
 
 from viscontact.bodies.materials.cards.abaqus_reader import read_abaqus
 from viscontact.bodies.materials.cards.ansys_reader import read_ansys
 from viscontact.bodies.materials.cards.card import Card
+from viscontact.bodies.materials.cards.dyna_reader import read_ls_dyna
+from viscontact.bodies.materials.cards.other_programs import program_of
 from viscontact.tables import read_text
 
-_ABAQUS = re.compile(r"^[ \t]*\*[ \t]*(?:material|elastic|viscoelastic)\b", re.I | re.M)
-_ANSYS = re.compile(r"^[ \t]*(?:tb|mp)[ \t]*,", re.I | re.M)
+
+class _Reader(Protocol):
+    def __call__(
+        self,
+        path: str | PathLike[str],
+        *,
+        modulus_unit: str,
+        time_unit: str,
+        temperature_unit: str | None = None,
+        name: str | None = None,
+    ) -> tuple[Card, ...]: ...
+
+
+#: Programs that are read, and the commands that only their files have.
+_READERS: dict[str, tuple[re.Pattern[str], _Reader]] = {
+    "Abaqus (*ELASTIC, *VISCOELASTIC)": (
+        re.compile(r"^[ \t]*\*[ \t]*(?:mate|elas|visco[ \t]*e)[ \ta-z]*(?:,|$)", re.I | re.M),
+        read_abaqus,
+    ),
+    "Ansys (MP,EX and TB,PRONY)": (
+        re.compile(r"^[ \t]*(?:tb|mp|tbda\w*|mpda\w*)[ \t]*,", re.I | re.M),
+        read_ansys,
+    ),
+    "LS-DYNA (*MAT_...)": (re.compile(r"^\*(?:mat_|keyword\b)", re.I | re.M), read_ls_dyna),
+}
 
 
 def is_card(text: str) -> bool:
-    """Return whether a text has the commands of an Abaqus or Ansys card.
+    """Return whether a text is a card, or an input file of another program that is not read.
 
     Parameters
     ----------
@@ -28,7 +54,18 @@ def is_card(text: str) -> bool:
     >>> is_card("MP,EX,1,6.0"), is_card("time [s], E [MPa]")
     (True, False)
     """
-    return any(pattern.search(text) for pattern in (_ABAQUS, _ANSYS))
+    return bool(_programs(text)) or program_of(text) is not None
+
+
+def unread_program(text: str, source: str) -> str | None:
+    """Return why the text of a file is not read, if it is one of another program."""
+    other = None if _programs(text) else program_of(text)
+    return None if other is None else other.refusal(source)
+
+
+def _programs(text: str) -> list[str]:
+    """Programs whose commands a text has."""
+    return [program for program, (pattern, _) in _READERS.items() if pattern.search(text)]
 
 
 def read_cards(
@@ -39,14 +76,14 @@ def read_cards(
     temperature_unit: str | None = None,
     name: str | None = None,
 ) -> tuple[Card, ...]:
-    """Read the materials of an Abaqus or Ansys file.
+    """Read the materials of an Abaqus, Ansys or LS-DYNA file.
 
     Parameters
     ----------
     path : path-like
         The file.
     modulus_unit, time_unit, temperature_unit, name
-        As in `read_abaqus` and `read_ansys`.
+        As in `read_abaqus`, `read_ansys` and `read_ls_dyna`.
 
     Returns
     -------
@@ -56,16 +93,18 @@ def read_cards(
     Raises
     ------
     ValueError
-        If it is neither, or both, or what is in it cannot be read.
+        If it is none of these, or of several, or what is in it cannot be read.
     """
-    text = read_text(Path(path))
-    found = [bool(pattern.search(text)) for pattern in (_ABAQUS, _ANSYS)]
-    if sum(found) != 1:
-        raise ValueError(
-            f"{Path(path).name}: is no Abaqus card (*ELASTIC, *VISCOELASTIC) and no Ansys card "
-            "(MP,EX and TB,PRONY)" + (", but has commands of both" if all(found) else "")
-        )
-    read = read_abaqus if found[0] else read_ansys
+    text, source = read_text(Path(path)), Path(path).name
+    programs = _programs(text)
+    other = unread_program(text, source)
+    if other is not None:
+        raise ValueError(other)
+    if len(programs) != 1:
+        known = ", ".join(_READERS)
+        also = f", but has commands of {' and of '.join(programs)}" if programs else ""
+        raise ValueError(f"{source}: is no card of a program that is read: {known}{also}")
+    _, read = _READERS[programs[0]]
     return read(
         path,
         modulus_unit=modulus_unit,
@@ -83,14 +122,14 @@ def read_card(
     temperature_unit: str | None = None,
     name: str | None = None,
 ) -> Card:
-    """Read the one material of an Abaqus or Ansys file, or the one that is named.
+    """Read the one material of a card of any program, or the one that is named.
 
     Parameters
     ----------
     path : path-like
         The file.
     modulus_unit, time_unit, temperature_unit, name
-        As in `read_abaqus` and `read_ansys`.
+        As in `read_cards`.
 
     Returns
     -------
