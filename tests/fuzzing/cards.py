@@ -30,7 +30,8 @@ CARDS = {
     "0.3, -0.1, 0., 0., 0.01\n0.5, -0.4, 0., 0., 0.1\n0.3, -0.9, 0., 0., 1.\n",
     "formula.inp": "*ELASTIC\n10., 0.49\n*VISCOELASTIC, FREQUENCY=FORMULA\n0.05, -0.05, 0.5\n",
     "arrhenius.inp": "*PHYSICAL CONSTANTS, UNIVERSAL GAS=8.3, ABSOLUTE ZERO=-273.15\n"
-    "*MATERIAL, NAME=A\n*ELASTIC\n2e3, 0.35\n*VISCOELASTIC, FREQ=PRONY\n0.3, 0., 0.1\n*TRS, DEF=ARRHENIUS\n20., 8e4\n",
+    "*MATERIAL, NAME=A\n*ELASTIC\n2e3, 0.35\n*VISCOELASTIC, FREQ=PRONY\n0.3, 0., 0.1\n"
+    "*TRS, DEF=ARRHENIUS\n20., 8e4\n",
     "library.mpl": "/COM,ANSYS\nTBDEL,ALL,_MATL\nMPTEMP,R5.0, 1, 1,  0.0    ,\n"
     "MPDATA,R5.0, 1,EX  ,_MATL , 1,  1000.0    ,\nMPDATA,R5.0, 1,PRXY,_MATL , 1, 0.45 ,\n"
     "TB,PRON,_MATL   ,   1,   2,SHEA\nTBFIELD,Temps,0.0\nTBDATA,1,3.0e-01,1.0e-01,2.0e-01\n"

@@ -15,6 +15,8 @@ from viscontact.bodies.materials.material import Material
 
 # Difference from 1 of a sum written with a card's digits.
 _ROUNDING = 1e-12
+# Moduli beyond these [Pa] leave compliances or contacts that are no numbers.
+_LEAST_MODULUS, _MOST_MODULUS = 1e-60, 1e60
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,7 @@ class Moduli:
     stated_bulk: float | None = None
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.youngs_modulus) and self.youngs_modulus > 0):
-            raise ValueError(f"{self.where}: Young's modulus must be positive")
+        _require_modulus(self.where, "Young's", self.youngs_modulus)
         if not -1 < self.poisson_ratio <= 0.5:
             raise ValueError(
                 f"{self.where}: Poisson's ratio must lie above -1 and not above 0.5, got "
@@ -43,9 +44,8 @@ class Moduli:
     @classmethod
     def of_shear_and_bulk(cls, where: str, shear: float, bulk: float) -> Moduli:
         """Return instantaneous constants from the moduli G and K [Pa]; ValueError unless > 0."""
-        for name, value in (("shear", shear), ("bulk", bulk)):
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{where}: the {name} modulus must be positive, got {value!r}")
+        _require_modulus(where, "the shear", shear)
+        _require_modulus(where, "the bulk", bulk)
         # Divided by the larger of both, so that no product of them is beyond all numbers.
         g, k = shear / max(shear, bulk), bulk / max(shear, bulk)
         ratio = (3 * k - 2 * g) / (2 * (3 * k + g))
@@ -74,6 +74,14 @@ class Moduli:
                 "nothing in the long term; give instantaneous ones (MODULI=INSTANTANEOUS)"
             )
         return self.shear / left
+
+
+def _require_modulus(where: str, name: str, value: float) -> None:
+    """ValueError unless a modulus [Pa] and its inverse are positive numbers."""
+    if not value > 0:
+        raise ValueError(f"{where}: {name} modulus must be positive, got {value!r}")
+    if not _LEAST_MODULUS <= value <= _MOST_MODULUS:
+        raise ValueError(f"{where}: {name} modulus of {value:.3g} Pa is beyond all materials")
 
 
 @dataclass(frozen=True)
