@@ -15,6 +15,7 @@ from fuzzing import junk
 from fuzzing.calls import calls, height_maps
 from fuzzing.cards import cards
 from fuzzing.case_files import case_texts, cases, flow_of
+from fuzzing.surface_files import surface_files
 from fuzzing.tables import tables
 from fuzzing.watch import Tally, command, contents, refused_or, refuses
 from viscontact.runs.execution.prepared_case import prepare
@@ -31,6 +32,13 @@ time: {end: 5 s, steps: 3}
 grid: {shape: [16, 16], size: [3 mm, 3 mm]}
 """
 LOADED = CASE.replace("kind: step, force: 4 N", "kind: history, file: given.csv")
+PRESSED = """\
+indenter: {shape: height-map, file: FILE, missing: lowest, level: none}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, force: 1 uN, tilt_x: 0 rad, tilt_y: 0 rad}
+time: {end: 1 s, steps: 1}
+grid: {shape: [8, 8], size: [20 um, 20 um]}
+"""
 _KIND_OF = {"load.csv": "load", "approach.csv": "load", "creep.csv": "law", "relax.csv": "law"}
 
 
@@ -113,6 +121,16 @@ def put_table(given: tuple[str, bytes], tally: Tally) -> None:
 
 
 _RECORD = ["--indenter", "sphere 5 um", "--law", "elastic"]
+
+
+def put_surface(given: tuple[str, bytes], tally: Tally) -> None:
+    """Check a case with a surface from a text."""
+    name, data = given
+    Path(name).write_bytes(data)
+    Path("pressed.yaml").write_text(PRESSED.replace("FILE", name), encoding="utf-8")
+    settings = ["indenter.height_unit=um", "indenter.spacing=[2 um, 3 um]"]
+    typed = [word for each in settings for word in ("--set", each)]
+    asked(["check", "pressed.yaml", *(typed if len(data) % 4 else [])], data, tally)
 
 
 def put_card(given: tuple[str, bytes], tally: Tally) -> None:
@@ -198,6 +216,7 @@ FAMILIES = (
     Family("runs", cases(), put_run, 0.06),
     Family("--set", settings(), put_setting, 0.10),
     Family("tables", tables(), put_table, 0.17),
+    Family("surface files", surface_files(), put_surface, 0.08),
     Family("cards", cards(), put_card, 0.13),
     Family("height maps", height_maps(), put_call, 0.12),
     Family("Python calls", calls(), put_call, 0.20),

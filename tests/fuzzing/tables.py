@@ -38,6 +38,18 @@ TABLES = {
             for w in _TIMES
         ],
     ),
+    "phase.csv": _rows(
+        "#made by hand\n## f/Hz\t|G*|/MPa\tdelta/deg",
+        [(f, 100 * f**0.2, 18.0) for f in _TIMES],
+        "\t",
+    ),
+    "storage.csv": _rows("f [Hz];E' [MPa]", [(f, 100 * f**0.2) for f in _TIMES], ";"),
+    "blocks.csv": "Project:\tgel\n"
+    + "".join(
+        f"Interval:\t{k}\nNo.\ttime\tG\tT\n\ts\tMPa\t°C\n"
+        + "".join(f"{i}\t{t}\t{1 / _creep(t)}\t{20 + k}\n" for i, t in enumerate(_TIMES))
+        for k in (1, 2)
+    ),
     "record.csv": _rows(
         "time [s], approach [um], force [uN]",
         [(0.1 * k, 0.1 * k, 50 * (0.1 * k) ** 1.5) for k in range(12)],
@@ -58,8 +70,12 @@ _HEADINGS = (
     ),
     *("T [°C]", "T [K]", "Set", "aT", "log_aT", "tan delta", "modulus [MPa]", "tilt_x [mrad]"),
     *("", "[s]", "[]", "time []", "time [s] [s]", "((((((((((", "time" * 60, "a" * 300, "time\0"),
+    *("Sig1", "columns: t", "Interval data:", "|G*| [Pa]", "delta [°]", "Sec", "x/µm", "Load"),
     *("E_1", "remark", "eccentricity_x [mm]", "1", "nan", "creep_compliance [1/GPa]", "time [s)"),
 )
+
+# Lines that instruments write above a table.
+_ABOVE = ("", "", "Test:|gel", "[step]", "1|2|3", "Time:|12:30", "# note", "s|Pa", "time [s]|force")
 
 
 def tables() -> st.SearchStrategy[tuple[str, bytes]]:
@@ -79,6 +95,7 @@ def _changed(draw: Any, text: str) -> bytes:
     rows = [line.split(mark) for line in text.splitlines()]
     for _ in range(draw(st.integers(0, 3))):
         _change(draw, rows)
+    rows[:0] = [line.split("|") for line in draw(st.lists(st.sampled_from(_ABOVE), max_size=4))]
     mark = draw(st.sampled_from((mark, mark, mark, ",", ";", "\t", " ", "|", ", ", "\0")))
     joined = draw(st.sampled_from(("\n", "\n", "\n", "\r\n", "\r", "\n\n", "\u2028", "\x0b")))
     return draw(damaged(joined.join(mark.join(row) for row in rows) + joined))

@@ -25,6 +25,8 @@ _LOOSE = (
 )
 _LONGEST_HEADING = 200
 _NO_UNIT = ("", "-", "–", "—", "1", "none")
+# Names without a meaning of their own: readers of shapes and surfaces state it.
+_COORDINATES = ("x", "y", "z", "r", "drop", "height")
 # Units as some programs write them.
 _SPELT = {"Sec": "s", "sek": "s", "Sek": "s", "Min": "min", "° C": "degC", "Deg C": "degC"}
 # Stress and strain are those of a creep test if there is nothing else to be measured.
@@ -149,6 +151,8 @@ def quantity_named(cell: str, columns: Mapping[str, str | None]) -> str | None:
     >>> quantity_named("Zeit [min]", {}), quantity_named("u", {"u": "approach"})
     ('time', 'approach')
     """
+    if len(cell) > _LONGEST_HEADING:
+        return None
     found = _heading(cell, 0)
     for name in (found.text, found.name):
         if name in columns:
@@ -171,14 +175,18 @@ def _unit_of(text: str, line: int) -> _Heading:
         return _Heading(text, text, None, line)
     for pattern in (*_BRACKETS, *_LOOSE):
         match = pattern.fullmatch(text)
-        if match and (pattern in _BRACKETS or meaning(match["name"])):
+        if match and (pattern in _BRACKETS or _is_known(match["name"])):
             return _Heading(text, match["name"], match["unit"].strip(), line)
     return _Heading(text, text, None, line)
 
 
+def _is_known(name: str) -> bool:
+    return meaning(name) is not None or name.strip().lower() in _COORDINATES
+
+
 def _are_units(headings: list[_Heading], cells: tuple[str, ...]) -> bool:
     """True if the second row holds units: it has no numbers, and a known name above has no unit."""
-    lacking = any(h.unit is None and (not h.name or meaning(h.name)) for h in headings)
+    lacking = any(h.unit is None and (not h.name or _is_known(h.name)) for h in headings)
     without = lacking or all(h.unit is None for h in headings)
     return without and not any(map(looks_like_number, cells))
 

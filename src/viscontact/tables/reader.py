@@ -27,6 +27,7 @@ def read_table(
     *,
     stress: float | None = None,
     wanted: Collection[str] = (),
+    gaps: Mapping[str, Collection[str]] | None = None,
 ) -> Table:
     r"""Read a measured table from a CSV file or a spreadsheet.
 
@@ -48,6 +49,9 @@ def read_table(
         states it, or the one that is meant where there are several [Pa].
     wanted : collection of str, optional
         Quantities for which the table is read: a sheet that has one of them is preferred.
+    gaps : mapping, optional
+        Texts, in small letters, of cells that hold no value, by quantity; they arrive as NaN. An
+        empty cell, and any other text that is no number, is refused without them.
 
     Returns
     -------
@@ -97,7 +101,7 @@ def read_table(
     body = rows[header.rows :]
     if not body:
         raise ValueError(f"{path.name} has a header and no rows; export the measured values too")
-    values = _values(path.name, header, body)
+    values = _values(path.name, header, body, gaps or {})
     quantities = [column.quantity for column in header.columns]
     table = Table(
         source=path,
@@ -147,7 +151,9 @@ def _listed_sheets(names: tuple[str, ...]) -> str:
     return f"the sheet {listed} does" if len(names) == 1 else f"the sheets {listed} do"
 
 
-def _values(source: str, header: Header, rows: list[Row]) -> Floats:
+def _values(
+    source: str, header: Header, rows: list[Row], gaps: Mapping[str, Collection[str]]
+) -> Floats:
     places = [column.place for column in header.columns]
     for row in rows:
         _require_width(source, header.width, row)
@@ -157,7 +163,8 @@ def _values(source: str, header: Header, rows: list[Row]) -> Floats:
     values = np.empty((len(rows), len(places)))
     for i, row in enumerate(rows):
         for j, column in enumerate(header.columns):
-            values[i, j] = _value(source, row, column, mark)
+            is_gap = row.cells[column.place].lower() in gaps.get(column.quantity, ())
+            values[i, j] = math.nan if is_gap else _value(source, row, column, mark)
     return values
 
 

@@ -74,11 +74,16 @@ def read_source(
     return SourceTable(where, find_table(sheet.rows, [], names), sheet.others)
 
 
-def read_plain(path: Path) -> tuple[Path, TextRows]:
-    """Path with the sheet where there are several, and all rows and comments of a file."""
+def read_plain(
+    path: Path, holds: Callable[[list[Row]], bool] | None = None
+) -> tuple[Path, TextRows]:
+    """Path with the sheet where there are several, and all rows and comments of a file.
+
+    The first sheet whose rows `holds` accepts is read, or else the first one with numbers.
+    """
     if not is_spreadsheet(path):
         return path, rows_of_text(path, _EXAMPLE)
-    sheet = read_sheet(path)
+    sheet = read_sheet(path, holds)
     file, named = split_sheet(path)
     several = named is not None or sheet.others
     return file.with_name(f"{file.name}#{sheet.name}") if several else file, TextRows(

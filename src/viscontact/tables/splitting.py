@@ -26,7 +26,7 @@ _FIRST, _LAST = 400, 100
 # Comments that may hold a heading: instruments write some tens of lines.
 _MOST_COMMENTS = 2000
 # Also with separators of thousands, which are refused later.
-_NUMBER = re.compile(r"[+-]?[\d.,]*\d[\d.,]*(?:[eE][+-]?\d+)?")
+_NUMBER = re.compile(r"[+-]?[.,]*\d[\d.,]*(?:[eE][+-]?\d+)?")
 # A name and its unit are one cell: "time [s]".
 _BEFORE_UNIT = re.compile(r"\s+(?=[\[(])")
 _WIDE_BLANK = re.compile(r"\s{2,}")

@@ -256,7 +256,7 @@ def test_table_of_points_is_read_in_any_order_with_its_units(tmp_path: Path) -> 
         ("1,2,3\n4,5,x\n", "map.csv:2: height 3: 'x' is not a number"),
         ("x [um],y [um],height [nm]\n0,0,1\n0,0,2\n1,1,1\n", "map.csv:3: this point is given"),
         ("x [um],y [um],height [nm]\n0,0,1\n1,0,2\n1.5,1,1\n3,1,1\n", "on no even mesh"),
-        ("x [um],y [um]\n0,0\n1,0\n", "the column height is missing"),
+        ("x [um],w [um]\n0,a\n1,b\n", r"a map is rows of .*, got 'x \[um\]', 'w \[um\]'"),
         ("x,y,height\n0,0,0\n", "unit"),
         ("", "empty"),
     ],

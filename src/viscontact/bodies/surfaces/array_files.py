@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from viscontact.bodies.surfaces.markers import without_markers
 from viscontact.bodies.surfaces.surface import Surface
 from viscontact.bodies.surfaces.units import Units
 from viscontact.units.parsing import parse_unit
@@ -24,26 +25,30 @@ def read_array(path: Path, units: Units, channel: str | None) -> Surface:
     if isinstance(found, np.ndarray):
         if channel is not None:
             raise ValueError(f"channel: {path.name} holds one array without a name; leave it out")
-        return Surface(_lines(path.name, found) * units.height_scale, units.steps, name=path.name)
+        values, notes = without_markers(_lines(path.name, found))
+        return Surface(values * units.height_scale, units.steps, name=path.name, notes=notes)
     return _from_arrays(path, arrays, units, channel)
 
 
 def _from_arrays(path: Path, arrays: dict[str, Any], units: Units, channel: str | None) -> Surface:
-    heights = _lines(path.name, _choose_array(path, arrays, channel))
-    periodic = bool(np.all(arrays.get("periodic", False)))
+    heights, notes = without_markers(_lines(path.name, _choose_array(path, arrays, channel)))
+    stated: dict[str, Any] = {
+        "name": path.name,
+        "periodic": bool(np.all(arrays.get("periodic", False))),
+        "notes": notes,
+    }
     if "unit" not in arrays:
-        metres = heights * units.height_scale
-        return Surface(metres, units.steps, name=path.name, periodic=periodic)
+        return Surface(heights * units.height_scale, units.steps, **stated)
     units.require_none("height_unit")
     try:
         scale = parse_unit(str(arrays["unit"]), "length")
     except ValueError as error:
         raise ValueError(f"{path.name}: unit: {error}") from error
     if "spacing" not in arrays:
-        return Surface(heights * scale, units.steps, name=path.name, periodic=periodic)
+        return Surface(heights * scale, units.steps, **stated)
     units.require_none("spacing")
     steps = _steps(path.name, arrays["spacing"], scale)
-    return Surface(heights * scale, steps, name=path.name, periodic=periodic)
+    return Surface(heights * scale, steps, **stated)
 
 
 def _steps(name: str, spacing: Any, scale: float) -> tuple[float, float]:

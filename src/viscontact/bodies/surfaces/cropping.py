@@ -124,4 +124,4 @@ def swept(surface: Surface, width: float) -> Surface:
     step = surface.spacing[0 if surface.shape[0] > 1 else 1]
     across = min(max(2, round(wide / step)), _MOST_ACROSS)
     heights = np.repeat(line[:, np.newaxis], across, axis=1)
-    return Surface(heights, (step, wide / across), name=surface.name)
+    return Surface(heights, (step, wide / across), name=surface.name, notes=surface.notes)

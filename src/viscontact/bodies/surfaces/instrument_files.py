@@ -8,9 +8,18 @@ from typing import Any
 
 import numpy as np
 
+from viscontact.bodies.surfaces.bare_numbers import surface_of_places
+from viscontact.bodies.surfaces.markers import without_markers
+from viscontact.bodies.surfaces.point_tables import on_mesh
 from viscontact.bodies.surfaces.surface import Surface
 from viscontact.bodies.surfaces.units import Spacing, Units
 from viscontact.units.parsing import parse_unit
+
+# Files that hold other ones.
+_PACKED = {
+    b"PK\x03\x04": "it is a packed folder; unpack it, and name one of its files",
+    b"\x1f\x8b": "it is packed; unpack it (gunzip)",
+}
 
 
 def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
@@ -20,7 +29,7 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
         from SurfaceTopography import open_topography
         from SurfaceTopography.Exceptions import CannotDetectFileFormat, UnknownFileFormat
     except ImportError as error:
-        raise ValueError(
+        raise UnknownFormatError(
             f"{path.name}: reading {path.suffix or 'such'} files needs SurfaceTopography; type: "
             "pip install 'viscontact[surfaces]' (NPY, NPZ and CSV are read without it)"
         ) from error
@@ -29,6 +38,8 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
             warnings.simplefilter("ignore")  # about details of the formats
             with open_topography(str(path)) as file:
                 found = _channel(path.name, file, channel)
+                if found.is_uniform is False:
+                    return _line_scan(found, file.topography(channel_index=found.index), units)
                 scale, spacing = _lengths(found, units)
                 # SurfaceTopography needs a size; the caller's spacing replaces it below.
                 sizes = {} if found.physical_sizes else {"physical_sizes": found.nb_grid_pts}
@@ -37,18 +48,32 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
     except (MemoryError, _RefusedError):
         raise
     except (CannotDetectFileFormat, UnknownFileFormat) as error:
-        raise ValueError(
-            f"{path.name}: cannot be read as a surface: its content is in no format that is known, "
-            "or broken"
+        raise UnknownFormatError(
+            f"{path.name}: cannot be read as a surface: {_unknown(path)}"
         ) from error
     except Exception as error:  # 42 formats: a broken file may raise anything
         why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
-        raise ValueError(f"{path.name}: cannot be read as a surface: {why}") from error
+        raise ValueError(
+            f"{path.name}: cannot be read as a surface: it is broken, or of a kind that "
+            f"SurfaceTopography does not read ({why}); export it as X3P, or as a text"
+        ) from error
     return _surface(path.name, topography, heights, scale, spacing)
+
+
+class UnknownFormatError(ValueError):
+    """The content is in no format that SurfaceTopography knows, or this is not installed."""
 
 
 class _RefusedError(ValueError):
     """Refusal that concerns the arguments, not the file."""
+
+
+def _unknown(path: Path) -> str:
+    """Reason why no reader takes a file."""
+    with path.open("rb") as file:
+        start = file.read(4)
+    packed = next((words for mark, words in _PACKED.items() if start.startswith(mark)), None)
+    return packed or "its content is in no format that is known, or broken"
 
 
 def _channel(name: str, file: Any, channel: str | None) -> Any:
@@ -83,21 +108,35 @@ def _require_heights(found: Any, name: str) -> None:
             f"channel: {found.name!r} of {name} holds no heights, but values in "
             f"{found.unit[1] or 'no unit'}; choose another"
         )
-    if found.is_uniform is False:
-        raise ValueError(
-            f"{name}: its points are unevenly spaced; bring them to an even mesh first"
-        )
+
+
+def _line_scan(found: Any, line: Any, units: Units) -> Surface:
+    """Line scan of points whose positions are written, if they are even but for their rounding."""
+    try:
+        _require_heights(found, units.name)
+        x, heights = np.asarray(line.positions()), np.asarray(line.heights())
+        if found.unit is None:
+            return surface_of_places(units.name, (x, np.zeros_like(x)), heights, units)
+        units.require_none()
+        scale = parse_unit(str(found.unit), "length")
+        heights, notes = without_markers(heights)
+        places = scale * x, np.zeros_like(x)
+        return on_mesh(units.name, places, scale * heights, notes=notes)
+    except ValueError as error:
+        raise _RefusedError(str(error)) from error
 
 
 def _surface(
     name: str, topography: Any, heights: Any, scale: float, spacing: Spacing | None
 ) -> Surface:
-    values = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan) * scale
+    values = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan)
     values[np.isinf(values)] = np.nan
+    values, notes = without_markers(values)
+    values *= scale
     if values.ndim == 1:
         values = values[:, np.newaxis]
     if spacing is None:
         sizes = zip(topography.physical_sizes, topography.nb_grid_pts, strict=True)
         along = [float(size) * scale / n for size, n in sizes]
         spacing = along[0], along[-1]
-    return Surface(values, spacing, name=name, periodic=bool(topography.is_periodic))
+    return Surface(values, spacing, name=name, periodic=bool(topography.is_periodic), notes=notes)

@@ -10,6 +10,9 @@ from viscontact.bodies.surfaces.levelling import TERMS, Level, polynomial, tilt
 from viscontact.bodies.surfaces.surface import Surface
 from viscontact.units.formatting import format_number, format_quantity
 
+#: Extent [m], and heights over the extent, beyond which a unit must be wrong.
+LARGEST_EXTENT, LARGEST_SPAN = 10.0, 100.0
+
 #: Skewness below which heights look like valleys in a plateau.
 SKEWED = -1.0
 
@@ -55,6 +58,23 @@ def surface_doubts(surface: Surface) -> tuple[str, ...]:
         _spiked(surface),
     )
     return tuple(warning for warning in (*found, _steep(surface)) if warning)
+
+
+def require_possible(surface: Surface) -> None:
+    """Refuse sizes that no instrument measures: a unit is wrong, in the file or in its reader."""
+    extent, span = max(surface.size), surface.height_range
+    if extent > LARGEST_EXTENT:
+        raise ValueError(
+            f"{surface.name}: is {format_quantity(extent, 'm', 4)} long, which no surface measured "
+            "for contact is; a unit is wrong. Export it in another format, as text with the "
+            "spacing of its points"
+        )
+    if span > LARGEST_SPAN * extent:
+        raise ValueError(
+            f"height_factor: the heights of {surface.name} span {format_quantity(span, 'm', 3)} on "
+            f"no more than {format_quantity(extent, 'm', 3)}; is their unit another, or a value "
+            "the mark of a missing point? A factor such as 1e-6 corrects a unit"
+        )
 
 
 def described(surface: Surface) -> str:

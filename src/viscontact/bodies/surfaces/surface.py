@@ -33,6 +33,8 @@ class Surface(Displayable):
         Its name in messages.
     periodic : bool, optional
         True if its ends fit together, so that it continues periodically.
+    notes : tuple of str, optional
+        What its reader has done, such as values that mark missing points.
 
     Raises
     ------
@@ -57,6 +59,7 @@ class Surface(Displayable):
     spacing: tuple[float, float]
     name: str
     periodic: bool
+    notes: tuple[str, ...]
 
     def __init__(
         self,
@@ -65,11 +68,11 @@ class Surface(Displayable):
         *,
         name: str = "surface",
         periodic: bool = False,
+        notes: tuple[str, ...] = (),
     ) -> None:
         steps = both_lengths(f"{name}: spacing", spacing)
-        store(
-            self, name=name, heights=_map_of(name, heights), spacing=steps, periodic=bool(periodic)
-        )
+        found = _map_of(name, heights)
+        store(self, name=name, heights=found, spacing=steps, periodic=bool(periodic), notes=notes)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -167,7 +170,9 @@ class Surface(Displayable):
 
     def with_heights(self, heights: ArrayLike) -> Surface:
         """Return the same mesh with other heights [m]."""
-        return Surface(heights, self.spacing, name=self.name, periodic=self.periodic)
+        return Surface(
+            heights, self.spacing, name=self.name, periodic=self.periodic, notes=self.notes
+        )
 
     def __repr__(self) -> str:
         nx, ny = self.shape

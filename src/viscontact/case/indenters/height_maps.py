@@ -117,7 +117,8 @@ class HeightMap(Shape):
     def notes(self) -> tuple[str, ...]:
         """Notes on the map: its statistics, the removed form, and implausible values."""
         surface = self.surface
-        notes = (levelling_note(self._measured_map, self.level), described(surface))
+        read = (f"{self._read_map.name}: {note}" for note in self._read_map.notes)
+        notes = (*read, levelling_note(self._measured_map, self.level), described(surface))
         return (*filter(None, notes), *surfaces.surface_doubts(surface), *_period_note(surface))
 
     def build(self) -> indenters.HeightMap:
@@ -145,8 +146,16 @@ class HeightMap(Shape):
     @cached_property
     def _measured_map(self) -> surfaces.Surface:
         """The cropped map as measured."""
+        found = self._read_map
+        require_map(found)
+        found = surfaces.flipped(found) if self.flip else found
+        return surfaces.cropped(found, self.crop.x, self.crop.y)
+
+    @cached_property
+    def _read_map(self) -> surfaces.Surface:
+        """The map as it is read."""
         try:
-            found = surfaces.read_surface(
+            return surfaces.read_surface(
                 self.file,
                 spacing=self.spacing,
                 height_unit=self.height_unit,
@@ -156,9 +165,6 @@ class HeightMap(Shape):
             )
         except ValueError as error:
             raise ValueError(self._at_key(str(error))) from error
-        require_map(found)
-        found = surfaces.flipped(found) if self.flip else found
-        return surfaces.cropped(found, self.crop.x, self.crop.y)
 
     def _at_key(self, why: str) -> str:
         """Prefix an error with the key of the file, unless it names another one."""
