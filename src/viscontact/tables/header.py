@@ -3,32 +3,21 @@
 from __future__ import annotations
 
 import difflib
-import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from viscontact.tables.creep_tests import STRAIN_UNITS, chosen_level, split_stress
+from viscontact.tables.creep_tests import chosen_level
+from viscontact.tables.heading_cells import (
+    HeadingCell,
+    by_unit,
+    column_scale,
+    heading_cell,
+    is_known,
+)
 from viscontact.tables.names import QUANTITIES, Data, Meaning, known_names, meaning
 from viscontact.tables.text import Row, looks_like_number
-from viscontact.units.dimensions import DIMENSIONS
-from viscontact.units.parsing import UnitScale, parse_scale
+from viscontact.units.parsing import UnitScale
 
-# "time [s]", "time (s)", "time in s", "time / s"; the last two only behind a name that is known.
-_BRACKETS = (
-    re.compile(r"(?P<name>.+?)\s*\[(?P<unit>[^\]]*)\]"),
-    re.compile(r"(?P<name>.+?)\s*\((?P<unit>[^()]*(?:\([^()]*\)[^()]*)*)\)"),
-)
-_LOOSE = (
-    re.compile(r"(?P<name>.+?)\s+in\s+(?P<unit>\S+)"),
-    re.compile(r"(?P<name>.+?)\s*/\s*(?P<unit>.+)"),
-)
-_LONGEST_HEADING = 200
-_NO_UNIT = ("", "-", "–", "—", "1", "none")
-# Names without a meaning of their own: readers of shapes and surfaces state it.
-_COORDINATES = ("x", "y", "z", "r", "drop", "height")
-# Units as some programs write them.
-_SPELT = {"Sec": "s", "sek": "s", "Sek": "s", "Min": "min", "° C": "degC", "Deg C": "degC"}
 # Stress and strain are those of a creep test if there is nothing else to be measured.
 _OF_CREEP_TEST = ("time", "temperature", "set", "creep_modulus", "strain", "stress")
 
@@ -75,17 +64,6 @@ class Header:
         return next((c.meaning.data for c in self.columns if c.meaning.data), None)
 
 
-@dataclass(frozen=True)
-class _Heading:
-    """Cell of the header: its text, the name and unit in it, its line, and a stress [Pa]."""
-
-    text: str
-    name: str
-    unit: str | None
-    line: int
-    stress: float | None = None
-
-
 def read_header(
     source: str,
     rows: list[Row],
@@ -95,7 +73,7 @@ def read_header(
     """Read the header; `columns` maps headings to quantities, `stress` [Pa] chooses a test."""
     _require_names(source, rows[0])
     cells = _without_empty_end(rows[0].cells)
-    headings = [_heading(cell, rows[0].line) for cell in cells]
+    headings = [heading_cell(cell, rows[0].line) for cell in cells]
     in_two_rows = len(rows) > 1 and _are_units(headings, rows[1].cells)
     if in_two_rows:
         units = (*rows[1].cells, *[""] * len(cells))
@@ -105,7 +83,7 @@ def read_header(
         ]
     meanings = _meanings(source, headings, columns)
     found = tuple(
-        Column(place, heading.text, stated, _scale(source, heading, stated), heading.stress)
+        Column(place, heading.text, stated, column_scale(source, heading, stated), heading.stress)
         for place, (heading, stated) in enumerate(zip(headings, meanings, strict=True))
         if stated is not None
     )
@@ -145,62 +123,23 @@ def _at_stress(
     return tuple(column for column in columns if column.stress in (None, level)), level
 
 
-def quantity_named(cell: str, columns: Mapping[str, str | None]) -> str | None:
-    """Quantity that the text of a heading names, by itself or by `columns`; None if it names none.
-
-    >>> quantity_named("Zeit [min]", {}), quantity_named("u", {"u": "approach"})
-    ('time', 'approach')
-    """
-    if len(cell) > _LONGEST_HEADING:
-        return None
-    found = _heading(cell, 0)
-    for name in (found.text, found.name):
-        if name in columns:
-            return columns[name]
-    stated = _by_unit(found, meaning(found.name))
-    return None if stated is None else stated.quantity
-
-
-def _heading(text: str, line: int) -> _Heading:
-    name, stress = split_stress(text)
-    if stress is not None:
-        return _Heading(text, name, None, line, stress)
-    found = _unit_of(text, line)
-    name, stress = split_stress(found.name)
-    return found if stress is None else _Heading(text, name, found.unit, line, stress)
-
-
-def _unit_of(text: str, line: int) -> _Heading:
-    if len(text) > _LONGEST_HEADING or meaning(text) is not None:
-        return _Heading(text, text, None, line)
-    for pattern in (*_BRACKETS, *_LOOSE):
-        match = pattern.fullmatch(text)
-        if match and (pattern in _BRACKETS or _is_known(match["name"])):
-            return _Heading(text, match["name"], match["unit"].strip(), line)
-    return _Heading(text, text, None, line)
-
-
-def _is_known(name: str) -> bool:
-    return meaning(name) is not None or name.strip().lower() in _COORDINATES
-
-
-def _are_units(headings: list[_Heading], cells: tuple[str, ...]) -> bool:
+def _are_units(headings: list[HeadingCell], cells: tuple[str, ...]) -> bool:
     """True if the second row holds units: it has no numbers, and a known name above has no unit."""
-    lacking = any(h.unit is None and (not h.name or _is_known(h.name)) for h in headings)
+    lacking = any(h.unit is None and (not h.name or is_known(h.name)) for h in headings)
     without = lacking or all(h.unit is None for h in headings)
     return without and not any(map(looks_like_number, cells))
 
 
-def _with_unit(heading: _Heading, unit: str, line: int) -> _Heading:
+def _with_unit(heading: HeadingCell, unit: str, line: int) -> HeadingCell:
     """Heading with the unit of the second row, unless it has one and the row none."""
     if heading.unit is not None and not unit:
         return heading
     name = heading.text if heading.unit is not None else heading.name
-    return _Heading(heading.text, name, unit, line, heading.stress)
+    return HeadingCell(heading.text, name, unit, line, heading.stress)
 
 
 def _meanings(
-    source: str, headings: list[_Heading], given: Mapping[str, str | None]
+    source: str, headings: list[HeadingCell], given: Mapping[str, str | None]
 ) -> list[Meaning | None]:
     known = {*QUANTITIES, "frequency"}
     for heading, quantity in given.items():
@@ -211,7 +150,7 @@ def _meanings(
         if not any(heading in (h.text, h.name) for h in headings):
             found = ", ".join(repr(h.text) for h in headings)
             raise ValueError(f"columns: {source} has no column {heading!r}; there are {found}")
-    meant = [_by_unit(h, _meaning(source, h, given)) for h in headings]
+    meant = [by_unit(h, _meaning(source, h, given)) for h in headings]
     meant = _without_idle_moduli(meant)
     if all(each is None or each.quantity in _OF_CREEP_TEST for each in meant):
         return meant
@@ -234,20 +173,11 @@ def _without_idle_moduli(meant: list[Meaning | None]) -> list[Meaning | None]:
     return [None if each is not None and each.quantity in idle else each for each in meant]
 
 
-def _by_unit(heading: _Heading, stated: Meaning | None) -> Meaning | None:
-    """Meaning of a heading; a deflection in volts is a signal, and a δ in degrees a phase."""
-    if stated is not None and stated.quantity == "deflection" and heading.unit in ("V", "mV"):
-        return Meaning("signal")
-    if heading.name.strip() == "δ" and heading.unit in ("°", "deg", "rad", "mrad"):
-        return Meaning("phase_angle")
-    return stated
-
-
 def _is_of_creep_test(stated: Meaning | None) -> bool:
     return stated is not None and stated.quantity in ("strain", "stress")
 
 
-def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) -> Meaning | None:
+def _meaning(source: str, heading: HeadingCell, given: Mapping[str, str | None]) -> Meaning | None:
     stated = meaning(heading.name)
     for name in (heading.text, heading.name):
         if name in given:
@@ -262,59 +192,6 @@ def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) ->
                 f"If not, leave it out with columns={{{heading.text!r}: None}}"
             )
     return stated
-
-
-def _scale(source: str, heading: _Heading, stated: Meaning) -> UnitScale:
-    where = f"{source}:{heading.line}: column {heading.text!r}"
-    frequency = stated.quantity in ("frequency", "angular_frequency")
-    if stated.quantity == "strain":
-        return _strain_scale(where, heading)
-    dimension = "pressure" if stated.quantity == "modulus" else QUANTITIES.get(stated.quantity)
-    if dimension is None and not frequency:
-        if heading.unit is not None and heading.unit.lower() not in _NO_UNIT:
-            raise ValueError(f"{where}: {stated.quantity} has no unit, got {heading.unit!r}")
-        return UnitScale(1.0)
-    if heading.unit is None or (heading.unit in _NO_UNIT and heading.unit != "1"):
-        example = DIMENSIONS[dimension or "frequency"].unit
-        raise ValueError(
-            f"{where}: has no unit; write e.g. '{heading.name} [{example}]', or a second row "
-            "of units"
-        )
-    unit = _SPELT.get(heading.unit, heading.unit)
-    try:
-        if frequency:
-            return _angular(stated.quantity, unit)
-        assert dimension is not None  # only frequencies have none
-        return parse_scale(unit, dimension)
-    except ValueError as error:
-        raise ValueError(f"{where}: {error}") from error
-
-
-def _strain_scale(where: str, heading: _Heading) -> UnitScale:
-    # Without a unit, 0.5 may be 0.5 or 0.5 %.
-    if heading.unit not in STRAIN_UNITS:
-        got = "it has none" if heading.unit is None else f"got {heading.unit!r}"
-        raise ValueError(
-            f"{where}: a strain has one of the units {', '.join(STRAIN_UNITS)}, {got}; write e.g. "
-            f"'{heading.name} [%]'"
-        )
-    return UnitScale(STRAIN_UNITS[heading.unit])
-
-
-def _angular(quantity: str, unit: str) -> UnitScale:
-    """Scale to rad/s; 1/s is a frequency or an angular frequency by the name of the column."""
-    try:
-        return parse_scale(unit, "angular frequency")
-    except ValueError:
-        factor = parse_scale(unit, "frequency").factor
-    if quantity == "frequency":
-        return UnitScale(2 * math.pi * factor)
-    if "hz" in unit.lower():
-        raise ValueError(
-            f"an angular frequency is in rad/s, got {unit!r}: call a frequency in {unit} 'f', or "
-            "give the unit rad/s"
-        )
-    return UnitScale(factor)
 
 
 def _require_some(source: str, line: int, found: tuple[Column, ...], left: tuple[str, ...]) -> None:

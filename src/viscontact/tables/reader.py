@@ -12,7 +12,8 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.tables.creep_tests import with_creep_compliance
 from viscontact.tables.given_columns import GivenColumns, parted_columns, with_given_heading
-from viscontact.tables.header import Column, Header, quantity_named, read_header
+from viscontact.tables.header import Column, Header, read_header
+from viscontact.tables.heading_cells import quantity_named
 from viscontact.tables.headings import FoundTable
 from viscontact.tables.isochronous import isochronous_table
 from viscontact.tables.oscillations import with_moduli
