@@ -77,11 +77,15 @@ class Isotherm(Displayable):
         """True if the points are angular frequencies."""
         return "storage" in self.measured
 
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the measured columns, storage before loss."""
+        return next(columns for columns, _ in KINDS_OF_TEST if set(columns) == set(self.measured))
+
     def curve(self) -> TemperatureCurve:
         """Return the set over ln(time), or over -ln(angular frequency), without time 0."""
         later = np.flatnonzero(self.points)
         log_times = np.log(self.points[later]) * (-1 if self.oscillates else 1)
         order = np.argsort(log_times)
-        names = next(columns for columns, _ in KINDS_OF_TEST if set(columns) == set(self.measured))
-        columns = np.array([self.measured[name][later][order] for name in names])
+        columns = np.array([self.measured[name][later][order] for name in self.columns])
         return TemperatureCurve(log_times[order], np.log(columns))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from textwrap import wrap
 
@@ -19,17 +19,28 @@ from viscontact.bodies.laws import (
 )
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.identification.indentation_fit import IndentationFit
+from viscontact.identification.master_curve import MasterCurve
+from viscontact.identification.shift_section import shift_lines
 
 _DIGITS = 6
 
 
-def material_section(fit: Fit | IndentationFit) -> str:
+def material_section(
+    fit: Fit | IndentationFit,
+    curve: MasterCurve | None = None,
+    temperature: float | None = None,
+) -> str:
     """Return the law of a fit as a section to paste into a case file.
 
     Parameters
     ----------
     fit : Fit or IndentationFit
         From `fit_creep`, `fit_relaxation`, `fit_dynamic` or `fit_indentation`.
+    curve : MasterCurve, optional
+        The master curve that was fitted: its shift factors are written, so that a case may ask for
+        another temperature, and its warnings.
+    temperature : float, optional
+        Temperature of the law of `fit` [K]; that of the curve if left out.
 
     Returns
     -------
@@ -60,16 +71,21 @@ def material_section(fit: Fit | IndentationFit) -> str:
     else:
         law, data = fit.series, fit.data
         volume = _volume(fit.poisson_ratio, fit.bulk_modulus)
-    lines = [*_misfit(fit), *_law(law), f"data: {data}", volume]
+    doubts = () if curve is None else curve.warnings
+    shift = [] if curve is None else shift_lines(curve, temperature)
+    lines = [*_warning(fit, doubts), *_law(law), f"data: {data}", volume, *shift]
     return "\n".join(["material:", *(f"  {line}" for line in lines)])
 
 
-def _misfit(fit: Fit | IndentationFit) -> list[str]:
-    """Lines with the misfit of a series, which each run with the law repeats as a warning."""
-    if isinstance(fit, IndentationFit) or fit.misfit is None:
+def _warning(fit: Fit | IndentationFit, doubts: Sequence[str]) -> list[str]:
+    """Lines with the doubts and the misfit of a series, which each run with the law repeats."""
+    misfit = None if isinstance(fit, IndentationFit) else fit.misfit
+    said = [*doubts, *([misfit.message] if misfit else [])]
+    if not said:
         return []
-    text = wrap(fit.misfit.message, 92, break_on_hyphens=False)
-    return [f"# misfit: {fit.misfit.reason.value}", "warning: >-", *(f"  {line}" for line in text)]
+    comment = [f"# misfit: {misfit.reason.value}"] if misfit else []
+    text = wrap("; ".join(said), 92, break_on_hyphens=False)
+    return [*comment, "warning: >-", *(f"  {line}" for line in text)]
 
 
 def _law(law: Law) -> list[str]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import overload
+from dataclasses import dataclass, fields, replace
+from typing import Any, Self, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -89,6 +89,42 @@ class Law(Displayable, CreepFunction):
         ValueError
             If the factor is not positive and finite.
         """
+
+    def stiffened(self, factor: float) -> Self:
+        """Return the law with every modulus and viscosity multiplied by a factor.
+
+        Parameters
+        ----------
+        factor : float
+            Vertical shift factor b_T > 0 [-]; compliances and fluidities are divided by it.
+
+        Returns
+        -------
+        Law
+            The same law, `factor` times as stiff at all times.
+
+        Raises
+        ------
+        ValueError
+            If the factor is not positive and finite.
+
+        Examples
+        --------
+        >>> from viscontact.bodies.laws import Maxwell
+        >>> Maxwell(shear_modulus=1e6, viscosity=2e6).stiffened(1.5)
+        Maxwell(shear_modulus=1500000.0, viscosity=3000000.0)
+        """
+        factor = positive("stiffened: factor", factor)
+        powers = {"Pa": 1, "Pa s": 1, "1/Pa": -1, "1/(Pa s)": -1}
+        changed: dict[str, Any] = {}
+        for each in fields(self):
+            value, power = getattr(self, each.name), powers.get(each.metadata.get("unit", ""))
+            if isinstance(value, Law):
+                changed[each.name] = value.stiffened(factor)
+            elif power is not None:
+                scaled = np.multiply(value, factor**power)
+                changed[each.name] = scaled.tolist()
+        return replace(self, **changed)
 
     @property
     def creep_error(self) -> float:

@@ -70,9 +70,41 @@ class Shift(Displayable, ABC):
             )
         return float(factors) if T.ndim == 0 else factors
 
+    @overload
+    def vertical_factor(self, temperature: float) -> float: ...
+    @overload
+    def vertical_factor(self, temperature: Sequence[float] | Floats) -> Floats: ...
+    def vertical_factor(self, temperature: ArrayLike) -> float | Floats:
+        """Return the vertical shift factor b_T.
+
+        Parameters
+        ----------
+        temperature : float or array_like
+            Absolute temperature T > 0 [K].
+
+        Returns
+        -------
+        float or ndarray
+            Ratio of all moduli to those at the reference temperature in the same state [-], of the
+            shape of `temperature`; 1 unless the shift has vertical factors.
+
+        Raises
+        ------
+        ValueError
+            As in `factor`.
+        """
+        T = real_array("temperature", temperature, "K")
+        self.factor(T)  # refuses what the rule does not hold for
+        factors = np.exp(self._log_vertical(T))
+        return float(factors) if T.ndim == 0 else factors
+
     @abstractmethod
     def _log_factor(self, temperature: Floats) -> Floats:
         """Return ln a_T."""
+
+    def _log_vertical(self, temperature: Floats) -> Floats:
+        """Return ln b_T."""
+        return np.zeros_like(temperature)
 
 
 @dataclass(frozen=True)
@@ -170,7 +202,7 @@ class Arrhenius(Shift):
 
 @dataclass(frozen=True)
 class TabulatedShift(Shift):
-    """Measured shift factors, linear in ln a_T between them.
+    """Measured shift factors, linear in ln a_T and ln b_T between them.
 
     Parameters
     ----------
@@ -178,6 +210,9 @@ class TabulatedShift(Shift):
         Absolute temperatures, increasing, two or more [K].
     factors : sequence of float
         Shift factors a_T > 0, one for each, falling or equal [-].
+    vertical : sequence of float, optional
+        Vertical shift factors b_T > 0, one for each: the moduli at T over those at the reference
+        temperature in the same state [-]; 1 if left out.
 
     Raises
     ------
@@ -198,6 +233,9 @@ class TabulatedShift(Shift):
 
     temperatures: Sequence[float] = field(metadata={"unit": "K"})
     factors: Sequence[float] = field(metadata={"unit": "1"})
+    vertical: Sequence[float] | None = field(
+        default=None, metadata={"unit": "1", "recorded": "if given"}
+    )
     _OWNER: ClassVar[str] = "TabulatedShift"
 
     def __post_init__(self) -> None:
@@ -206,6 +244,11 @@ class TabulatedShift(Shift):
             raise ValueError(
                 f"{self._OWNER}: temperatures and factors must have equal lengths of at least 2, "
                 f"got {len(temperatures)} temperatures and {len(factors)} factors"
+            )
+        if self.vertical is not None and len(check_items(self, "vertical")) != len(factors):
+            raise ValueError(
+                f"{self._OWNER}: vertical must have one factor for each of the {len(factors)} "
+                f"temperatures, got {len(self.vertical)}"
             )
         for i in range(1, len(temperatures)):
             self._require_order(i, temperatures, factors)
@@ -234,3 +277,8 @@ class TabulatedShift(Shift):
                 f"{temperature[outside].flat[0]:.6g} K; WLF and Arrhenius hold beyond a table"
             )
         return np.asarray(np.interp(temperature, self.temperatures, np.log(self.factors)))
+
+    def _log_vertical(self, temperature: Floats) -> Floats:
+        if self.vertical is None:
+            return np.zeros_like(temperature)
+        return np.asarray(np.interp(temperature, self.temperatures, np.log(self.vertical)))

@@ -102,7 +102,8 @@ class Material(Displayable):
         -------
         Material
             The material whose law and measured range have all their times multiplied by the
-            shift factor a_T. It has no shift: its law no longer holds at the reference temperature.
+            shift factor a_T, and whose law has all moduli multiplied by the vertical factor b_T. It
+            has no shift: its law no longer holds at the reference temperature.
 
         Raises
         ------
@@ -111,7 +112,7 @@ class Material(Displayable):
 
         Notes
         -----
-        Phi(t) becomes Phi(t/a_T). Poisson's ratio and the bulk modulus do not change with
+        Phi(t) becomes Phi(t/a_T)/b_T. Poisson's ratio and the bulk modulus do not change with
         temperature.
 
         Examples
@@ -128,10 +129,12 @@ class Material(Displayable):
                 "e.g. Material(law, poisson_ratio, shift=WLF(298.15, 17.44, 51.6))"
             )
         factor = self.shift.factor(temperature)
+        raised = self.shift.vertical_factor(temperature)
+        law = self.law if factor == 1.0 else self.law.slowed(factor)
         until = self.measured_until
         return replace(
             self,
-            law=self.law if factor == 1.0 else self.law.slowed(factor),
+            law=law if raised == 1.0 else law.stiffened(raised),
             measured_until=None if until is None else factor * until,
             shift=None,
         )

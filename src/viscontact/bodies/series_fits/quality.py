@@ -23,6 +23,7 @@ class Reason(enum.Enum):
     TERMS = "the terms are too few"
     SOLID = "the data have an equilibrium modulus, which a fluid has not"
     DISAGREEMENT = "no series has such storage and loss together"
+    SUPERPOSITION = "the sets of several temperatures do not join to one curve"
     SCATTER = "the data scatter"
 
 

@@ -103,6 +103,8 @@ class Medium(Section):
         keys = {"measured_until": self.measured_until, "thickness": self.thickness}
         given: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
         if self.temperature is None:
+            if self.shift is not None and self.shift.is_referred:
+                return replace(material, shift=shift, **given)
             if self.shift is not None:
                 raise ValueError(
                     "shift: needs a temperature to shift to, e.g. 'temperature: 60 degC'"

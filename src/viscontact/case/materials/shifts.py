@@ -13,10 +13,18 @@ from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import MolarEnergy, Temperature, TemperatureDifference
 from viscontact.case.section_choice import ChosenBy
 from viscontact.tables import read_table
+from viscontact.units.temperatures import in_celsius
+
+_ROUNDED = 1e-4  # deviation of a written factor from 1 at the temperature of the law
 
 
 class Rule(FileSection):
     """Rule for the shift factor as a function of temperature."""
+
+    @property
+    def is_referred(self) -> bool:
+        """True if a run without a temperature is computed at that of the law."""
+        return False
 
     @abstractmethod
     def build(self) -> laws.Shift:
@@ -49,15 +57,62 @@ class Arrhenius(Rule):
 
 
 class Factors(Rule):
-    """Shift factors as measured, in a CSV file: 1 at the temperature the law is given at."""
+    """Shift factors as measured, in a CSV file or here: 1 at the temperature of the law."""
 
     kind: Literal["factors"]
-    file: DataFile = Field(
-        description="table with a header such as: T [degC], log_aT", examples=["factors.csv"]
+    file: DataFile | None = Field(
+        default=None,
+        description="table with a header such as: T [degC], log_aT",
+        examples=["factors.csv"],
+    )
+    temperatures: list[Temperature] | None = Field(
+        default=None, description="those of the factors, increasing, in place of a file"
+    )
+    factors: list[Annotated[float, Field(gt=0)]] | None = Field(
+        default=None, description="a_T at each of the temperatures"
+    )
+    vertical: list[Annotated[float, Field(gt=0)]] | None = Field(
+        default=None, description="b_T at each of the temperatures, by which moduli are multiplied"
+    )
+    reference_temperature: Temperature | None = Field(
+        default=None,
+        description="temperature of the law, at which a run without a temperature is computed",
     )
 
+    @property
+    def is_referred(self) -> bool:
+        """True if a run without a temperature is computed at that of the law."""
+        return self.reference_temperature is not None
+
     def build(self) -> laws.Shift:
-        """Return the rule, linear in ln a_T between the rows."""
+        """Return the rule, linear in ln a_T between the temperatures."""
+        if self.file is not None:
+            for key in ("temperatures", "factors", "vertical"):
+                if getattr(self, key) is not None:
+                    raise ValueError(f"shift.{key}: is given in the file; leave one of them out")
+            shift = self._from_file()
+        elif self.temperatures is None or self.factors is None:
+            raise ValueError(
+                "shift: give a file, or temperatures and factors, e.g. "
+                "'{kind: factors, temperatures: [20 degC, 40 degC], factors: [1, 0.01]}'"
+            )
+        else:
+            shift = laws.TabulatedShift(self.temperatures, self.factors, self.vertical)
+        self._require_reference(shift)
+        return shift
+
+    def _require_reference(self, shift: laws.Shift) -> None:
+        if self.reference_temperature is None:
+            return
+        factor = shift.factor(self.reference_temperature)
+        if abs(factor - 1.0) > _ROUNDED:
+            raise ValueError(
+                "shift.reference_temperature: must be the temperature of the law, where the factor "
+                f"is 1, got {factor:.4g} at {in_celsius(self.reference_temperature):.4g} °C"
+            )
+
+    def _from_file(self) -> laws.Shift:
+        assert self.file is not None  # given
         try:
             table = read_table(self.file, wanted=("shift_factor",))
             order = np.argsort(table["temperature"], kind="stable")

@@ -85,6 +85,23 @@ Temperature = Annotated[
     str | None,
     typer.Option("--temperature", metavar="T", help="Print the law at this temperature instead."),
 ]
+Vertical = Annotated[
+    str | None,
+    typer.Option(
+        "--vertical",
+        metavar="none|rubber|found",
+        help="Vertical shift of several temperatures: none; as T times density; or found. By "
+        "default found from storage and loss, and none of one modulus or compliance alone.",
+    ),
+]
+Expansion = Annotated[
+    float | None,
+    typer.Option(
+        "--expansion",
+        metavar="X",
+        help="Thermal expansion in volume, for the density of --vertical rubber [1/K].",
+    ),
+]
 Body = Annotated[
     str | None,
     typer.Option(
@@ -219,6 +236,8 @@ def fit(
     columns: Columns = None,
     reference: Reference = None,
     temperature: Temperature = None,
+    vertical: Vertical = None,
+    expansion: Expansion = None,
     indenter: Body = None,
     spring_constant: SpringConstant = None,
     sensitivity: Sensitivity = None,

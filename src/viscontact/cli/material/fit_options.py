@@ -11,6 +11,8 @@ from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.identification import ForceCurve, read_force_curve
 from viscontact.identification.force_curve import tabulated_curve
+from viscontact.identification.master_curve import SuperpositionOptions
+from viscontact.identification.vertical_shift import VERTICALS
 from viscontact.tables import Table
 from viscontact.units.parsing import parse_quantity
 
@@ -33,6 +35,8 @@ class FitArguments:
     columns: str | None = None
     spring_constant: str | None = None
     sensitivity: str | None = None
+    vertical: str | None = None
+    expansion: float | None = None
 
     @classmethod
     def of(cls, typed: Mapping[str, Any]) -> Self:
@@ -63,6 +67,29 @@ class FitArguments:
             )
         options["poisson_ratio"], options["bulk_modulus"] = self.volume()
         return options
+
+    def superposition(self) -> SuperpositionOptions:
+        """Return the options for the master curve of several temperatures."""
+        options = SuperpositionOptions()
+        if self.vertical is not None:
+            if self.vertical not in VERTICALS:
+                raise ValueError(
+                    f"--vertical must be one of {', '.join(VERTICALS)}, got {self.vertical!r}"
+                )
+            options["vertical"] = self.vertical
+        if self.expansion is not None:
+            if self.vertical != "rubber":
+                raise ValueError("--expansion goes with --vertical rubber")
+            options["expansion"] = self.expansion
+        return options
+
+    def refuse_of_several(self, name: str) -> None:
+        """Refuse options that go with several temperatures."""
+        for key in ("reference", "temperature", "vertical", "expansion"):
+            if getattr(self, key) is not None:
+                raise ValueError(
+                    f"{name}: --{key} goes with several temperatures; there is one set"
+                )
 
     def volume(self) -> tuple[float | None, float | None]:
         """Return Poisson's ratio [-] and the bulk modulus [Pa], None where not given."""
@@ -128,6 +155,8 @@ class FitArguments:
             "--fluid": self.fluid,
             "--reference": self.reference is not None,
             "--temperature": self.temperature is not None,
+            "--vertical": self.vertical is not None,
+            "--expansion": self.expansion is not None,
             "--weight": bool(self.weight),
         }
         idle = [option for option, given in options.items() if given]

@@ -8,14 +8,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
-
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.indenters import Indenter
-from viscontact.bodies.laws import WLF
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.table_fit import fit_measured, measured_columns
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
+from viscontact.cli.material.shift_table import celsius, print_shifts
 from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import put, refuse, say
@@ -34,7 +32,6 @@ from viscontact.identification import (
 )
 from viscontact.identification.instrument_curves import is_instrument_file
 from viscontact.tables import Table, read_table
-from viscontact.units.temperatures import in_celsius
 
 _ROOM = 293.15  # [K]
 # Quantities one of which a table has that can be fitted.
@@ -115,11 +112,7 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
     sets = table.sets()
     if len(sets) > 1:
         return _from_sets(table, sets, arguments)
-    if arguments.reference is not None or arguments.temperature is not None:
-        raise ValueError(
-            f"{table.source.name}: --reference and --temperature go with several temperatures; "
-            "there is one set"
-        )
+    arguments.refuse_of_several(table.source.name)
     points, measured = measured_columns(table)
     options = arguments.options(table)
     with _warnings_said(table.located):
@@ -141,21 +134,26 @@ def _from_sets(
         if arguments.reference is None
         else read_kelvin("--reference", arguments.reference)
     )
-    curve = build_master_curve(isotherms, reference)
+    with _warnings_said():
+        curve = build_master_curve(isotherms, reference, **arguments.superposition())
     rules = _rules(curve)
-    _print_shifts(curve, rules)
+    print_shifts(curve, rules)
     with _warnings_said():
         fit = fit_master_curve(curve, weights=arguments.weights, **options)
     fit = _with_volume(fit, arguments)
-    put(f"\nAt {_celsius(reference)}:\n{fit!r}")
+    put(f"\nAt {celsius(reference)}:\n{fit!r}")
     drawing = DeferredFigure("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
-        return material_section(fit), drawing
+        return material_section(fit, curve), drawing
     wanted = read_kelvin("--temperature", arguments.temperature)
-    factor = curve.shift.factor(wanted)
-    put(f"At {_celsius(wanted)} all times are {factor:.4g} times as long (from the table above).")
-    slowed = dataclasses.replace(fit, law=fit.law.slowed(factor), series=fit.series.slowed(factor))
-    return material_section(slowed), drawing
+    factor, raised = curve.shift.factor(wanted), curve.shift.vertical_factor(wanted)
+    put(
+        f"At {celsius(wanted)} all times are {factor:.4g} times as long and all moduli "
+        f"{raised:.4g} times as large (from the table above)."
+    )
+    law, series = (each.slowed(factor).stiffened(raised) for each in (fit.law, fit.series))
+    moved = dataclasses.replace(fit, law=law, series=series)
+    return material_section(moved, curve, wanted), drawing
 
 
 def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
@@ -248,29 +246,6 @@ def _rules(curve: MasterCurve) -> list[ShiftFit]:
         except ValueError:  # too few different temperatures
             continue
     return rules
-
-
-def _print_shifts(curve: MasterCurve, rules: list[ShiftFit]) -> None:
-    put(f"{len(curve.isotherms)} sets, shifted to {_celsius(curve.reference_temperature)}:")
-    put(f"{'T [°C]':>9}  {'log10 a_T':>10}  mismatch with the colder set")
-    mismatches = [float("nan"), *(curve.mismatches if curve.mismatches is not None else [])]
-    rows = zip(curve.temperatures, curve.factors, mismatches, strict=True)
-    for temperature, factor, mismatch in rows:
-        share = f"{100 * mismatch:.2g} %" if np.isfinite(mismatch) else "-"
-        put(f"{in_celsius(temperature):9.2f}  {np.log10(factor):10.3f}  {share}")
-    for rule in rules:
-        put(f"{_constants(rule)}, deviates by {rule.residual:.2g} decades (rms)")
-
-
-def _constants(rule: ShiftFit) -> str:
-    shift = rule.shift
-    if isinstance(shift, WLF):
-        return f"WLF with C1 = {shift.c1:.4g} and C2 = {shift.c2:.4g} K"
-    return f"Arrhenius with {shift.activation_energy / 1e3:.4g} kJ/mol"
-
-
-def _celsius(kelvin: float) -> str:
-    return f"{in_celsius(kelvin):.4g} °C"
 
 
 def write_section(path: Path, text: str) -> None:
