@@ -192,6 +192,18 @@ def test_arrhenius_and_measured_factors_shift_too(tmp_path: Path) -> None:
     assert dict(found.files) == {("material", "shift", "file"): tmp_path / "factors.csv"}
 
 
+def test_factors_in_the_case_shift_times_and_moduli(tmp_path: Path) -> None:
+    shift = {"kind": "factors", "temperatures": ["20 degC", "40 degC"], "factors": [1, 0.01]}
+    material = {**MAXWELL, "temperature": "30 degC", "shift": {**shift, "vertical": [1, 1.21]}}
+    law = read(tmp_path, material).material.law
+    assert law(1.0) == close_to(vc.Maxwell(1e9, 1e10)(10.0) / 1.1, rel=1e-12)
+    # With the temperature of the law, a run without another one is computed at it.
+    referred = {**shift, "reference_temperature": "20 degC"}
+    found = read(tmp_path, {**MAXWELL, "shift": referred}).material
+    assert found.law == vc.Maxwell(1e9, 1e10)
+    assert found.shift == vc.TabulatedShift([293.15, 313.15], [1.0, 0.01])
+
+
 def test_card_gives_law_volume_and_shift(tmp_path: Path) -> None:
     found = read(tmp_path, CARDED, {"a.inp": CARD}).material
     assert found == vc.Material(vc.RelaxationSeries(0.5e9, [0.5e9], [10.0]), 0.5)
@@ -234,6 +246,11 @@ def test_card_gives_law_volume_and_shift(tmp_path: Path) -> None:
         ({"temperature": "60 degC", "shift": WLF},
          "t [s], J [1/GPa], T [degC]\n1, 1, 40\n2, 2, 40\n",
          "material.shift: its reference_temperature is 25 °C, and pmma.csv was measured at 40 °C"),
+        ({"temperature": "60 degC", "shift": {"kind": "factors"}}, PMMA,
+         "material.shift: give a file, or temperatures and factors"),
+        ({"shift": {"kind": "factors", "temperatures": ["20 degC", "40 degC"], "factors": [1, 0.1],
+                    "reference_temperature": "40 degC"}}, PMMA,
+         "material.shift.reference_temperature: must be the temperature of the law"),
         ({"temperature": "60 degC", "shift": {"kind": "factors", "file": "pmma.csv"}}, PMMA,
          "material.shift.file: pmma.csv: the column temperature is missing"),
         ({"temperature": "60 °C", "law": "tabel"}, PMMA, "unknown value 'tabel'; did you mean"),

@@ -74,6 +74,55 @@ def test_several_temperatures_give_shift_factors_and_the_law_at_any_of_them(sets
 
 
 @pytest.fixture
+def rubber(tmp_path: Path) -> Path:
+    """Storage and loss at three temperatures, proportional to T; at 20 °C the law is E itself."""
+    celsius, omega = np.array([15.0, 20.0, 25.0]), np.geomspace(0.01, 10.0, 16)
+    kelvin = np.repeat(celsius + 273.15, omega.size)
+    frequency = np.tile(omega, 3)
+    modulus = E.complex_modulus(frequency * RULE.factor(kelvin)) * kelvin / 293.15e6
+    heads = ("omega [rad/s]", "E' [MPa]", "E'' [MPa]", "T [°C]")
+    columns = (frequency, modulus.real, modulus.imag, kelvin - 273.15)
+    return written(tmp_path / "rubber.csv", heads, *columns)
+
+
+def test_the_law_file_of_several_temperatures_is_the_law_at_any_of_them(rubber, tmp_path, capsys):
+    out = tmp_path / "law.yaml"
+    command = ["fit", str(rubber), "--poisson-ratio", "0.3", "--yaml", str(out)]
+    assert main(command) == 0
+    printed = capsys.readouterr().out
+    [row] = [line for line in printed.splitlines() if line.strip().startswith("25.00")]
+    found = [float(each) for each in row.replace("±", " ").replace("%", "").split()]
+    assert found[1] == close_to(np.log10(RULE.factor(298.15)), abs=0.005)
+    assert found[3] == close_to(298.15 / 293.15, abs=0.002)
+    assert "vertical shift b_T found from the sets" in printed
+    material = read_material(out)
+    np.testing.assert_allclose(material.law.relaxation(T), E.relaxation(T) / 2.6, rtol=0.01)
+    wanted = E.relaxation(T / RULE.factor(298.15)) / 2.6 * 298.15 / 293.15
+    np.testing.assert_allclose(material.at(298.15).law.relaxation(T), wanted, rtol=0.01)
+    case = tmp_path / "case.yaml"
+    case.write_text("material: {file: law.yaml, temperature: 25 degC}\n", encoding="utf-8")
+    np.testing.assert_allclose(read_material(case).law.relaxation(T), wanted, rtol=0.01)
+    assert main([*command, "--temperature", "25 degC"]) == 0
+    np.testing.assert_allclose(read_material(out).law.relaxation(T), wanted, rtol=0.01)
+    back = read_material(out).at(293.15)
+    np.testing.assert_allclose(back.law.relaxation(T), E.relaxation(T) / 2.6, rtol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--vertical", "rubbery"], "--vertical must be one of none, rubber, found"),
+        (["--expansion", "6e-4"], "--expansion goes with --vertical rubber"),
+    ],
+)
+def test_wrong_vertical_options_are_refused(options, said, rubber, relaxation, capsys):
+    assert main(["fit", str(rubber), "--poisson-ratio", "0.3", *options]) == 2
+    assert said in capsys.readouterr().err
+    assert main(["fit", str(relaxation), "--poisson-ratio", "0.3", *options]) == 2
+    assert "goes with several temperatures" in capsys.readouterr().err
+
+
+@pytest.fixture
 def contradiction(tmp_path: Path) -> Path:
     """Losses on another scale than the storage."""
     omega = np.geomspace(0.01, 100.0, 25)

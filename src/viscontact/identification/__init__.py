@@ -17,6 +17,7 @@ from viscontact.identification.master_curve import (
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.section import material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+from viscontact.identification.shift_uncertainty import ShiftUncertainty
 
 __all__ = [
     "ContactPoint",
@@ -29,6 +30,7 @@ __all__ = [
     "Misfit",
     "Reason",
     "ShiftFit",
+    "ShiftUncertainty",
     "build_master_curve",
     "find_contact",
     "fit_arrhenius",

@@ -21,6 +21,8 @@ _NOISE, _ROWS = 0.01, 0.1
 _ROUGHNESS, _SPREAD = 0.1, 6.0
 # Range of ln((τ/σ)²) that is searched.
 _RATIOS = np.linspace(-12.0, 25.0, 75)
+# Difference of -2 ln(likelihood) up to which all sets together are to decide.
+_NEARLY = 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,32 +40,46 @@ def wiener_kernel(x: Floats) -> Floats:
     return np.asarray(near**2 * (3.0 * far - near) / 6.0)
 
 
-def own_scatter(sets: MeasuredSets) -> Scatter:
-    """Scatter of each response about smooth curves through each set alone."""
-    found = np.array([_of_column(sets, column) for column in range(sets.columns)])
-    return Scatter(*found.T)
+def own_scatters(sets: MeasuredSets) -> tuple[Scatter, ...]:
+    """Scatter of each response about smooth curves through each set alone, most likely first.
+
+    Waves along a curve, such as those of a series of few terms, may be taken for noise. Where a
+    rougher curve with less noise is nearly as likely, it is the second one.
+    """
+    found = [_of_column(sets, column) for column in range(sets.columns)]
+    kinds = [[each[0] for each in found], [each[-1] for each in found]]
+    scatters = [Scatter(*np.array(kind).T) for kind in kinds]
+    return tuple(scatters[: 2 if any(len(each) > 1 for each in found) else 1])
 
 
-def _of_column(sets: MeasuredSets, column: int) -> tuple[float, float, float]:
+def _of_column(sets: MeasuredSets, column: int) -> list[tuple[float, float, float]]:
+    """Noise, roughness and freedom: the most likely ones, and of a rougher curve if likely."""
     parts = [_contrasts(sets.chosen(k), column) for k in range(sets.count)]
     kernel, squares = (np.concatenate(each) for each in zip(*parts, strict=True))
+    rows = squares.size + _ROWS
 
     def variance(ratio: float) -> float:
-        total = np.sum(squares / (1.0 + ratio * kernel)) + _ROWS * _NOISE**2
-        return float(total / (squares.size + _ROWS))
+        return float((np.sum(squares / (1.0 + ratio * kernel)) + _ROWS * _NOISE**2) / rows)
 
     def cost(log_ratio: float) -> float:
         ratio = np.exp(log_ratio)
         square = variance(ratio)
         surprise = (np.log(ratio * square) - 2 * np.log(_ROUGHNESS)) / _SPREAD
-        rows = squares.size + _ROWS
         return float(np.sum(np.log1p(ratio * kernel)) + rows * np.log(square) + surprise**2)
 
-    best = int(np.argmin([cost(each) for each in _RATIOS]))
-    around = _RATIOS[max(best - 1, 0)], _RATIOS[min(best + 1, _RATIOS.size - 1)]
-    ratio = np.exp(scipy.optimize.minimize_scalar(cost, bounds=around, method="bounded").x)
-    noise = np.sqrt(variance(ratio))
-    return float(noise), float(noise * np.sqrt(ratio)), float(np.sum(1 / (1 + ratio * kernel)))
+    costs = np.array([cost(each) for each in _RATIOS])
+    padded = np.concatenate([[np.inf], costs, [np.inf]])
+    lows: list[int] = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:])).tolist()
+    best = lows[int(np.argmin(costs[lows]))]
+    rougher = [k for k in lows if k > best and costs[k] < costs[best] + _NEARLY]
+    found = []
+    for low in (best, *rougher[:1]):
+        around = _RATIOS[max(low - 1, 0)], _RATIOS[min(low + 1, _RATIOS.size - 1)]
+        ratio = np.exp(scipy.optimize.minimize_scalar(cost, bounds=around, method="bounded").x)
+        noise = np.sqrt(variance(ratio))
+        freedom = np.sum(1 / (1 + ratio * kernel))
+        found.append((float(noise), float(noise * np.sqrt(ratio)), float(freedom)))
+    return found
 
 
 def _contrasts(one: MeasuredSets, column: int) -> tuple[Floats, Floats]:

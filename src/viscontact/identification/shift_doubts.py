@@ -9,14 +9,16 @@ import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.identification.shift_uncertainty import ShiftUncertainty
-from viscontact.identification.superposition import Superposition
+from viscontact.identification.superposition import (
+    Superposition,
+    slower_steps,
+    step_variance,
+)
 from viscontact.identification.vertical_shift import VerticalShift
 from viscontact.units.temperatures import in_celsius
 
 #: Half width of an interval beyond which a shift factor is called uncertain [decades].
 UNCERTAIN = 0.1
-# A warmer set that is slower is refused beyond this [decades] and this many standard deviations.
-_SLOWER, _SURE = 1 / 3, 3.0
 # A vertical step beyond this many standard deviations and this change is not one of temperature.
 _STRANGE, _LARGE = 3.0, 0.1
 # Scatter about the common curve at which sets contradict each other, if it is also this multiple
@@ -32,15 +34,13 @@ def require_warmer_is_faster(
     owner: str, temperatures: Floats, joined: Superposition, gaps: Sequence[int]
 ) -> None:
     """Refuse sets of which a warmer one is slower, beyond the uncertainty."""
-    for k, rise in enumerate(np.diff(joined.logs_a)):
-        variance = _step_variance(joined.covariance, k)
-        decades = rise / np.log(10.0)
-        if decades > _SLOWER and rise > _SURE * np.sqrt(variance) and k not in gaps:
-            raise ValueError(
-                f"{owner}: sets at {temperatures[k]:.6g} K and {temperatures[k + 1]:.6g} K: the "
-                f"warmer one is slower, by {decades:.2g} decades; have temperatures been "
-                "exchanged, or times and frequencies?"
-            )
+    for k in set(slower_steps(joined)) - set(gaps):
+        decades = np.diff(joined.logs_a)[k] / np.log(10.0)
+        raise ValueError(
+            f"{owner}: sets at {temperatures[k]:.6g} K and {temperatures[k + 1]:.6g} K: the "
+            f"warmer one is slower, by {decades:.2g} decades; have temperatures been "
+            "exchanged, or times and frequencies?"
+        )
 
 
 def uncertain_factors(temperatures: Floats, uncertainty: ShiftUncertainty) -> Iterator[str]:
@@ -92,7 +92,7 @@ def strange_vertical_steps(
     count = temperatures.size
     steps, spreads = np.diff(joined.logs_b), vertical.step_spreads
     for k, step in enumerate(steps):
-        variance = _step_variance(joined.covariance[count:, count:], k)
+        variance = step_variance(joined.covariance[count:, count:], k)
         surprise = abs(step - vertical.expected_steps[k]) / np.hypot(spreads[k], np.sqrt(variance))
         if surprise > _STRANGE and abs(step) > _LARGE:
             low, high = np.exp(step + np.array([-2, 2]) * np.sqrt(variance))
@@ -106,11 +106,6 @@ def strange_vertical_steps(
                 "rubber, modulus as T). Have temperatures been exchanged, or is one set of another "
                 f"sample, geometry or unit? If not, {_NON_SIMPLE}"
             )
-
-
-def _step_variance(covariance: Floats, k: int) -> float:
-    pair = covariance[k : k + 2, k : k + 2]
-    return max(float(pair[0, 0] + pair[1, 1] - 2 * pair[0, 1]), 0.0)
 
 
 def _celsius(kelvin: float) -> str:

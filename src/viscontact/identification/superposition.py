@@ -12,7 +12,7 @@ from viscontact.identification.joint_likelihood import Joined, JointLikelihood
 from viscontact.identification.measured_sets import MeasuredSets
 from viscontact.identification.pair_alignment import Alignment, aligned_pair
 from viscontact.identification.penalized_splines import PenalizedSplines
-from viscontact.identification.scatter import Scatter, own_scatter
+from viscontact.identification.scatter import Scatter, own_scatters
 from viscontact.identification.vertical_shift import VerticalShift
 
 _ROUNDS = 12  # of noise, trust and shifts in turn
@@ -22,6 +22,8 @@ _SETTLED = 0.01  # relative change of noise and trust that ends them
 _FIRST_NOISE, _LEAST_NOISE = 0.01, 1e-5
 # Ten times less information than expected is the least that is believed.
 _LEAST_INFORMATION = 0.1
+# A warmer set is slower beyond a third of a decade, and this many standard deviations.
+_SLOWER, _SURE = np.log(10.0) / 3, 3.0
 # Moves of sets to rival alignments are tried if they are farther than this in ln(time).
 _APART = np.log(10.0) / 10
 
@@ -39,13 +41,34 @@ class Superposition:
     cost: float  # -2 ln(likelihood)
 
 
+def slower_steps(joined: Superposition) -> list[int]:
+    """Sets of which the next warmer one is slower, beyond the uncertainty."""
+    rises = np.diff(joined.logs_a)
+    return [
+        k
+        for k, rise in enumerate(rises)
+        if rise > _SLOWER and rise > _SURE * np.sqrt(step_variance(joined.covariance, k))
+    ]
+
+
+def step_variance(covariance: Floats, k: int) -> float:
+    """Variance of the difference between a set and the next one."""
+    pair = covariance[k : k + 2, k : k + 2]
+    return max(float(pair[0, 0] + pair[1, 1] - 2 * pair[0, 1]), 0.0)
+
+
 def superposed(sets: MeasuredSets, vertical: VerticalShift) -> Superposition:
-    """Most likely shifts of all sets.
+    """Most likely shifts of all sets."""
+    found = [_superposed(sets, vertical, own) for own in own_scatters(sets)]
+    return min(found, key=lambda each: each.cost)
+
+
+def _superposed(sets: MeasuredSets, vertical: VerticalShift, own: Scatter) -> Superposition:
+    """Most likely shifts for the roughness that the sets have alone.
 
     The start is the chain of pairs, each at its most likely step; rivals of a step are then tried
     with all sets at once.
     """
-    own = own_scatter(sets)
     pairs = [_pair(sets, own, vertical, k) for k in range(sets.count - 1)]
     start = -np.concatenate([[0.0], np.cumsum([pair.step for pair in pairs])])
     anchor = sets.count // 2

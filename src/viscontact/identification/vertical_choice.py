@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,13 +10,17 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.identification.measured_sets import MeasuredSets
 from viscontact.identification.shift_uncertainty import relative_to
-from viscontact.identification.superposition import Superposition, superposed
+from viscontact.identification.superposition import Superposition, slower_steps, superposed
 from viscontact.identification.vertical_shift import Vertical, VerticalShift, vertical_shift
 from viscontact.units.temperatures import in_celsius
 
-# Decrease of -2 ln(likelihood) by a vertical shift for which one modulus or compliance alone is
-# taken to have one.
-_EVIDENCE = 12.0
+# Difference of -2 ln(likelihood) that decides between two vertical shifts: very strong evidence
+# after Kass and Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795.
+_EVIDENCE = 10.0
+_CASES = {
+    "rubber": "if the modulus is proportional to the absolute temperature, as that of a rubber",
+    "found": "with one that joins them as well",
+}
 _MATTERS = 0.1  # change of log10 a_T by the choice that is reported [decades]
 
 
@@ -40,20 +45,33 @@ def chosen_vertical(
     without, found = _choice(sets, "none", expansion), _choice(sets, "found", expansion)
     if without.joined.cost - found.joined.cost > _EVIDENCE:
         return found
-    rubber = _choice(sets, "rubber", expansion)
-    if without.joined.cost < rubber.joined.cost - _EVIDENCE:
-        return without
-    one, other = (_decades(sets, each.joined, reference) for each in (without, rubber))
-    worst = int(np.argmax(np.abs(other - one)))
-    if not abs(other - one)[worst] > _MATTERS:
-        return without
-    doubt = (
-        "a vertical shift is not assumed, as one modulus or compliance alone hardly shows it; if "
-        "the modulus is proportional to the absolute temperature, as that of a rubber, log10 a_T "
-        f"at {in_celsius(sets.temperatures[worst]):.4g} °C is {other[worst]:.2f} and not "
-        f"{one[worst]:.2f}; decide with the option vertical: none, rubber or found"
-    )
-    return VerticalChoice("none", without.shift, without.joined, (doubt,))
+    if slower_steps(without.joined) and not slower_steps(found.joined):
+        return found
+    doubts = _open_question(sets, without, (_choice(sets, "rubber", expansion), found), reference)
+    return VerticalChoice("none", without.shift, without.joined, tuple(doubts))
+
+
+def _open_question(
+    sets: MeasuredSets,
+    without: VerticalChoice,
+    others: tuple[VerticalChoice, ...],
+    reference: float,
+) -> Iterator[str]:
+    """Sentence about a vertical shift that is as likely as none, where it changes a_T."""
+    one = _decades(sets, without.joined, reference)
+    for other in others:
+        if other.joined.cost > without.joined.cost + _EVIDENCE:
+            continue
+        decades = _decades(sets, other.joined, reference)
+        worst = int(np.argmax(np.abs(decades - one)))
+        if abs(decades - one)[worst] > _MATTERS:
+            yield (
+                "no vertical shift is assumed, as one modulus or compliance alone hardly shows "
+                f"it, but {_CASES[other.name]}, log10 a_T at "
+                f"{round(in_celsius(sets.temperatures[worst]), 6):.4g} °C is {decades[worst]:.2f} "
+                f"and not {one[worst]:.2f}; decide with the option vertical: none, rubber or found"
+            )
+            return
 
 
 def _choice(sets: MeasuredSets, name: Vertical, expansion: float) -> VerticalChoice:

@@ -71,15 +71,18 @@ def master_panels(
     celsius = in_celsius(curve.temperatures)
     places = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1.0)
     sets, master = [], []
-    each = zip(curve.isotherms, curve.reduced_points, places.tolist(), strict=True)
-    for isotherm, reduced, place in each:
+    each = zip(
+        curve.isotherms, curve.reduced_points, curve.reduced_values, places.tolist(), strict=True
+    )
+    for isotherm, reduced, raised, place in each:
         later, ink = isotherm.points > 0, Ink("temperature", place)
         for name, values in isotherm.measured.items():
             shown, symbol = values[later], int(name == "loss")
             set_look: MarkLook = "linked" if symbol else "joined"
             sets.append(_fine(isotherm.points[later], shown, "", ink, set_look, symbol=symbol))
             look: MarkLook = "hollow" if symbol else "points"
-            master.append(_fine(reduced[later], shown, "", ink, look, symbol=symbol))
+            joined = raised[name][later]
+            master.append(_fine(reduced[later], joined, "", ink, look, symbol=symbol))
     if fit is not None:
         along = _geometric(curve.points)
         master += [_fine(along, values, ink=TEXT) for values in fit.curve(along).values()]
