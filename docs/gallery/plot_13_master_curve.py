@@ -50,7 +50,7 @@ figure = plot.master_curve(curve, fit=fit, rules=[wlf])
 # The check
 # ---------
 #
-# The identified shift factors agree with the true ones to a twentieth of a decade over six decades.
+# The identified shift factors agree with the true ones to a fiftieth of a decade over six decades.
 
 found, true = np.log10(curve.factors), np.log10(rule.factor(temperatures))
 worst = float(np.abs(found - true).max())

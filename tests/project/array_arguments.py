@@ -94,7 +94,9 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "TabulatedCreep": (CREEP,),
     "TabulatedProfile": ({"x": LINE, "drops": DROPS},),
     "TabulatedRelaxation": (RELAXED,),
-    "TabulatedShift": ({"temperatures": [290.0, 300.0], "factors": [3.0, 1.0]},),
+    "TabulatedShift": (
+        {"temperatures": [290.0, 300.0], "factors": [3.0, 1.0], "vertical": [0.9, 1.0]},
+    ),
     "Travel": ({"times": [0.0, 1.0, 2.0], "x": LINE, "y": LINE},),
     "clustered_times": ({"corners": [0.0, 1.0], "count": 4},),
     "cropped": (
