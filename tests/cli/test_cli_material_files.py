@@ -35,6 +35,16 @@ ABAQUS = """\
 6., 0.5
 """
 ANSYS = "MP,EX,2,3000\nMP,PRXY,2,0.5\nTB,PRONY,2,1,1,SHEAR\nTBDATA,1,0.5,10\n"
+DYNA = "*MAT_VISCOELASTIC\n         4  1.05E-09    2000.0       2.0       1.0       0.1\n"
+RADIOSS = "#RADIOSS STARTER\n/MAT/LAW34/1\nrubber\n"
+FREQUENCY_CARD = """\
+*ELASTIC
+10., 0.49
+*VISCOELASTIC, FREQUENCY=TABULAR
+0.05, -0.2, 0., 0., 0.01
+0.15, -0.8, 0., 0., 0.1
+0.30, -1.6, 0., 0., 1.0
+"""
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}
 load: {kind: ramp, force: 1 N, duration: 1 s}
@@ -48,7 +58,8 @@ SERIES = [n for n in library.names() if isinstance(vc.shipped_material(n).law, S
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     files = {"relax.csv": RELAXATION, "falling.csv": FALLING, "creep.txt": CREEP,
-             "dma.csv": FREQUENCY, "two.dat": ABAQUS, "ansys.txt": ANSYS}  # fmt: skip
+             "dma.csv": FREQUENCY, "two.dat": ABAQUS, "ansys.txt": ANSYS, "six.k": DYNA,
+             "x.rad": RADIOSS, "f.inp": FREQUENCY_CARD}  # fmt: skip
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
@@ -112,6 +123,50 @@ def test_a_card_is_shown_with_what_it_leaves_out(capsys: pytest.CaptureFixture[s
 def test_a_card_is_recognised_by_its_content(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["material", "ansys.txt", *IN_MPA]) == 0
     assert "ansys.txt: RelaxationSeries, Poisson's ratio 0.5" in capsys.readouterr().out
+
+
+def test_a_card_of_ls_dyna_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["material", "six.k", *IN_MPA]) == 0
+    printed = capsys.readouterr().out
+    assert "six.k: RelaxationSeries, bulk modulus 2 GPa" in printed
+    rows = {" ".join(row[:2]): row[3] for row in values(printed)}
+    # 1 MPa (1 + exp(-0.1 t / s))
+    assert rows["10 s"] == f"{1 + np.exp(-1.0):.3f}"
+
+
+@pytest.mark.parametrize("options", [[], IN_MPA])
+def test_file_of_a_program_that_is_not_read_is_refused_by_its_name(
+    options: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["material", "x.rad", *options]) == 2
+    assert "x.rad: is an input file of Radioss, which is not read" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("file", "said"),
+    [
+        ("x.rad", "material.file: x.rad: is an input file of Radioss, which is not read; give its"),
+        ("six.k", "material.file: six.k: is a material card; give law: card, with modulus_unit"),
+    ],
+)
+def test_card_that_a_case_names_as_a_table_is_recognised(
+    file: str, said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    material = f"material: {{law: table, file: {file}, poisson_ratio: 0.3}}\n"
+    (folder / "case.yaml").write_text(CASE + material, encoding="utf-8")
+    assert main(["check", "case.yaml"]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_fit_to_a_card_that_misses_it_is_a_warning_of_the_run(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    card = "material: {law: card, file: f.inp, modulus_unit: MPa, time_unit: s}\n"
+    (folder / "case.yaml").write_text(CASE + card, encoding="utf-8")
+    assert main(["check", "case.yaml"]) == 0
+    printed = " ".join("".join(capsys.readouterr()).split())
+    assert "f.inp:3: the fit misses storage" in printed
+    assert "note: f.inp:3: the law is a relaxation series of 2 terms, fitted to 3" in printed
 
 
 def test_check_names_the_unused_entries_of_a_card(

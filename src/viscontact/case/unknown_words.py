@@ -10,7 +10,7 @@ _OTHER_VALUES = {
     **{"ring": "torus", "o-ring": "torus", "wave": "waviness", "wheel": "roller"},
     **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
     **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
-    **{"abaqus": "card", "ansys": "card", "tabulated": "table"},
+    **{"abaqus": "card", "ansys": "card", "ls-dyna": "card", "tabulated": "table"},
     **{"standard-linear-solid": "zener", "sls": "zener", "constant": "step"},
     **{"hooke": "elastic", "linear-elastic": "elastic", "kelvin-voigt": "zener"},
     **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},

@@ -138,6 +138,7 @@ def test_arrhenius_shift_speeds_up_by_its_formula(tmp_path: Path) -> None:
     [
         ("2000.0", "   0.0", "the bulk modulus must be positive, got 0.0"),
         ("2000.0", "  -5.0", "a negative BULK names a load curve"),
+        ("330.0", "-55.0", "a negative G0 names a load curve"),
         ("330.0", " 30.0", "GI must lie between 0 and G0, got G0 = 30 and GI = 80"),
         ("       4.0", "       0.0", "card.k:4: BETA must be positive, got 0"),
         ("       4.0", "     &beta", "the parameter '&beta' has no number in this file"),

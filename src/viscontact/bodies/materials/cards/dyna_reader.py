@@ -187,12 +187,13 @@ def _elastic(lines: list[CardLine], units: CardUnits) -> tuple[Moduli, Relaxatio
 def _viscoelastic(lines: list[CardLine], units: CardUnits) -> tuple[Moduli, Relaxation]:
     line = lines[0]
     bulk, at_once, left, rate = (line.number(place) for place in range(2, 6))
-    if bulk < 0:
-        raise ValueError(
-            f"{line.where}: a negative BULK names a load curve over temperature, which is not "
-            "read; give constants of one temperature"
-        )
-    if not 0 <= left <= at_once:
+    for key, value in (("BULK", bulk), ("G0", at_once), ("GI", left), ("BETA", rate)):
+        if value < 0:
+            raise ValueError(
+                f"{line.where}: a negative {key} names a load curve over temperature, which is not "
+                "read; give constants of one temperature"
+            )
+    if left > at_once:
         raise ValueError(
             f"{line.where}: GI must lie between 0 and G0, got G0 = {at_once:g} and GI = {left:g}"
         )
@@ -284,9 +285,9 @@ def _shift(first: CardLine, units: CardUnits) -> Shift | None:
     if b != 0:
         raise ValueError(
             f"{first.where}: the WLF shift of *MAT_GENERAL_VISCOELASTIC is not read: the sign of A "
-            "in its formula, exp(-A (T - TREF)/(B + T - TREF)), leaves open which temperatures are "
-            "faster; set A and B to 0, and give a shift in the case, kind: wlf with c1 = "
-            f"{abs(a) / math.log(10):.4g} and c2 = {b:g}, if it is faster where it is warmer"
+            "does not say for certain which temperatures are faster; set A and B to 0, and give a "
+            f"shift in the case, kind: wlf with c1 = {abs(a) / math.log(10):.4g} and c2 = {b:g}, "
+            "which is faster where it is warmer"
         )
     scale = units.kelvins(first.where)
     if scale.offset != 0.0:
