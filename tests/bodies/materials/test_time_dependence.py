@@ -106,6 +106,18 @@ def test_rate_of_plasticity_and_other_files_are_refused(tmp_path: Path) -> None:
     assert noted.notes == ("card.txt:3: the file that /INP names is not read with this one",)
 
 
+def test_keyword_of_time_outside_of_the_materials_is_no_part_of_them(tmp_path: Path) -> None:
+    gasket = "*GASKET BEHAVIOR, NAME=G\n*CREEP\n1., 2.\n"
+    step = "*STEP\n*VISCO\n*CREEP STRAIN RATE CONTROL\n1.\n"
+    found = card(tmp_path, gasket + ABAQUS + "*SOLID SECTION\n1.,\n" + step)
+    assert found.material == STEEL
+    assert found.notes == ()
+    # A card alone has no *MATERIAL to end.
+    alone = ABAQUS.partition("\n")[2]
+    for text in (f"*CREEP\n1., 2.\n{alone}", f"{alone}*CREEP\n1., 2.\n"):
+        assert "*CREEP is not read" in refused(tmp_path, text)
+
+
 def test_elastic_card_without_such_data_is_read(tmp_path: Path) -> None:
     plastic = "*PLASTIC\n200., 0.\n*DAMPING, ALPHA=1.\n*DENSITY\n7.8e-9,\n*EXPANSION\n1e-5\n"
     found = card(tmp_path, ABAQUS + plastic)

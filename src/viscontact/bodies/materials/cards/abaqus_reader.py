@@ -118,6 +118,8 @@ def read_abaqus(
 def _sections(blocks: list[Block]) -> list[_Section]:
     sections: list[_Section] = []
     current: _Section | None = None
+    # In a model, contacts, gaskets and steps have some of the same keywords.
+    alone = not any(block.keyword == "MATERIAL" for block in blocks)
     for block in blocks:
         if block.keyword == "MATERIAL":
             current = _Section(block.given("NAME") or "", block.where)
@@ -126,7 +128,7 @@ def _sections(blocks: list[Block]) -> list[_Section]:
             current = None
         elif current is not None:
             _collect(current, block)
-        elif block.keyword in READ or block.keyword in time_dependence.ABAQUS:
+        elif block.keyword in READ or (alone and block.keyword in time_dependence.ABAQUS):
             # A card without *MATERIAL.
             current = _Section("", block.where)
             sections.append(current)
