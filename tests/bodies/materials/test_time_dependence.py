@@ -43,7 +43,7 @@ def test_abaqus_material_with_it_is_refused_at_its_line(keyword: str, tmp_path: 
 ABBREVIATED = [
     (keyword[:letters], keyword)
     for keyword in sorted({*time_dependence.ABAQUS, "VISCOELASTIC", "ELASTIC"})
-    for letters in range(2, len(keyword) + 1)
+    for letters in range(2, len(keyword) + 1, 2)
     if keyword[:letters].strip() not in (*NOTED, *BEYOND)
 ]
 
