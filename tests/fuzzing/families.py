@@ -123,14 +123,13 @@ def put_table(given: tuple[str, bytes], tally: Tally) -> None:
 _RECORD = ["--indenter", "sphere 5 um", "--law", "elastic"]
 
 
-def put_surface(given: tuple[str, bytes], tally: Tally) -> None:
+def put_surface(given: tuple[str, bytes, tuple[str, ...]], tally: Tally) -> None:
     """Check a case with a surface from a text."""
-    name, data = given
+    name, data, settings = given
     Path(name).write_bytes(data)
     Path("pressed.yaml").write_text(PRESSED.replace("FILE", name), encoding="utf-8")
-    settings = ["indenter.height_unit=um", "indenter.spacing=[2 um, 3 um]"]
     typed = [word for each in settings for word in ("--set", each)]
-    asked(["check", "pressed.yaml", *(typed if len(data) % 4 else [])], data, tally)
+    asked(["check", "pressed.yaml", *typed], data, tally)
 
 
 def put_card(given: tuple[str, bytes], tally: Tally) -> None:

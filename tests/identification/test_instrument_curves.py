@@ -133,3 +133,21 @@ def test_number_of_a_curve_is_behind_the_name_of_its_file():
     assert is_instrument_file(named)
     assert is_instrument_file(Path("cell.jpk-force"))
     assert not is_instrument_file(Path("cell.csv"))
+
+
+def test_exported_text_of_a_curve_is_read_as_such_and_other_tables_are_not(tmp_path, capsys):
+    table, rows = tmp_path / "table.tab", range(30)
+    table.write_text("time [s]\tforce [nN]\n0\t1\n")
+    assert not is_instrument_file(table)
+    path = tmp_path / "curve.tab"
+    lines = ["# export 1", "#", "# BEGIN METADATA", '# {"spring constant": 0.06}', "# END METADATA"]
+    heads = "#\n# force\theight (measured)\ttime"
+    body = [f"{1e-10 * max(k - 15, 0) ** 1.5:.6e}\t{5e-6 - 1e-8 * k:.6e}\t{k}" for k in rows]
+    path.write_text("\n".join([*lines, heads, *body]) + "\n")
+    assert is_instrument_file(path)
+    curve = vc.read_force_curve(path)
+    assert curve.spring_constant == close_to(0.06)
+    np.testing.assert_allclose(curve.times, np.arange(30.0))
+    tip = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5", "--law", "elastic"]
+    assert main(["fit", str(path), *tip]) == 0
+    assert "law: elastic" in capsys.readouterr().out

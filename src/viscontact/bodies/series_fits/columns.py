@@ -20,9 +20,14 @@ def positive_column(
         least = f"of at least 0 {unit}" if zero else f"above 0 {unit}".removesuffix(" 1")
         raise ValueError(
             f"{owner}: {name}, row {row}: must be a finite number {least}, "
-            f"got {float(column[row])!r}"
+            f"got {float(column[row])!r}" + _remedy(float(column[row]))
         )
     return column
+
+
+def _remedy(value: float) -> str:
+    """Remedy for a measured value below 0."""
+    return "; a negative one is noise or a wrong zero: leave its row out" if value < 0 else ""
 
 
 def columns_over_time(owner: str, least: int, **given: tuple[ArrayLike, str]) -> dict[str, Floats]:

@@ -35,7 +35,7 @@ class Fit(Displayable):
         Times [s], or angular frequencies [rad/s] of an oscillation.
     measured : mapping of str to ndarray
         The measured columns by name: ``compliance`` [1/Pa], ``modulus`` [Pa], or ``storage``
-        and ``loss`` [Pa].
+        and ``loss`` [Pa], or ``storage`` alone.
     weights : mapping of str to float
         Weight of the relative residuals of each of these columns [-].
     misfit : Misfit or None
@@ -108,7 +108,8 @@ class Fit(Displayable):
         if "modulus" in self.measured:
             return {"modulus": self.series.relaxation(at)}
         modulus = np.asarray(self.series.complex_modulus(at))
-        return {"storage": modulus.real, "loss": modulus.imag}
+        found = {"storage": modulus.real, "loss": modulus.imag}
+        return {name: found[name] for name in self.measured}
 
     def __repr__(self) -> str:
         largest, column, row = self._worst()

@@ -20,6 +20,7 @@ from viscontact.bodies.series_fits.responses import (
     CreepResponse,
     DynamicResponse,
     RelaxationResponse,
+    StorageResponse,
 )
 from viscontact.bodies.series_fits.spectrum import (
     Observed,
@@ -202,7 +203,7 @@ def fit_relaxation(  # noqa: PLR0913
 def fit_dynamic(  # noqa: PLR0913
     angular_frequency: ArrayLike,
     storage: ArrayLike,
-    loss: ArrayLike,
+    loss: ArrayLike | None = None,
     *,
     data: str,
     weights: Mapping[str, float] | None = None,
@@ -220,7 +221,9 @@ def fit_dynamic(  # noqa: PLR0913
     angular_frequency : array_like, shape (n,)
         Angular frequencies ω > 0, in any order [rad/s]: 2π times those in Hz.
     storage, loss : array_like, shape (n,)
-        Measured moduli in phase, G', and out of phase, G'', each > 0 [Pa].
+        Measured moduli in phase, G', and out of phase, G'', each > 0 [Pa]. Without `loss` the
+        series is fitted to the storage modulus, which determines the losses in theory
+        (Kramers-Kronig), but those at the ends of the frequencies only roughly.
     data : str
         As in `fit_relaxation`.
     weights : mapping of str to float, optional
@@ -263,29 +266,25 @@ def fit_dynamic(  # noqa: PLR0913
     """
     owner = "fit_dynamic"
     frequencies = positive_column(owner, "angular_frequency", angular_frequency, "rad/s")
-    in_phase = positive_column(owner, "storage", storage, "Pa")
-    out_of_phase = positive_column(owner, "loss", loss, "Pa")
-    require_rows(
-        owner, _LEAST_ROWS, angular_frequency=frequencies, storage=in_phase, loss=out_of_phase
-    )
-    require_trend(owner, "storage", frequencies, in_phase, rises=True)
+    columns = {"storage": positive_column(owner, "storage", storage, "Pa")}
+    if loss is not None:
+        columns["loss"] = positive_column(owner, "loss", loss, "Pa")
+    require_rows(owner, _LEAST_ROWS, angular_frequency=frequencies, **columns)
+    require_trend(owner, "storage", frequencies, columns["storage"], rises=True)
     _require_span(owner, "angular_frequency", frequencies)
     make = shear_law(owner, MODULI, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
-    observed = unweighted(
-        DynamicResponse(frequencies, fluid), np.concatenate([in_phase, out_of_phase])
-    )
-    names = ("storage", "loss")
-    used = (
-        scatter_weights(observed, tolerance, names)
-        if weights is None
-        else given_weights(owner, weights, names)
-    )
+    response = StorageResponse if loss is None else DynamicResponse
+    observed = unweighted(response(frequencies, fluid), np.concatenate(list(columns.values())))
+    names = tuple(columns)
+    if weights is not None:
+        used = given_weights(owner, weights, names)
+    else:
+        used = {"storage": 1.0} if loss is None else scatter_weights(observed, tolerance, names)
     observed = weighted(observed, used)
     found, misfit = _fitted_spectrum(owner, observed, names, terms, excess, tolerance)
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
-    columns = {"storage": in_phase, "loss": out_of_phase}
     return Fit(law, series, data, frequencies, columns, used, misfit, **volume)
 
 

@@ -104,8 +104,38 @@ class DynamicResponse:
         return np.concatenate([2 * a * a, a * (1 - a * a)]) / np.tile((1 + a * a) ** 2, (2, 1))
 
 
+@dataclass(frozen=True, eq=False)
+class StorageResponse:
+    """Oscillation at angular frequencies [rad/s]: rows of G' alone; fluid: no G_inf."""
+
+    angular_frequency: Floats
+    fluid: bool
+
+    @property
+    def constants(self) -> Floats:
+        """Column of the equilibrium modulus; none for a fluid."""
+        return np.ones((self.angular_frequency.size, 0 if self.fluid else 1))
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Shortest and longest detectable time of a term [s]."""
+        lowest, highest = _span(self.angular_frequency)
+        # Slow terms differ from an equilibrium modulus only where there is none.
+        return 1 / (3 * highest), (30 if self.fluid else 3) / lowest
+
+    def terms(self, times: Floats) -> Floats:
+        """Columns a²/(1 + a²), a = ωτ."""
+        a = self.angular_frequency[:, None] * times
+        return a * a / (1 + a * a)
+
+    def slopes(self, times: Floats) -> Floats:
+        """Columns 2a²/(1 + a²)²."""
+        a = self.angular_frequency[:, None] * times
+        return 2 * a * a / (1 + a * a) ** 2
+
+
 #: One kind of test at its measured times or frequencies, on a solid or a fluid.
-Response = CreepResponse | RelaxationResponse | DynamicResponse
+Response = CreepResponse | RelaxationResponse | DynamicResponse | StorageResponse
 
 
 def _span(points: Floats) -> tuple[float, float]:

@@ -12,23 +12,37 @@ from viscontact.tables import Table
 
 
 def is_oscillation(table: Table) -> bool:
-    """True if a table has a storage modulus, and a loss modulus or loss tangent."""
-    return "storage_modulus" in table and ("loss_modulus" in table or "loss_tangent" in table)
+    """True if a table has a storage modulus over frequency, with or without a loss modulus."""
+    has_loss = "loss_modulus" in table or "loss_tangent" in table
+    return "storage_modulus" in table and (has_loss or "angular_frequency" in table)
 
 
 def measured_columns(table: Table) -> tuple[Floats, dict[str, Floats]]:
     """Times [s] or angular frequencies [rad/s], and the columns by the names of a `Fit`."""
     if is_oscillation(table):
-        storage = table["storage_modulus"]
-        loss = table["loss_modulus"] if "loss_modulus" in table else storage * table["loss_tangent"]
-        return table["angular_frequency"], {"storage": storage, "loss": loss}
+        columns = {"storage": table["storage_modulus"]}
+        if "loss_modulus" in table:
+            columns["loss"] = table["loss_modulus"]
+        elif "loss_tangent" in table:
+            columns["loss"] = columns["storage"] * table["loss_tangent"]
+        return table["angular_frequency"], columns
     for quantity, name in (("relaxation_modulus", "modulus"), ("creep_compliance", "compliance")):
         if quantity in table:
             return table["time"], {name: table[quantity]}
     raise ValueError(
         f"{table.source.name}: needs a relaxation modulus or a creep compliance over time, or "
-        "storage and loss modulus over frequency, or force and approach over time; "
+        "storage (and loss) modulus over frequency, or force and approach over time; "
         f"{table.contents}"
+    )
+
+
+def loss_note(measured: Mapping[str, Floats]) -> str | None:
+    """Sentence on losses that were not measured; None where they were, or do not occur."""
+    if "storage" not in measured or "loss" in measured:
+        return None
+    return (
+        "there is no loss modulus: the losses of the law follow from the storage modulus alone, "
+        "and only roughly at the ends of the frequencies"
     )
 
 
@@ -41,7 +55,7 @@ def fit_measured(
 ) -> Fit:
     """Fit a series by the kind of test: creep, relaxation or oscillation."""
     if "storage" in measured:
-        storage, loss = measured["storage"], measured["loss"]
+        storage, loss = measured["storage"], measured.get("loss")
         return fit_dynamic(points, storage, loss, weights=weights, **options)
     [(name, values)] = measured.items()
     if weights is not None:

@@ -9,7 +9,7 @@ import numpy as np
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.prony import FitOptions
-from viscontact.bodies.series_fits.table_fit import fit_measured, measured_columns
+from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
 from viscontact.tables import Table
 
 
@@ -35,10 +35,11 @@ def fit_note(table: Table, fit: Fit) -> str:
         f"{100 * np.sqrt(np.mean(each**2)):.2g} % of {name}" for name, each in fit.residuals.items()
     )
     weights = ", ".join(f"{name} {value:.3g}" for name, value in fit.weights.items())
+    rest = loss_note(fit.measured)
     return (
         f"the law is a relaxation series of {fit.terms} terms, fitted to {table.source.name} at "
         f"{fit.points.min():.4g} to {fit.points.max():.4g} rad/s with residuals of {rms} (root "
-        f"mean square; weights {weights})"
+        f"mean square; weights {weights})" + (f"; {rest}" if rest else "")
     )
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.materials.material import Material
-from viscontact.bodies.series_fits.table_fit import fit_measured, measured_columns
+from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.material.shift_table import celsius, print_shifts
 from viscontact.cli.material.table_choice import as_option, say_chosen
@@ -114,6 +114,8 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
         return _from_sets(table, sets, arguments)
     arguments.refuse_of_several(table.source.name)
     points, measured = measured_columns(table)
+    if note := loss_note(measured):
+        say(f"{table.source.name}: {note}")
     options = arguments.options(table)
     with _warnings_said(table.located):
         fit = fit_measured(points, measured, weights=arguments.weights, **options)
