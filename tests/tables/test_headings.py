@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from closeness import close_to
 from random_examples import given_few_or_many
-from viscontact.tables import read_line, read_table
+from viscontact.tables import read_line, read_rows, read_table
 
 NAMES, UNITS = ("time", "Speichermodul G'", "Temperatur", "remark"), ("min", "kPa", "°C", "")
 ABOVE = ("Test:|gel A", "Operator|N. N.|7", "Samples", "23 °C|2024-05-01", "Points|4", "µ|é|ü")
@@ -110,3 +110,9 @@ def test_lines_of_points_are_found_below_others_too(tmp_path: Path) -> None:
     positions, drops = read_line(path, "x")
     assert positions == [0.0, 4e-3]
     assert drops == close_to([0.0, 1.5e-6])
+
+
+def test_a_number_with_its_unit_is_one_cell(tmp_path: Path) -> None:
+    path = tmp_path / "plan.csv"
+    path.write_text("load.force\n5 N\n6 N\n")
+    assert [row.cells for row in read_rows(path)] == [("load.force",), ("5 N",), ("6 N",)]

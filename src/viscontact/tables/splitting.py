@@ -80,7 +80,9 @@ def _share_of_numbers(line: str, mark: str) -> float:
     filled = [cell for cell in (cell.strip().strip('"') for cell in cells) if cell]
     numbers = sum(bool(_NUMBER.fullmatch(cell)) or looks_like_number(cell) for cell in filled)
     share = numbers / max(len(filled), 1)
-    return share if len(cells) > 1 and share >= 0.5 else 0.0
+    # "5 N" is one cell; only numbers side by side are cells between blanks.
+    least = 2 if mark == _BLANKS else 1
+    return share if len(cells) > 1 and share >= 0.5 and numbers >= least else 0.0
 
 
 def _rows_at(text: str, separator: str) -> Iterator[Row]:

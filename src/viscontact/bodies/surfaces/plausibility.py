@@ -72,8 +72,8 @@ def require_possible(surface: Surface) -> None:
     if span > LARGEST_SPAN * extent:
         raise ValueError(
             f"height_factor: the heights of {surface.name} span {format_quantity(span, 'm', 3)} on "
-            f"no more than {format_quantity(extent, 'm', 3)}; is their unit another, or a value "
-            "the mark of a missing point? A factor such as 1e-6 corrects a unit"
+            f"no more than {format_quantity(extent, 'm', 3)}; is their unit another, or does "
+            "a value stand for a point that was not measured? A factor such as 1e-6 corrects a unit"
         )
 
 
