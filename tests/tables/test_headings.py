@@ -116,3 +116,18 @@ def test_a_number_with_its_unit_is_one_cell(tmp_path: Path) -> None:
     path = tmp_path / "plan.csv"
     path.write_text("load.force\n5 N\n6 N\n")
     assert [row.cells for row in read_rows(path)] == [("load.force",), ("5 N",), ("6 N",)]
+
+
+def test_semicolons_separate_among_words_and_decimal_commas(tmp_path: Path) -> None:
+    path = tmp_path / "words.csv"
+    path.write_text("Report\nZeit;remark;status;Kraft\ns;-;-;N\n2,5;ok;ok;6,25\n3,5;ok;ok;7\n")
+    assert read_table(path)["force"].tolist() == [6.25, 7.0]
+    path.write_text('time [s],force [N],remark\n1,2,"good; fine"\n2,3,"good"\n')
+    assert read_table(path)["force"].tolist() == [2.0, 3.0]
+
+
+def test_names_above_the_heading_that_have_no_numbers_are_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "channels.csv"
+    path.write_text("Channels,Time,Force\nmade,by,hand\nt,Load,remark\ns,N,\n1,2,ok\n2,3,ok\n")
+    found = read_table(path)
+    assert (found["time"].tolist(), found["force"].tolist()) == ([1.0, 2.0], [2.0, 3.0])

@@ -59,9 +59,15 @@ def _best_heading(rows: list[Row], names: Names) -> tuple[int, int]:
         if any(map(looks_like_number, row.cells)):
             continue
         known = _count(row, names)
-        if known and (found := (_stands_above_numbers(rows, i, names), known)) > best:
+        found = (_stands_above_numbers(rows, i, names), known)
+        # Of equal ones without numbers between them, the lower one belongs to the numbers.
+        if known and (found > best or (found == best and not _are_numbers(rows[index:i]))):
             best, index = found, i
     return index, best[1]
+
+
+def _are_numbers(rows: list[Row]) -> bool:
+    return any(map(_is_of_numbers, rows))
 
 
 def _count(row: Row, names: Names) -> int:
@@ -141,15 +147,17 @@ def _without_leading_word(row: Row) -> Row:
 
 def _different(rows: list[Row], chosen: int, names: Names) -> tuple[int, ...]:
     """Lines of all headings of two known names or more; none if they are all alike."""
-    found = [
-        row
-        for i, row in enumerate(rows)
-        if not any(map(looks_like_number, row.cells))
-        and (i == chosen or _count(row, names) > 1)
-        and _stands_above_numbers(rows, i, names)
-    ]
-    alike = {row.cells for row in found} == {rows[chosen].cells}
-    return () if alike or len(found) < 2 else tuple(row.line for row in found)
+    found: list[int] = []
+    for i, row in enumerate(rows):
+        is_heading = not any(map(looks_like_number, row.cells)) and (
+            i == chosen or (_count(row, names) > 1 and _stands_above_numbers(rows, i, names))
+        )
+        if is_heading and found and not _are_numbers(rows[found[-1] : i]):
+            found[-1] = chosen if found[-1] == chosen else i  # one table has one of them
+        elif is_heading:
+            found.append(i)
+    alike = {rows[i].cells for i in found} == {rows[chosen].cells}
+    return () if alike or len(found) < 2 else tuple(rows[i].line for i in found)
 
 
 def _joined(rows: list[Row], start: int) -> list[Row]:
@@ -185,4 +193,5 @@ def _without_text_below(block: list[Row], heading: Row, *, last: bool) -> Iterat
 def _is_text(row: Row, width: int) -> bool:
     """True for a line above a heading: a text first, and fewer cells than the table has."""
     filled = [cell for cell in row.cells if cell]
-    return len(filled) < width and not looks_like_number(filled[0])
+    is_fewer = len(filled) < width or filled[0].endswith(":")
+    return is_fewer and not looks_like_number(filled[0])

@@ -76,6 +76,8 @@ def _separator(lines: Sequence[str]) -> str:
 
 def _share_of_numbers(line: str, mark: str) -> float:
     """Share of numbers among the cells of a line; 0 for a single cell, or mostly other ones."""
+    if mark == "," and (";" in line or "\t" in line):
+        return 0.0  # decimal marks, more likely than separators
     cells = line.split(None if mark == _BLANKS else mark)
     filled = [cell for cell in (cell.strip().strip('"') for cell in cells) if cell]
     numbers = sum(bool(_NUMBER.fullmatch(cell)) or looks_like_number(cell) for cell in filled)
