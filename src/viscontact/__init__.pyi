@@ -77,6 +77,7 @@ from .bodies.materials.cards import write_ansys as write_ansys
 from .bodies.materials.layers import Layer as Layer
 from .bodies.materials.layers import Layered as Layered
 from .bodies.materials.material import Material as Material
+from .bodies.materials.measured_range import MeasuredRange as MeasuredRange
 from .bodies.surfaces import Surface as Surface
 from .bodies.surfaces import read_surface as read_surface
 from .case import shipped_material as shipped_material

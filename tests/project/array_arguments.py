@@ -92,6 +92,7 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "Surface": ({"heights": MAP, "spacing": (1e-3, 2e-3)},),
     "Swept": ({"y": LINE, "drops": DROPS},),
     "TabulatedCreep": (CREEP,),
+    "MeasuredRange": ({"temperatures": [290.0, 300.0]},),
     "TabulatedProfile": ({"x": LINE, "drops": DROPS},),
     "TabulatedRelaxation": (RELAXED,),
     "TabulatedShift": (

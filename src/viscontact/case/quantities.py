@@ -148,6 +148,11 @@ def _fraction(given: Any) -> Any:
     return value / 100 if percent else value
 
 
+Strain = Annotated[
+    float,
+    BeforeValidator(_fraction, json_schema_input_type=float | str),
+    Field(gt=0, examples=["0.5 %", 0.005]),
+]
 GridTolerance = Annotated[
     float,
     BeforeValidator(_fraction, json_schema_input_type=float | str),

@@ -16,6 +16,7 @@ from viscontact.bodies import indenters, laws, loads
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.materials.layers import Layer, Layered
 from viscontact.bodies.materials.material import Material
+from viscontact.bodies.materials.measured_range import MeasuredRange
 from viscontact.units.axis_flags import AxisFlags
 
 _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]
@@ -23,7 +24,7 @@ _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name i
 #: Classes that a description names: all exported shapes, laws, shifts and loads, and a few more.
 STORED_CLASSES: dict[str, Any] = {
     each.__name__: each
-    for each in (*_EXPORTED, Material, Layer, Layered, Grid, AutomaticGrid)
+    for each in (*_EXPORTED, Material, MeasuredRange, Layer, Layered, Grid, AutomaticGrid)
     if isinstance(each, type) and not (isabstract(each) or each is loads.LoadPoint)
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +26,12 @@ from viscontact.simulation.checks.sampling import (
     texture_warnings,
 )
 from viscontact.simulation.checks.singularities import strain_of
+from viscontact.simulation.checks.tested_limits import (
+    Contact,
+    limit_warnings,
+    limited_bodies,
+    loaded_since,
+)
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.warning_rules import (
@@ -62,9 +69,27 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
         | body_warnings(geometry, found.rim, found.pressure, has_limit=has_limit)
         | warnings_of_covers(geometry, found.rim, found.motion, run.grid.cell_size)
         | _corner_warnings(run, geometry, found, compliance)
+        | _limit_warnings(run.problem, found)
         | map_warnings(missed, max(run.grid.cell_size), strain)
         | texture_warnings(geometry.indenter, run.grid)
     )
+
+
+def _limit_warnings(problem: Problem, found: ContactEstimate) -> dict[str, str]:
+    """Warnings about strains and stresses beyond those of the tests, at the largest load."""
+    bodies, peak = limited_bodies(problem.bodies), found.peak_pressure
+    if not bodies or not peak > 0:
+        return {}
+    force = float(found.pressure.sum()) * found.grid.cell_area
+    loaded = problem.end - loaded_since(problem.load) if problem.motion.stands else 0.0
+    contact = Contact(
+        force / max(found.rim.area, force / peak),
+        min(found.length, found.width) / 2,
+        float(found.motion[0]) if problem.has_datum(found.grid) else math.nan,
+        loaded,
+        "at the largest load",
+    )
+    return limit_warnings(bodies, contact)
 
 
 def _corner_warnings(

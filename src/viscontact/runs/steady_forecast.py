@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 
 from viscontact.bodies.grid import Grid
@@ -9,6 +10,8 @@ from viscontact.runs.forecast import Forecast, convolution_time
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.run_memory import PROGRAM
 from viscontact.simulation.checks.half_space_theory import warnings_of_covers
+from viscontact.simulation.checks.material import passage_warnings
+from viscontact.simulation.checks.tested_limits import Contact, limit_warnings, limited_bodies
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.simulation.steady_motion.curve import geometry_of, run_warnings
 from viscontact.simulation.steady_motion.preparation import SteadySetup, estimate_at
@@ -43,7 +46,9 @@ def steady_forecast(run: SteadySetup, *, errors: bool) -> Forecast:
             repeats or far < size / 2
             for far, size, repeats in zip(reach, grid.size, grid.periodic, strict=True)
         ),
-        warnings=run_warnings(run) | _cover_warnings(run, found, grid, speed),
+        warnings=run_warnings(run)
+        | _cover_warnings(run, found, grid, speed)
+        | _limit_warnings(run, found, speed),
     )
 
 
@@ -85,3 +90,21 @@ def _cover_warnings(
     passed = (found.length, found.width)[run.problem.axis] / speed
     geometry = geometry_of(run.problem, found.open_gap, found.rim.grid, passed, predicted=True)
     return warnings_of_covers(geometry, found.rim, found.motion, grid.cell_size)
+
+
+def _limit_warnings(run: SteadySetup, found: ContactEstimate, speed: float) -> dict[str, str]:
+    """Warnings about strains and times beyond those of the tests, in the estimated contact."""
+    contact, peak = run.problem.contact, found.peak_pressure
+    passed = (found.length, found.width)[run.problem.axis] / speed
+    warnings = passage_warnings(passed, contact.measured_from, contact.begins_last)
+    if not peak > 0:
+        return warnings
+    force = float(found.pressure.sum()) * found.grid.cell_area
+    load = Contact(
+        force / max(found.rim.area, force / peak),
+        min(found.length, found.width) / 2,
+        float(found.motion[0]) if contact.has_datum(found.grid) else math.nan,
+        passed,
+        f"at {format_quantity(speed, 'm/s')}",
+    )
+    return warnings | limit_warnings(limited_bodies(contact.bodies), load)

@@ -21,6 +21,7 @@ from viscontact.bodies.materials.compliance import (
     SeriesCompliance,
     SummedCompliance,
 )
+from viscontact.bodies.materials.measured_range import MeasuredRange
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import check_fields, store
 
@@ -51,6 +52,8 @@ class Material(Displayable):
     shift : WLF, Arrhenius or TabulatedShift, optional
         Time-temperature shift, for `at`. The law and its measured range are those at its reference
         temperature; a run uses them unshifted.
+    measured_range : MeasuredRange, optional
+        Strain, stress, first time and temperatures of the tests; runs beyond them issue a warning.
 
     Raises
     ------
@@ -75,6 +78,7 @@ class Material(Displayable):
     notes: tuple[str, ...] = field(default=(), metadata={"recorded": "if given"})
     warning: str | None = field(default=None, metadata={"recorded": "if given"})
     shift: Shift | None = field(default=None, metadata={"recorded": "if given"})
+    measured_range: MeasuredRange | None = field(default=None, metadata={"recorded": "if given"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
@@ -88,6 +92,11 @@ class Material(Displayable):
         if self.shift is not None and not isinstance(self.shift, Shift):
             raise ValueError(
                 f"Material: shift must be WLF, Arrhenius or TabulatedShift, got {self.shift!r}"
+            )
+
+        if not isinstance(self.measured_range, MeasuredRange | None):
+            raise ValueError(
+                f"Material: measured_range must be a MeasuredRange, got {self.measured_range!r}"
             )
 
     def at(self, temperature: float) -> Material:
@@ -131,12 +140,13 @@ class Material(Displayable):
         factor = self.shift.factor(temperature)
         raised = self.shift.vertical_factor(temperature)
         law = self.law if factor == 1.0 else self.law.slowed(factor)
-        until = self.measured_until
+        until, tested = self.measured_until, self.measured_range
         return replace(
             self,
             law=law if raised == 1.0 else law.stiffened(raised),
             measured_until=None if until is None else factor * until,
             shift=None,
+            measured_range=None if tested is None else tested.at(temperature, factor),
         )
 
     @property
@@ -149,7 +159,9 @@ class Material(Displayable):
     def known_from(self) -> float:
         """First time on which the law rests on data [s]; 0 for a formula."""
         law = self.law.law if isinstance(self.law, BesideSpring) else self.law
-        return law.times[0] if isinstance(law, TabulatedCreep | TabulatedRelaxation) else 0.0
+        tested = 0.0 if self.measured_range is None else self.measured_range.first
+        own = law.times[0] if isinstance(law, TabulatedCreep | TabulatedRelaxation) else 0.0
+        return max(own, tested)
 
     def contact_compliance(self) -> ContactCompliance:
         """Return the contact compliance J(t) of a half-space of this material.

@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 
 from viscontact.bodies.laws import Law, Shift
 from viscontact.bodies.materials.material import Material
+from viscontact.case.materials.measured_range import MeasuredRange
 from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.quantities import (
     Duration,
@@ -52,6 +53,12 @@ class Medium(Section):
         default=None, description="change of all times of the law with temperature"
     )
 
+    measured_range: MeasuredRange | None = Field(
+        default=None,
+        description="strain, stress, first time and temperatures of the tests; a run beyond them "
+        "issues a warning",
+    )
+
     @abstractmethod
     def build_law(self) -> Law:
         """Return the creep law."""
@@ -74,6 +81,7 @@ class Medium(Section):
             measured_until=self.fitted_until,
             notes=self.notes,
             warning=self.warning or self.misfit,
+            measured_range=self.measured_range.build() if self.measured_range else None,
         )
         return self._at_temperature(material, self.shift.build() if self.shift else None)
 

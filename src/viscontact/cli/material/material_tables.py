@@ -100,6 +100,11 @@ def _print_entry(entry: Entry) -> None:
         "temperature": entry.temperature,
         "test": entry.test,
         "range": " to ".join(format_quantity(t, "s") for t in entry.measured),
+        "limits": ", ".join(
+            f"{key.replace('_', ' ')} {' to '.join(value) if isinstance(value, list) else value}"
+            for key, value in entry.limits.items()
+        )
+        or "none are stated",
         "constants": entry.constants,
         "volume": entry.volume,
         "checked": entry.checked,

@@ -58,6 +58,19 @@ def early_warnings(
     }
 
 
+def passage_warnings(passed: float, measured_from: float, whose: str) -> dict[str, str]:
+    """Warn of a contact in steady motion that is passed before the data begin [s]."""
+    if passed >= measured_from * (1 - 1e-9):
+        return {}
+    return {
+        "early": (
+            f"the contact is passed in {format_quantity(passed, 's', 2)}, before "
+            f"{format_quantity(measured_from, 's')}, where the {whose}'s data begin; its law is an "
+            "extrapolation there"
+        )
+    }
+
+
 def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
     """Warn of a creep compliance that deviates from the law as given; relative errors [-]."""
     warnings: dict[str, str] = {}

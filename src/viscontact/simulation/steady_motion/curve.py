@@ -26,12 +26,19 @@ from viscontact.simulation.checks.material import (
     data_warnings,
     law_warnings,
     origin_warnings,
+    passage_warnings,
     splitting_warnings,
 )
 from viscontact.simulation.checks.mesh import cells_across_spots, layer_warnings, mesh_warnings
 from viscontact.simulation.checks.motion import edge_warnings, free_tilt_warnings
 from viscontact.simulation.checks.periodicity import datum_warnings
 from viscontact.simulation.checks.singularities import strain_of
+from viscontact.simulation.checks.tested_limits import (
+    Contact,
+    limit_warnings,
+    limited_bodies,
+    temperature_warnings,
+)
 from viscontact.simulation.steady_motion.contact import Neighbour, SteadyContact, gap_on
 from viscontact.simulation.steady_motion.error_bars import (
     Measured,
@@ -191,6 +198,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     found = law_warnings(laws.error, compliance.inversion_error)
     found |= splitting_warnings(surface.splitting_error)
     found |= origin_warnings(problem.contact.materials)
+    found |= temperature_warnings(problem.contact.materials)
     found |= datum_warnings(run.grids[0], ("approach",), supported=surface.is_supported)
     found |= layer_warnings(problem.contact.thinnest_layer, run.grids[0].cell_size)
     if run.tolerance_reached is not None:
@@ -257,10 +265,20 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
     spots = cells_across_spots(contact.in_contact, periodic=grid.periodic)
     pressure, motion = contact.pressure, contact.solution.motion
     strain = strain_of(float(pressure.max()), contact.domain.local_compliance)
+    force = float(pressure.sum()) * grid.cell_area
+    load = Contact(
+        force / max(rim.area, force / float(pressure.max())),
+        min(rim.length, rim.width) / 2,
+        float(motion[0]) if body.has_datum(grid) else math.nan,
+        passed,
+        f"at {format_quantity(contact.speed, 'm/s')}",
+    )
     return (
         mesh_warnings(rim.cells_across, spots)
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
         | data_warnings(passed, body.measured_until)
+        | passage_warnings(passed, body.measured_from, body.begins_last)
+        | limit_warnings(limited_bodies(body.bodies), load)
         | edge_warnings(along=False, across=math.isnan(force_across(problem, contact)))
     )

@@ -27,6 +27,12 @@ from viscontact.simulation.checks.material import (
 from viscontact.simulation.checks.mesh import cells_across_spots, mesh_warnings
 from viscontact.simulation.checks.singularities import strain_of
 from viscontact.simulation.checks.steps import unreported_peak_warnings
+from viscontact.simulation.checks.tested_limits import (
+    Contact,
+    limit_warnings,
+    limited_bodies,
+    loaded_since,
+)
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
 from viscontact.simulation.transient.moving_contact import MovingContact, StandingContact
@@ -37,6 +43,7 @@ from viscontact.simulation.transient.warning_rules import (
     loading_warnings,
     setup_warnings,
 )
+from viscontact.units.formatting import format_quantity
 
 #: Growth of the largest pressure since the last check for corners that calls for another [-].
 PEAK_CHECK_RATIO = 1.1
@@ -52,6 +59,8 @@ class Observer:
         self._motion = StandingContact() if stands else MovingContact(run)
         self._warnings = WarningCollector()
         self._open = setup_warnings(run) if warns else {}
+        self._limited = limited_bodies(run.problem.bodies) if warns else ()
+        self._since = loaded_since(run.problem.load) if self._limited else 0.0
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
@@ -187,8 +196,25 @@ class Observer:
                 problem.measured_from, problem.load, step.time, step.side, problem.begins_last
             )
             found = early | found
+            if self._limited:
+                found = self._limit_warnings(step.time, solution, rim) | found
         found = loading_warnings(self._run, step, self._before, solution) | found
         self._open = found | self._open
+
+    def _limit_warnings(self, time: float, solution: StepSolution, rim: Rim) -> dict[str, str]:
+        """Warn of strains and stresses beyond those of the tests of the materials."""
+        # Under a moving body the material is under load for less than the time of the run; its
+        # response at once is the least that it can be.
+        loaded = time - self._since if self._run.problem.motion.stands else 0.0
+        force, peak = float(solution.resultants[0]), float(solution.pressure.max())
+        contact = Contact(
+            force / max(rim.area, force / peak),
+            min(rim.length, rim.width) / 2,
+            float(solution.motion[0]) if self._run.problem.has_datum(rim.grid) else math.nan,
+            loaded,
+            f"at t = {format_quantity(time, 's')}",
+        )
+        return limit_warnings(self._limited, contact)
 
     def _corner_warnings(self, time: float, solution: StepSolution) -> dict[str, str]:
         """Warn of a largest pressure at a corner, searched again only after the peak has grown."""

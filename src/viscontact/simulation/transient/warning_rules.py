@@ -32,6 +32,7 @@ from viscontact.simulation.checks.steps import (
     step_warnings,
     touch_warnings,
 )
+from viscontact.simulation.checks.tested_limits import temperature_warnings
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
 
@@ -42,7 +43,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     memory_error = max(plan.error for plan in run.plans)
     warnings = law_warnings(memory_error, problem.compliance.inversion_error)
     warnings |= splitting_warnings(problem.surface.splitting_error)
-    warnings |= origin_warnings(problem.materials)
+    warnings |= origin_warnings(problem.materials) | temperature_warnings(problem.materials)
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)

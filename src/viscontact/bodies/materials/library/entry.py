@@ -34,6 +34,9 @@ class Entry:
         First and last time on which the constants rest [s].
     constants : str
         Origin: printed, and the place, or identified here, and from which data.
+    limits : dict
+        Strain, stress, first time and temperatures of the tests, as a case file has them; what the
+        source does not state is left out.
     volume : str
         Source of Poisson's ratio or the bulk modulus.
     checked : str
@@ -54,6 +57,7 @@ class Entry:
     temperature: str
     test: str
     measured: tuple[float, float]
+    limits: dict[str, Any]
     constants: str
     volume: str
     checked: str
