@@ -16,7 +16,7 @@ import pytest
 
 from returned import some
 from verification.repeated_runs import CASES, arrays
-from viscontact.runs.machine.threads import limit_threads
+from viscontact.backend.threads import limit_threads
 
 TESTS = Path(__file__).parents[1]
 

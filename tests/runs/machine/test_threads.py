@@ -14,7 +14,7 @@ import scipy.linalg  # loads a second library of linear algebra
 import xarray as xr
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from viscontact.runs.machine.threads import limit_threads
+from viscontact.backend.threads import limit_threads
 
 
 def threads() -> set[int]:

@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Self
 
+from viscontact.backend.threads import limit_threads
 from viscontact.results.run_files import STOP_NAME
-from viscontact.runs.machine.threads import limit_threads
 from viscontact.studies.executors.task import RecordedTask, TaskEnd, perform
 
 #: Largest number of tasks that are submitted at the same time.

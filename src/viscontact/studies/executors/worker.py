@@ -9,8 +9,8 @@ import threading
 from multiprocessing.connection import Connection
 from types import FrameType
 
+from viscontact.backend.threads import limit_threads
 from viscontact.runs.execution.stop_requests import StopRequests
-from viscontact.runs.machine.threads import limit_threads
 from viscontact.studies.executors.task import RecordedTask, TaskEnd, perform
 
 #: Signals that a terminal or a batch system sends to all its processes.
