@@ -107,11 +107,49 @@ def test_files_that_cannot_be_used_are_refused_by_name(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"none.jpk-force: there is no such file"):
         vc.read_force_curve(tmp_path / "none.jpk-force")
     (tmp_path / "bad.jpk-force").write_bytes(CELL.read_bytes()[:9000])
-    with pytest.raises(ValueError, match=r"bad.jpk-force: cannot be read as force curves"):
+    with pytest.raises(ValueError, match=r"^bad.jpk-force: cannot be read as force curves; the fi"):
         vc.read_force_curve(tmp_path / "bad.jpk-force")
     written(tmp_path / "k.h5", **{"spring constant": None})
     with pytest.raises(ValueError, match=r"k.h5: states no spring constant"):
         vc.read_force_curve(tmp_path / "k.h5")
+
+
+def without(path: Path, part: str) -> Path:
+    """Copy of the cell's file whose headers have no line with a part of a property's name."""
+    with zipfile.ZipFile(CELL) as old, zipfile.ZipFile(path, "w") as new:
+        for entry in old.infolist():
+            content = old.read(entry)
+            if entry.filename.endswith(".properties"):
+                kept = [line for line in content.splitlines(True) if part.encode() not in line]
+                content = b"".join(kept).replace(b"list=distance force", b"list=distance")
+            new.writestr(entry, content)
+    return path
+
+
+def test_a_given_spring_constant_is_used_where_a_file_has_none(tmp_path):
+    bare = without(tmp_path / "bare.jpk-force", "conversion.force.scaling")
+    with pytest.raises(ValueError, match="spring constant; give it") as caught:
+        vc.read_force_curve(bare)
+    assert str(caught.value).startswith("bare.jpk-force: ")
+    own, given = vc.read_force_curve(CELL), vc.read_force_curve(bare, spring_constant=0.05)
+    assert given.spring_constant == close_to(0.05)
+    np.testing.assert_allclose(given.deflection, own.deflection, rtol=1e-6, atol=1e-15)
+    *_, bending = written(tmp_path / "k.h5", **{"spring constant": None})
+    curve = vc.read_force_curve(tmp_path / "k.h5", spring_constant=0.1)
+    np.testing.assert_allclose(curve.deflection, bending, rtol=1e-6, atol=1e-16)
+
+
+@pytest.mark.parametrize("part", ["volts", "num-points", "height"])
+def test_damaged_files_are_refused_in_one_sentence_and_nothing_else_is_printed(
+    part, tmp_path, capfd, caplog
+):
+    tip = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5"]
+    assert main(["fit", str(without(tmp_path / "bad.jpk-force", part)), *tip]) == 2
+    said = capfd.readouterr()
+    assert said.err.count("bad.jpk-force") == 1
+    for word in ("Traceback", "index out of range", "Error", str(tmp_path)):
+        assert word not in said.err + said.out
+    assert not caplog.records
 
 
 def test_fit_takes_the_file_of_an_instrument(tmp_path, capsys):
@@ -133,21 +171,3 @@ def test_number_of_a_curve_is_behind_the_name_of_its_file():
     assert is_instrument_file(named)
     assert is_instrument_file(Path("cell.jpk-force"))
     assert not is_instrument_file(Path("cell.csv"))
-
-
-def test_exported_text_of_a_curve_is_read_as_such_and_other_tables_are_not(tmp_path, capsys):
-    table, rows = tmp_path / "table.tab", range(30)
-    table.write_text("time [s]\tforce [nN]\n0\t1\n")
-    assert not is_instrument_file(table)
-    path = tmp_path / "curve.tab"
-    lines = ["# export 1", "#", "# BEGIN METADATA", '# {"spring constant": 0.06}', "# END METADATA"]
-    heads = "#\n# force\theight (measured)\ttime"
-    body = [f"{1e-10 * max(k - 15, 0) ** 1.5:.6e}\t{5e-6 - 1e-8 * k:.6e}\t{k}" for k in rows]
-    path.write_text("\n".join([*lines, heads, *body]) + "\n")
-    assert is_instrument_file(path)
-    curve = vc.read_force_curve(path)
-    assert curve.spring_constant == close_to(0.06)
-    np.testing.assert_allclose(curve.times, np.arange(30.0))
-    tip = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5", "--law", "elastic"]
-    assert main(["fit", str(path), *tip]) == 0
-    assert "law: elastic" in capsys.readouterr().out

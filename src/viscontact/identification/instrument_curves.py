@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import warnings
 from collections.abc import Iterator
@@ -64,8 +65,8 @@ def read_force_curve(
     number : int, optional
         The number, from 0, instead of that in `path`.
     spring_constant : float, optional
-        Spring constant [N/m] from a later calibration, in place of the one in the file. The
-        deflection does not change, the force does.
+        Spring constant [N/m] from a later calibration, in place of the one in the file, or where
+        the file has none. The deflection does not change, the force does.
 
     Returns
     -------
@@ -89,18 +90,24 @@ def read_force_curve(
     if not file.is_file():
         raise FileNotFoundError(f"{file}: there is no such file")
     name = file.name
-    curve = _choose_curve(name, _load_curves(file), behind if number is None else number)
+    curves = _load_curves(file, spring_constant)
+    curve = _choose_curve(name, curves, behind if number is None else number)
     columns = {column: _column(name, curve, column) for column in ("time", "force")}
     position = next((each for each in _POSITIONS if each in curve.columns), None)
     if position is None:
         raise ValueError(f"{name}: states no position; there are {', '.join(curve.columns)}")
     stated = curve.metadata.get("spring constant", np.nan)
     if not stated > 0:
-        raise ValueError(f"{name}: states no spring constant; calibrate the cantilever first")
+        if spring_constant is None:
+            raise ValueError(
+                f"{name}: states no spring constant; give it (--spring-constant, spring_constant=)"
+            )
+        stated = spring_constant
+    way = _column(name, curve, position)
     try:
         return ForceCurve(
             columns["time"],
-            _column(name, curve, position),
+            way,
             columns["force"] / stated,
             stated if spring_constant is None else spring_constant,
         )
@@ -108,36 +115,54 @@ def read_force_curve(
         raise ValueError(f"{name}: {error}") from error
 
 
-def _load_curves(file: Path) -> list[Any]:
+def _load_curves(file: Path, spring_constant: float | None) -> list[Any]:
     """Curves of a file in the order of their numbers, as afmformats gives them."""
     try:
         import afmformats  # takes half a second, and few files need it
+        from afmformats.errors import MissingMetaDataError
     except ImportError as error:
         raise ValueError(
             f"{file.name}: reading force curves of instruments needs afmformats; type: "
             "pip install 'viscontact[afm]', or export time, position and deflection as CSV"
         ) from error
     with _refused_by_name(file.name):
+        try:
+            curves = afmformats.load_data(file)
+        except MissingMetaDataError as error:
+            if spring_constant is None or set(error.meta_keys) != {"spring constant"}:
+                raise
+            curves = afmformats.load_data(file, {"spring constant": spring_constant})
         # HDF5 sorts its curves as 0, 1, 10, 11, ..., 2.
-        return sorted(afmformats.load_data(file), key=lambda curve: int(curve.enum))
+        return sorted(curves, key=lambda curve: int(curve.enum))
 
 
 @contextmanager
 def _refused_by_name(name: str) -> Iterator[None]:
-    """Raise ValueError for whatever afmformats raises at a file."""
+    """Raise ValueError for whatever afmformats raises at a file, which it would print as well."""
     from afmformats.errors import AFMFileFormatError, MissingMetaDataError
 
+    log = logging.getLogger("afmformats")
+    level = log.level
+    log.setLevel(logging.CRITICAL + 1)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about details of the formats
             yield
     except MissingMetaDataError as error:
         keys = ", ".join(error.meta_keys)
-        raise ValueError(f"{name}: does not state: {keys}; calibrate and save it again") from error
-    # Errors of afmformats are no Exceptions, and a broken file may raise anything else.
+        remedy = "give it (--spring-constant, spring_constant=)"
+        if keys != "spring constant":
+            remedy = "calibrate and save it again"
+        raise ValueError(f"{name}: does not state: {keys}; {remedy}") from error
+    # Errors of afmformats are no Exceptions, and a broken file may raise anything else, such as
+    # "list index out of range".
     except (Exception, AFMFileFormatError) as error:
-        why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
-        raise ValueError(f"{name}: cannot be read as force curves: {why}") from error
+        raise ValueError(
+            f"{name}: cannot be read as force curves; the file is damaged, or of another format: "
+            "save it again, or export time, position and deflection as CSV"
+        ) from error
+    finally:
+        log.setLevel(level)
 
 
 def _choose_curve(name: str, curves: list[Any], number: int | None) -> Any:
