@@ -130,6 +130,7 @@ BENCHMARKS = {
     "steady": "steady.py",
     "layers": "layers.py",
     "error-bars": "error_bars.py",
+    "indentation-intervals": "indentation_intervals.py",
 }
 
 TASKS = {

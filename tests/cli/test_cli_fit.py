@@ -389,6 +389,23 @@ def test_a_force_curve_without_its_constants_is_refused(last, options, why, tmp_
     assert why in capsys.readouterr().err
 
 
+def test_part_reach_and_paraboloid_of_a_force_curve_are_chosen(tmp_path, capsys):
+    heads = ("time [s]", "position [um]", "deflection [nm]")
+    path = force_curve(tmp_path / "curve.csv", heads, 1.0, 1e6, 1e9)
+    tip = ["--poisson-ratio", "0.5", "--law", "elastic", "--spring-constant", "0.1 N/m"]
+    command = ["fit", str(path), *tip, "--indenter", "paraboloid 5 um"]
+    assert main([*command, "--until", "3.2 s", "--reach", "0.5"]) == 0
+    printed = capsys.readouterr().out
+    assert "shear_modulus: 0.005 MPa" in printed
+    assert "to 153 rows over 3.2 s" in printed
+    assert "contact at 3 µm" in printed
+    assert main([*command, "--until", "the end"]) == 2
+    assert "--until: must be loading, hold, end or a time" in capsys.readouterr().err
+    creep = written(tmp_path / "creep.csv", ("time [s]", "modulus [Pa]"), T, E.relaxation(T))
+    assert main(["fit", str(creep), "--data", "shear", "--until", "hold"]) == 2
+    assert "--reach and --until go with an indentation" in capsys.readouterr().err
+
+
 def test_names_of_the_columns_are_given_where_a_table_has_none(tmp_path, capsys):
     bare = written(tmp_path / "bare.csv", ("0", "0", "3000"), np.arange(1, 26), T, E.relaxation(T))
     body = ["--data", "uniaxial", "--poisson-ratio", "0.4"]

@@ -146,11 +146,12 @@ def test_creep_during_loading_shifts_the_contact_point_less_with_a_smaller_reach
 
 def test_the_record_has_the_approach_without_the_bending_and_the_force():
     curve = elastic_curve(noise=1e-10)
-    record = find_contact(curve, SPHERE).record(50)
-    assert record.times.size == 50
+    record = find_contact(curve, SPHERE).record(250)
+    assert record.times.size == 250
     hertz = MODULUS * FORCES[SPHERE](np.maximum(record.approach, 0.0))
     np.testing.assert_allclose(record.force, hertz, atol=2e-3 * hertz.max())
-    assert -0.1e-6 < record.approach[0] < 0.05e-6
+    assert record.approach[0] == close_to(-CONTACT, rel=0.01)  # the baseline, too
+    assert find_contact(curve, SPHERE).record().times.size == 500  # of 500 rows
 
 
 def test_curves_without_a_contact_after_a_baseline_are_refused():

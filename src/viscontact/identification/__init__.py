@@ -4,6 +4,7 @@ from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.bodies.series_fits.quality import Misfit, Reason
 from viscontact.identification.contact_point import ContactPoint, find_contact
+from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
@@ -14,14 +15,16 @@ from viscontact.identification.master_curve import (
     build_master_curve,
     fit_master_curve,
 )
-from viscontact.identification.record import IndentationRecord
+from viscontact.identification.record import Cantilever, IndentationRecord
 from viscontact.identification.section import material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.identification.shift_uncertainty import ShiftUncertainty
 
 __all__ = [
+    "Cantilever",
     "ContactPoint",
     "Fit",
+    "FittedContact",
     "ForceCurve",
     "IndentationFit",
     "IndentationRecord",

@@ -10,7 +10,13 @@ from scipy.optimize import least_squares
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Indenter
 from viscontact.identification.force_curve import ForceCurve
-from viscontact.identification.record import IndentationRecord, elastic_force
+from viscontact.identification.record import (
+    Cantilever,
+    IndentationRecord,
+    elastic_force,
+    force_exponent,
+)
+from viscontact.identification.stroke import Stroke
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
 
@@ -76,8 +82,8 @@ class ContactPoint:
         """Deflection less the baseline, of each row [m]."""
         return self.curve.deflection - self.offset - self.slope * self.curve.position
 
-    def record(self, rows: int = 200) -> IndentationRecord:
-        """Return the record from shortly before contact, as means over equal numbers of rows.
+    def record(self, rows: int = 2000) -> IndentationRecord:
+        """Return the whole curve as a record, as means over equal numbers of rows.
 
         Parameters
         ----------
@@ -88,18 +94,24 @@ class ContactPoint:
         -------
         IndentationRecord
             The force is spring constant times bending, the approach the position from the contact
-            point on less the bending.
+            point on less the bending. The record keeps the baseline, so that `fit_indentation`
+            finds contact point and baseline anew, together with the law.
         """
         count = whole("ContactPoint.record: rows", rows, 10)
-        before = self.curve.position < self.position
-        loading = before[: self.curve.loading_rows]
-        start = max(int(np.flatnonzero(~loading)[0]) - 3, 0)
         approach = self.curve.position - self.position - self.bending
         columns = (self.curve.times, approach, self.curve.spring_constant * self.bending)
-        kept = [column[start:] for column in columns]
-        cuts = np.linspace(0, kept[0].size, min(count, kept[0].size) + 1).astype(int)
-        means = [np.add.reduceat(column, cuts[:-1]) / np.diff(cuts) for column in kept]
-        return IndentationRecord(self.indenter, *means)
+        size = self.curve.times.size
+        # Means over as many rows each have the same noise.
+        cuts = np.append(np.arange(0, size, -(-size // count)), size)
+        for corner in Stroke(self.curve.times, self.curve.position).corners[1:-1]:
+            # A mean over a corner would round it off.
+            cuts[1 + int(np.argmin(np.abs(cuts[1:-1] - corner)))] = corner
+        cuts = np.unique(cuts)
+        times, approach, force = (
+            np.add.reduceat(column, cuts[:-1]) / np.diff(cuts) for column in columns
+        )
+        cantilever = Cantilever(self.curve.spring_constant, self.position, self.offset, self.slope)
+        return IndentationRecord(self.indenter, times, approach, force, cantilever)
 
 
 def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -> ContactPoint:
@@ -188,7 +200,7 @@ def deflection_in_contact(
     for _ in range(_NEWTON_STEPS):
         bent = ratio * elastic_force(indenter, depth)
         # f is a power of the depth: its derivative is exponent f/depth.
-        rate = ratio * _exponent(indenter) * _per_depth(indenter, depth)
+        rate = ratio * force_exponent(indenter) * _per_depth(indenter, depth)
         step = (depth + bent - way) / (1.0 + rate)
         depth = np.maximum(depth - step, 0.0)
         if np.abs(step).max(initial=0.0) <= 1e-15 * np.abs(way).max(initial=0.0):
@@ -199,11 +211,6 @@ def deflection_in_contact(
 def _per_depth(indenter: Indenter, depth: Floats) -> Floats:
     safe = np.maximum(depth, np.finfo(np.float64).tiny ** 0.25)
     return elastic_force(indenter, safe) / safe
-
-
-def _exponent(indenter: Indenter) -> float:
-    one, two = elastic_force(indenter, np.array([1.0, 2.0]))
-    return float(np.log2(two / one))
 
 
 def _within_reach(z: Floats, d: Floats, reach: float) -> tuple[Floats, Floats]:
@@ -220,7 +227,7 @@ def _first_search(
     least = max(int(_LEAST_BASELINE * z.size), 4)
     best = (np.inf, (0.0, 0.0, 0.0, 0.0))
     for place in np.unique(np.linspace(least, z.size - 4, _CANDIDATES).astype(int)):
-        slope, offset = np.polyfit(z[:place], d[:place], 1)
+        slope, offset = _line(z[:place], d[:place])
         bending = d - offset - slope * z
         depth = np.maximum(z - z[place] - bending, 0.0)
         depth[:place] = 0.0
@@ -234,6 +241,14 @@ def _first_search(
     if not np.isfinite(best[0]):
         raise ValueError(_no_contact("the deflection does not rise after a baseline"))
     return best[1]
+
+
+def _line(z: Floats, d: Floats) -> tuple[float, float]:
+    """Slope and offset of the best line; level where the base has not moved."""
+    way = z - z.mean()
+    moved = float(np.ptp(z)) > 1e-9 * float(np.abs(z).max())
+    slope = float(way @ d) / float(way @ way) if moved else 0.0
+    return slope, float(d.mean()) - slope * float(z.mean())
 
 
 def _scaled_curve(

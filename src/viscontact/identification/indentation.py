@@ -2,31 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from warnings import warn
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.special import stdtrit
 
-from viscontact import reference
-from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.threads import limit_threads
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate, candidate
-from viscontact.identification.indentation_fit import IndentationFit, compared
+from viscontact.identification.curve_problem import CurveProblem
+from viscontact.identification.fit_quality import fit_warnings, misfit_of
+from viscontact.identification.fitted_part import fitted_rows, stroke_of
+from viscontact.identification.fitting import fitted_curve, fitted_record
+from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.record import IndentationRecord
+from viscontact.identification.record_problem import RecordProblem
 from viscontact.units.numbers import whole
 
-_ELEMENTS = 60  # relative error of the force about 1e-4, far below the scatter of any record
-_STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
-_REACH = np.log(1e8)  # largest change of ln p from its start
-_VAGUE = 10.0  # ratio of an interval's bound to its value from which on it is undetermined
 
-
-def fit_indentation(
+def fit_indentation(  # noqa: PLR0913
     record: IndentationRecord,
     law: str,
     *,
@@ -35,6 +32,7 @@ def fit_indentation(
     bulk_modulus: float | None = None,
     given: str = "approach",
     confidence: float = 0.95,
+    until: str | float | None = None,
 ) -> IndentationFit:
     """Fit a law to an indentation record by its exact solution, with confidence intervals.
 
@@ -56,11 +54,16 @@ def fit_indentation(
         approach is fitted where the force is above a twentieth of its largest.
     confidence : float, optional
         Level of the intervals, between 0 and 1.
+    until : str or float, optional
+        Part of the record that is fitted: up to the end of ``"loading"`` or of ``"hold"``, to the
+        ``"end"``, or up to an instant [s]. By default the whole record; loading and hold only,
+        with a warning, where the force becomes negative during retraction.
 
     Returns
     -------
     IndentationFit
-        Material, parameters, intervals and the fitted curve.
+        Material, parameters, intervals and the fitted curve; of a force curve also contact point
+        and baseline.
 
     Raises
     ------
@@ -71,19 +74,30 @@ def fit_indentation(
     Warns
     -----
     AccuracyWarning
-        If the record determines a parameter no better than within a factor of ten.
+        If the record determines a parameter no better than within a factor of ten; if the law
+        misses the record by more than 10 % (root mean square) or 25 % (largest) of the largest
+        value; if the residuals are no noise, with the likely cause; if the force becomes negative
+        during retraction; if a sphere is no paraboloid any more at the largest depth.
 
     Notes
     -----
+    A record of `ContactPoint.record` is a force curve. Its deflection is fitted over the position
+    of the base, with contact point and baseline as further unknowns: offset, slope over the
+    position, drift over time and drag over the velocity, as far as the curve tells them apart. The
+    solution is that for the tip on its cantilever. Of any other record approach, or force, is
+    taken as exact. One that begins in contact by less than two of its steps, or by less than
+    the noise, is taken to begin at contact.
+
     The force under a given approach, or the reverse, is the exact solution for an axisymmetric
     contact on a viscoelastic half-space, of Hunter, Graham and Ting (1966), through
     unloading, loss of contact and renewed contact: `viscontact.reference.press_axisymmetric`.
     Least squares in the logarithms of the parameters (of n/(1 - n) for an exponent n). The
-    intervals are those of the linearised model there, with Student's t and the scatter that the
-    residuals show: valid for scatter that is independent from row to row and as large at small
-    forces as at large ones. A drift of the instrument is no such scatter.
+    intervals are those of the linearised model there, in all unknowns, with Student's t and the
+    scatter that the residuals show. Where their spectrum is not that of independent noise, the
+    covariance is the one under noise of this spectrum, taken to be at each frequency as strong as
+    in the strongest band above it.
 
-    A power law is given by its compliance at the end of the record.
+    A power law is given by its compliance at the end of the fitted part, from contact on.
 
     Examples
     --------
@@ -98,149 +112,53 @@ def fit_indentation(
     """
     _require_options(terms, given, confidence)
     material = partial(Material, poisson_ratio=poisson_ratio, bulk_modulus=bulk_modulus)
+    material(Elastic(1.0))  # checks the bulk arguments
     modulus = _apparent_modulus(record, poisson_ratio)
-    material(Elastic(modulus))  # checks the bulk arguments
-    shape = _candidate(law, int(terms), modulus, record.times)
-    measured, counted = compared(record, given)
-    scale = float(np.abs(measured).max())
-
-    def residuals(free: Floats) -> Floats:
-        response = _exact_response(
-            record, given, material(shape.build(*shape.values(free).tolist()))
-        )
-        return (response - measured)[counted] / scale
-
-    found, jacobian = _minimise(residuals, shape)
-    intervals, correlation = _confidence(shape, found, residuals(found), jacobian, confidence)
-    _warn_of_vague(shape, intervals)
-    values = shape.values(found)
-    best = material(shape.build(*values.tolist()))
-    return IndentationFit(
-        material=best,
-        parameters=dict(zip(shape.names, values.tolist(), strict=True)),
-        intervals=dict(zip(shape.names, intervals, strict=True)),
-        confidence=confidence,
-        correlation=correlation,
-        record=record,
-        given=given,
-        fitted=_exact_response(record, given, best),
-        units=shape.units,
-    )
+    fitted = record.first(fitted_rows(record, until))
+    is_curve = record.cantilever is not None and given == "approach"
+    if not is_curve:
+        fitted = fitted.near_contact()
+    shape = _candidate(law, int(terms), modulus, fitted)
+    with limit_threads():  # on matrices this small, more threads mostly wait
+        if is_curve:
+            curve = CurveProblem(fitted, stroke_of(fitted), shape, material)
+            found = fitted_curve(curve, record, confidence)
+        else:
+            plain = RecordProblem(fitted, given, shape, material)
+            found = fitted_record(plain, record, confidence)
+    found = replace(found, misfit=misfit_of(found))
+    for message in fit_warnings(found):
+        warn(f"fit_indentation: {message}", AccuracyWarning, stacklevel=2)
+    return found
 
 
-def _candidate(law: str, terms: int, modulus: float, times: Floats) -> Candidate:
+def _candidate(law: str, terms: int, modulus: float, record: IndentationRecord) -> Candidate:
     """Candidate law; refused if the record has fewer than two rows per parameter."""
-    shape = candidate(law, terms, modulus, float(np.ptp(times)))
-    if times.size < 2 * len(shape.names):
+    touched = record.times[int(np.argmax(record.approach > 0))]
+    begin = record.times[0] if record.cantilever is None else touched
+    shape = candidate(law, terms, modulus, float(record.times[-1] - begin))
+    if record.times.size < 2 * len(shape.names):
         raise ValueError(
             f"fit_indentation: {law} has {len(shape.names)} parameters and needs at least "
-            f"{2 * len(shape.names)} rows, got {times.size}; take a simpler law"
+            f"{2 * len(shape.names)} rows, got {record.times.size}; take a simpler law"
         )
     return shape
-
-
-def _exact_response(record: IndentationRecord, given: str, material: Material) -> Floats:
-    """Exact solution for the other quantity of a record [N or m]."""
-    contact = reference.press_axisymmetric(
-        record.profile,
-        record.times,
-        creep_compliance=material.contact_compliance(),
-        elements=_ELEMENTS,
-        approach=record.approach if given == "approach" else None,
-        force=np.maximum(record.force, 0.0) if given == "force" else None,
-    )
-    response = contact.force if given == "approach" else contact.approach
-    if not np.isfinite(response).all():
-        row = int(np.argmax(~np.isfinite(response)))
-        raise ValueError(f"fit_indentation: the exact solution gives no number in row {row}")
-    return response
 
 
 def _apparent_modulus(record: IndentationRecord, poisson_ratio: float | None) -> float:
     """Shear modulus of the best-fitting elastic body [Pa]."""
     # Any Poisson's ratio suffices for a starting value.
     nu = 0.4 if poisson_ratio is None else poisson_ratio
-    d, F = record.approach, record.force
+    pressed = slice(stroke_of(record).hold_end + 1)  # adhesion acts later
+    d, F = record.approach[pressed], record.force[pressed]
     unit = record.elastic_force(np.maximum(d, 0.0))  # for a contact modulus of 1 Pa
-    contact_modulus = float(unit @ F) / float(unit @ unit)
+    contact_modulus = float(unit @ F) / max(float(unit @ unit), 1e-300)
     if not contact_modulus > 0:
         raise ValueError(
             "fit_indentation: the record's force is not positive where its approach is; "
             "force and approach are positive when the bodies are pressed together"
         )
     return contact_modulus * (1 - nu) / 2
-
-
-def _minimise(residuals: Callable[[Floats], Floats], shape: Candidate) -> tuple[Floats, Floats]:
-    starts = [shape.free(np.array(start)) for start in shape.starts]
-    tried = [_sum_of_squares(residuals, start) for start in starts]
-    best = int(np.argmin(tried))
-    if not np.isfinite(tried[best]):
-        residuals(starts[best])  # raises the error
-    start = starts[best]
-    penalty = residuals(start)  # exceeded where there is no solution
-
-    def guarded(free: Floats) -> Floats:
-        try:
-            return residuals(free)
-        except ValueError:
-            return 10.0 + np.abs(penalty)
-
-    ended = least_squares(
-        guarded,
-        start,
-        jac=lambda free: _differences(guarded, free),
-        bounds=(start - _REACH, start + _REACH),
-        xtol=1e-7,
-        ftol=1e-9,
-        max_nfev=60,
-    )
-    return ended.x, ended.jac
-
-
-def _differences(function: Callable[[Floats], Floats], free: Floats) -> Floats:
-    """Jacobian by forward differences in the logarithms of the parameters."""
-    here = function(free)
-    steps = _STEP * np.eye(free.size)
-    return np.stack([(function(free + step) - here) / _STEP for step in steps], axis=1)
-
-
-def _sum_of_squares(residuals: Callable[[Floats], Floats], free: Floats) -> float:
-    try:
-        return float(np.sum(residuals(free) ** 2))
-    except ValueError:
-        return float("inf")
-
-
-def _confidence(
-    shape: Candidate, found: Floats, residuals: Floats, jacobian: Floats, confidence: float
-) -> tuple[list[tuple[float, float]], Floats]:
-    """Intervals of the parameters and the correlation of their logarithms."""
-    freedom = residuals.size - found.size
-    variance = float(residuals @ residuals) / freedom
-    _, singular, directions = np.linalg.svd(jacobian, full_matrices=False)
-    spread = directions / np.maximum(singular, np.finfo(np.float64).tiny ** 0.25)[:, None]
-    covariance = variance * spread.T @ spread
-    errors = np.sqrt(np.diag(covariance))
-    reach = float(stdtrit(freedom, 0.5 + confidence / 2)) * errors
-    low, high = shape.values(found - reach), shape.values(found + reach)
-    correlation = covariance / np.maximum(np.outer(errors, errors), np.finfo(np.float64).tiny)
-    return list(zip(low.tolist(), high.tolist(), strict=True)), correlation
-
-
-def _warn_of_vague(shape: Candidate, intervals: list[tuple[float, float]]) -> None:
-    vague = [
-        f"{name} ({low:.2g} to {high:.2g} {unit})"
-        for name, unit, (low, high) in zip(shape.names, shape.units, intervals, strict=True)
-        if high > _VAGUE**2 * low
-    ]
-    if vague:
-        warn(
-            f"fit_indentation: the record leaves open {', '.join(vague)}; take a law with fewer "
-            "parameters, or a record with other rates or a hold",
-            AccuracyWarning,
-            stacklevel=3,
-        )
 
 
 def _require_options(terms: int, given: str, confidence: float) -> None:

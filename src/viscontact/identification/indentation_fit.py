@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,8 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.laws import Law
 from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits.quality import Misfit
+from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.record import IndentationRecord
 from viscontact.units.display import Displayable
 from viscontact.units.formatting import format_quantity
@@ -36,13 +39,23 @@ class IndentationFit(Displayable):
         Correlation of the parameters' logarithms, in their order: near 1 or -1, the record
         determines a combination of two better than each [-].
     record : IndentationRecord
-        The measured record.
+        The measured record; that of a force curve with the fitted contact point and baseline.
     given : str
         Quantity taken as exact, ``"approach"`` or ``"force"``; the other is fitted.
     fitted : ndarray, shape (n,)
-        The other quantity from the law [N or m].
+        The other quantity from the law [N or m]; NaN beyond `until`.
     units : tuple of str
         Units of the parameters, in their order.
+    until : float
+        Last instant that was fitted [s].
+    contact : FittedContact or None
+        Contact point and baseline that were fitted together with the law of a force curve.
+    widening : float
+        Largest factor by which an interval is wider, as the residuals are correlated, than it would
+        be for noise that is independent from row to row; 1 for such noise [-].
+    misfit : Misfit or None
+        Size, reason and remedy of a misfit beyond 10 % (root mean square) or 25 % (largest) of the
+        largest force, or approach; None if the law fits better.
 
     Examples
     --------
@@ -65,6 +78,10 @@ class IndentationFit(Displayable):
     given: str
     fitted: Floats
     units: tuple[str, ...]
+    until: float = math.inf
+    contact: FittedContact | None = None
+    widening: float = 1.0
+    misfit: Misfit | None = None
 
     @property
     def law(self) -> Law:
@@ -80,8 +97,9 @@ class IndentationFit(Displayable):
     def residuals(self) -> Floats:
         """Fitted less measured over the largest measured value; NaN in rows left out [-]."""
         measured, counted = compared(self.record, self.given)
-        difference = (self.fitted - measured) / np.abs(measured).max()
-        return np.where(counted, difference, np.nan)
+        fitted = self.record.times <= self.until
+        difference = (self.fitted - measured) / np.abs(measured[fitted]).max()
+        return np.where(counted & fitted, difference, np.nan)
 
     @property
     def residual(self) -> float:
@@ -89,9 +107,10 @@ class IndentationFit(Displayable):
         return float(np.sqrt(np.nanmean(self.residuals**2)))
 
     def __repr__(self) -> str:
+        fitted = self.record.times[self.record.times <= self.until]
         lines = [
-            f"IndentationFit: {type(self.law).__name__} to {self.measured.size} rows over "
-            f"{format_quantity(np.ptp(self.record.times), 's')}, residual {self.residual:.2e} of "
+            f"IndentationFit: {type(self.law).__name__} to {fitted.size} rows over "
+            f"{format_quantity(np.ptp(fitted), 's')}, residual {self.residual:.2e} of "
             f"the largest {'force' if self.given == 'approach' else 'approach'}"
         ]
         for (name, value), unit in zip(self.parameters.items(), self.units, strict=True):
@@ -100,6 +119,8 @@ class IndentationFit(Displayable):
                 f"     {name} = {value:.4g} {unit or '(-)'} "
                 f"({self.confidence:.0%}: {low:.4g} to {high:.4g})"
             )
+        if self.contact is not None:
+            lines.append(f"     {self.contact!r}")
         return "\n".join(lines)
 
 

@@ -8,13 +8,38 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Paraboloid, Sphere
 from viscontact.bodies.series_fits.columns import columns_over_time
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import real_array, store
 
 _LEAST_ROWS = 5
+
+
+@dataclass(frozen=True)
+class Cantilever:
+    """Cantilever and baseline with which approach and force of a force curve were calculated.
+
+    Parameters
+    ----------
+    spring_constant : float
+        Spring constant [N/m].
+    contact : float
+        Position of the base at first contact [m].
+    offset, slope : float
+        Baseline: deflection without contact at position 0 [m], and its slope [-].
+
+    Examples
+    --------
+    >>> Cantilever(0.1, contact=2e-6, offset=0.0, slope=0.001).spring_constant
+    0.1
+    """
+
+    spring_constant: float
+    contact: float
+    offset: float
+    slope: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,13 +49,17 @@ class IndentationRecord(Displayable):
     Parameters
     ----------
     indenter : Sphere, Cone or FlatPunch
-        The indenter; a punch must be round.
+        The indenter; a punch must be round. A Paraboloid with two equal radii is taken for the
+        Sphere, which here is the paraboloid of its radius.
     times : array_like, shape (n,)
         Instants, never falling; a repeated one is a jump [s].
     approach : array_like, shape (n,)
         Approach, 0 at the first touch and negative before it [m].
     force : array_like, shape (n,)
         Force, positive in compression; scatter may make it negative near 0 [N].
+    cantilever : Cantilever, optional
+        Given by `ContactPoint.record`: the record is a force curve, whose contact point and
+        baseline a fit takes as unknown.
 
     Raises
     ------
@@ -50,6 +79,7 @@ class IndentationRecord(Displayable):
     times: Floats
     approach: Floats
     force: Floats
+    cantilever: Cantilever | None = None
 
     def __post_init__(self) -> None:
         columns = columns_over_time(
@@ -72,6 +102,19 @@ class IndentationRecord(Displayable):
         """Indenter profile of the exact solution."""
         return indenter_profile(self.indenter)
 
+    def first(self, rows: int) -> IndentationRecord:
+        """Return the record up to a number of rows."""
+        columns = (self.times[:rows], self.approach[:rows], self.force[:rows])
+        return IndentationRecord(self.indenter, *columns, self.cantilever)
+
+    def near_contact(self) -> IndentationRecord:
+        """Return the record of a force curve from 3 rows before contact on; others unchanged."""
+        if self.cantilever is None:
+            return self
+        begin = max(int(np.argmax(self.approach > 0)) - 3, 0)
+        columns = (self.times[begin:], self.approach[begin:], self.force[begin:])
+        return IndentationRecord(self.indenter, *columns, self.cantilever)
+
     def elastic_force(self, approach: Floats) -> Floats:
         """Return the force on an elastic body of contact modulus E* = 1 Pa [N].
 
@@ -93,6 +136,8 @@ def indenter_profile(indenter: Indenter) -> SphereProfile | ConeProfile | PunchP
     match indenter:
         case Sphere(radius=radius):
             return SphereProfile(radius)
+        case Paraboloid(radius_x=radius, radius_y=other) if radius == other:
+            return SphereProfile(radius)
         case Cone(half_angle=half_angle):
             return ConeProfile(half_angle)
         case FlatPunch(radius=radius) if radius is not None:
@@ -112,3 +157,9 @@ def elastic_force(indenter: Indenter, approach: Floats) -> Floats:
             return np.asarray(2 / math.pi * math.tan(half_angle) * approach**2)
         case PunchProfile(radius=radius):
             return np.asarray(2 * radius * approach)
+
+
+def force_exponent(indenter: Indenter) -> float:
+    """Exponent of the depth in the force: 1.5, 2 or 1."""
+    one, two = elastic_force(indenter, np.array([1.0, 2.0]))
+    return float(np.log2(two / one))

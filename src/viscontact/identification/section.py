@@ -78,8 +78,8 @@ def material_section(
 
 
 def _warning(fit: Fit | IndentationFit, doubts: Sequence[str]) -> list[str]:
-    """Lines with the doubts and the misfit of a series, which each run with the law repeats."""
-    misfit = None if isinstance(fit, IndentationFit) else fit.misfit
+    """Lines with the doubts and the misfit of a fit, which each run with the law repeats."""
+    misfit = fit.misfit
     said = [*doubts, *([misfit.message] if misfit else [])]
     if not said:
         return []

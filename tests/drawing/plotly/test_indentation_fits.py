@@ -43,8 +43,8 @@ def test_fitted_law_is_drawn_over_approach_and_time_with_its_residuals() -> None
     record = vc.find_contact(measured(), vc.Sphere(RADIUS)).record()
     fit = vc.fit_indentation(record, "elastic", poisson_ratio=0.5)
     points, law = force_over_approach(fit, LIGHT).data
-    np.testing.assert_allclose(points.x, 1e9 * record.approach, rtol=1e-6, atol=1e-9)
-    depth = 1e-9 * np.maximum(law.x, 0.0)
+    np.testing.assert_allclose(points.x, 1e6 * fit.record.approach, rtol=1e-6, atol=1e-9)
+    depth = 1e-6 * np.maximum(law.x, 0.0)
     hertz = 1e9 * 4 / 3 * MODULUS * np.sqrt(RADIUS) * depth**1.5
     np.testing.assert_allclose(law.y, hertz, atol=3e-3 * hertz.max())
     figure = fit_over_time(fit)

@@ -24,6 +24,7 @@ class Reason(enum.Enum):
     SOLID = "the data have an equilibrium modulus, which a fluid has not"
     DISAGREEMENT = "no series has such storage and loss together"
     SUPERPOSITION = "the sets of several temperatures do not join to one curve"
+    LAW = "the law does not describe the record"
     SCATTER = "the data scatter"
 
 

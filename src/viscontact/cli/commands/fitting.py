@@ -107,8 +107,8 @@ Body = Annotated[
     typer.Option(
         "--indenter",
         metavar="SHAPE",
-        help="Indenter of an indentation record: 'sphere 5 um' (radius), 'cone 70 deg' (half "
-        "angle) or 'punch 2 um' (radius).",
+        help="Indenter of an indentation record: 'sphere 5 um' (radius), 'paraboloid 40 nm' "
+        "(radius of its tip), 'cone 70 deg' (half angle) or 'punch 2 um' (radius).",
     ),
 ]
 SpringConstant = Annotated[
@@ -117,7 +117,7 @@ SpringConstant = Annotated[
         "--spring-constant",
         metavar="K",
         help="Spring constant of the cantilever, e.g. '0.1 N/m', for a force curve: columns time, "
-        "position, and deflection or force; files of instruments state their own.",
+        "position, and deflection or force; files of instruments mostly state their own.",
     ),
 ]
 Sensitivity = Annotated[
@@ -126,6 +126,25 @@ Sensitivity = Annotated[
         "--sensitivity",
         metavar="S",
         help="Deflection per signal of a force curve in volts, e.g. '50 nm/V'.",
+    ),
+]
+Reach = Annotated[
+    float | None,
+    typer.Option(
+        "--reach",
+        metavar="PART",
+        help="Part of the largest deflection that the first search of the contact point of a force "
+        "curve uses, between 0 and 1; by default 0.3.",
+    ),
+]
+Until = Annotated[
+    str | None,
+    typer.Option(
+        "--until",
+        metavar="PART",
+        help="Part of an indentation that is fitted: up to the end of 'loading', of 'hold', to the "
+        "'end', or up to a time, e.g. '2.5 s'. By default the whole record; loading and hold where "
+        "the force becomes negative during retraction.",
     ),
 ]
 LawName = Annotated[
@@ -241,6 +260,8 @@ def fit(
     indenter: Body = None,
     spring_constant: SpringConstant = None,
     sensitivity: Sensitivity = None,
+    reach: Reach = None,
+    until: Until = None,
     law: LawName = "zener",
     output: Figure = None,
     width: Width = None,
@@ -263,8 +284,8 @@ def fit(
     """Fit a law to measured creep, relaxation, oscillation or indentation.
 
     Measurements at several temperatures are joined to a master curve, and the shift factors are
-    printed. In a force curve, the contact point is found and the bending of the cantilever
-    subtracted first. With --case, values of a case are fitted to records by runs of the case.
+    printed. In a force curve, contact point and baseline are found together with the law. With
+    --case, values of a case are fitted to records by runs of the case.
     """
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit

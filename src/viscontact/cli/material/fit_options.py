@@ -10,6 +10,7 @@ from typing import Any, Self
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.identification import ForceCurve, read_force_curve
+from viscontact.identification.fitted_part import PARTS
 from viscontact.identification.force_curve import tabulated_curve
 from viscontact.identification.master_curve import SuperpositionOptions
 from viscontact.identification.vertical_shift import VERTICALS
@@ -37,6 +38,8 @@ class FitArguments:
     sensitivity: str | None = None
     vertical: str | None = None
     expansion: float | None = None
+    reach: float | None = None
+    until: str | None = None
 
     @classmethod
     def of(cls, typed: Mapping[str, Any]) -> Self:
@@ -137,6 +140,17 @@ class FitArguments:
             return None
         return _read_option("--spring-constant", self.spring_constant, "stiffness")
 
+    def end(self) -> str | float | None:
+        """Return the end of the fitted part: its name, an instant [s], or None."""
+        if self.until is None or self.until in PARTS:
+            return self.until
+        try:
+            return parse_quantity(self.until, "time")
+        except ValueError:
+            raise ValueError(
+                f"--until: must be loading, hold, end or a time such as '2.5 s', got {self.until!r}"
+            ) from None
+
     def instrument_curve(self, file: Path) -> ForceCurve:
         """Return a force curve of a file of an instrument."""
         idle = {
@@ -197,7 +211,7 @@ def read_indenter(text: str) -> Indenter:
     """Return the indenter given behind ``--indenter``."""
     shape, _, size = text.strip().partition(" ")
     try:
-        if shape == "sphere":
+        if shape in ("sphere", "paraboloid"):  # the fit's sphere is the paraboloid of its radius
             return Sphere(parse_quantity(size, "length"))
         if shape == "cone":
             return Cone(parse_quantity(size, "angle"))
@@ -206,6 +220,6 @@ def read_indenter(text: str) -> Indenter:
     except ValueError as error:
         raise ValueError(f"--indenter: {error}") from None
     raise ValueError(
-        f"--indenter: {text!r} is not an indenter; write e.g. 'sphere 5 um', 'cone 70 deg' or "
-        "'punch 2 um'"
+        f"--indenter: {text!r} is not an indenter; write e.g. 'sphere 5 um', 'paraboloid 40 nm', "
+        "'cone 70 deg' or 'punch 2 um'"
     )

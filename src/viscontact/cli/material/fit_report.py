@@ -104,6 +104,11 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
             f"{table.source.name}: --spring-constant and --sensitivity go with a force curve, "
             f"which has columns time, position, and deflection or force; {table.contents}"
         )
+    if arguments.reach is not None or arguments.until is not None:
+        raise ValueError(
+            f"{table.source.name}: --reach and --until go with an indentation: columns time, "
+            f"position and deflection or force, or time, approach and force; {table.contents}"
+        )
     if arguments.indenter is not None:
         raise ValueError(
             f"{table.source.name}: --indenter goes with columns time, approach and force; there "
@@ -165,6 +170,11 @@ def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, Defer
             f"{table.source.name}: --spring-constant and --sensitivity do not go with an approach, "
             "from which the bending is subtracted already; leave them out"
         )
+    if arguments.reach is not None:
+        raise ValueError(
+            f"{table.source.name}: --reach goes with a force curve, whose contact point is "
+            "searched; leave it out"
+        )
     record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
     return _from_record(record, arguments)
 
@@ -173,7 +183,11 @@ def _from_force_curve(
     curve: ForceCurve, indenter: Indenter, arguments: FitArguments
 ) -> tuple[str, DeferredFigure]:
     """Find the contact point, print it, and fit a law to the indentation."""
-    contact = find_contact(curve, indenter)
+    contact = (
+        find_contact(curve, indenter)
+        if arguments.reach is None
+        else find_contact(curve, indenter, reach=arguments.reach)
+    )
     put(repr(contact))
     return _from_record(contact.record(), arguments)
 
@@ -187,6 +201,7 @@ def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[st
             terms=1 if arguments.terms is None else arguments.terms,
             poisson_ratio=poisson_ratio,
             bulk_modulus=bulk_modulus,
+            until=arguments.end(),
         )
     put(repr(fit))
     return material_section(fit), DeferredFigure("fitted_indentation", fit)

@@ -35,8 +35,9 @@ def force_panel(fit: IndentationFit, units: Units = readable_unit) -> Panel:
     d, F = (record.approach, fit.fitted) if fit.given == "approach" else (fit.fitted, record.force)
     low, deepest = float(record.approach.min()), float(record.approach.max())
     shown = max(low - _BEYOND * deepest, -_BEFORE * deepest), (1 + _BEYOND) * deepest
+    within = record.approach[record.approach >= shown[0]]
     return Panel(
-        Axis("Approach", units("m", record.approach), shown if deepest > 0 else None),
+        Axis("Approach", units("m", within), shown if deepest > 0 else None),
         Axis.of("Force", "N", record.force, units=units),
         (
             Curve(record.approach, record.force, "measured", look="hollow"),
