@@ -64,7 +64,7 @@ def fit_warnings(fit: IndentationFit) -> Iterator[str]:
 
 def _open_parameters(fit: IndentationFit) -> Iterator[str]:
     vague = [
-        f"{name} ({low:.2g} to {high:.2g} {unit})"
+        f"{name} ({low:.2g} to {high:.2g}{unit and f' {unit}'})"
         for (name, (low, high)), unit in zip(fit.intervals.items(), fit.units, strict=True)
         if high > _VAGUE**2 * low
     ]

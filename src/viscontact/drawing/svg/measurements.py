@@ -68,10 +68,16 @@ def indentation_fit_overview(fit: IndentationFit) -> Overview:
         low, high = (_format(end, unit) for end in fit.intervals[name])
         interval = f"{_format(value, unit)} ({level}: {low} to {high})"
         rows.append((name.replace("_", " "), interval))
+    if fit.contact is not None:
+        low, high = (format_quantity(end, "m", 5) for end in fit.contact.position_interval)
+        at = format_quantity(fit.contact.position, "m", 5)
+        rows.append(("contact point", f"{at} ({level}: {low} to {high})"))
     other, unit = ("force", "N") if fit.given == "approach" else ("approach", "m")
+    duration = min(fit.until, float(fit.record.times[-1])) - float(fit.record.times[0])
     rows += [
-        ("given", f"{fit.given} over {format_quantity(float(np.ptp(fit.record.times)), 's')}"),
+        ("given", f"{fit.given} over {format_quantity(duration, 's')}"),
         (f"misses the {other} by", f"{format_percent(fit.residual)} of the largest (rms)"),
+        *([("warning", fit.misfit.reason.value)] if fit.misfit else []),
     ]
     return _overview("Fit of an indentation", rows, [indentation_fit_panel(fit)])
 

@@ -79,7 +79,7 @@ def fitted_curve(request: CurveFitRequest, folder: Path, look: Look) -> dict[str
     if contact is not None:
         figures.insert(0, contact_point(contact, look))
     return {
-        "contact": [] if contact is None else _contact_rows(contact),
+        "contact": [] if contact is None else [*_contact_rows(contact), *_fitted_rows(fit)],
         "parameters": _parameter_rows(fit),
         "residual": f"{100 * fit.residual:.2g} % rms of the largest value",
         "warnings": [str(each.message) for each in caught],
@@ -178,6 +178,17 @@ def _contact_rows(contact: ContactPoint) -> list[tuple[str, str]]:
         ("E/(1 − ν²) of an elastic body", format_quantity(contact.contact_modulus, "Pa", 4)),
         ("Spring constant", format_quantity(contact.curve.spring_constant, "N/m", 4)),
     ]
+
+
+def _fitted_rows(fit: IndentationFit) -> list[tuple[str, str]]:
+    """Contact point that was fitted together with the law."""
+    if fit.contact is None:
+        return []
+    at, low, high = (
+        format_quantity(each, "m", 5).replace("-", "−")
+        for each in (fit.contact.position, *fit.contact.position_interval)
+    )
+    return [("Contact point, fitted with the law", f"{at} ({low} to {high})")]
 
 
 def _parameter_rows(fit: IndentationFit) -> list[dict[str, Any]]:
