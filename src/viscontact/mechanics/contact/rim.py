@@ -19,7 +19,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.body_edge import Outline
-from viscontact.mechanics.contact.rim_crossings import MARGIN, locate_rim, places
+from viscontact.mechanics.contact.rim_crossings import MARGIN, Recession, locate_rim, places
 
 #: Area between a curved rim and the chords through its crossings, in cells per quarter turn. A
 #: chord of a row is dy/cos φ long, with the direction φ of its normal, where the rim crosses rows
@@ -115,23 +115,25 @@ def trace_rim(
     contact: Bools,
     gap: Floats,
     outline: Outline | None = None,
+    recession: Recession | None = None,
 ) -> Rim:
     """Locate the rim of a contact between cell centres; the area is of second order.
 
     The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the
     middle. The square root of the pressure inside a smooth rim belongs to an opening of
     distance^(3/2) outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep
-    law.
+    law. Where the contact recedes, the pressure locates the rim.
     """
     if any(grid.periodic):
-        return _trace_around(grid, contact, gap, outline)
+        return _trace_around(grid, contact, gap, outline, recession)
     rows, columns = _block(contact, axis=0), _block(contact, axis=1)
     contact, gap = contact[rows, columns], gap[rows, columns]
+    recession = None if recession is None else recession.within((rows, columns))
     ends = None
     if outline is not None:
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
         ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
-    along_x, along_y = locate_rim(grid, contact, gap, ends)
+    along_x, along_y = locate_rim(grid, contact, gap, recession, ends)
     first, second = np.arange(grid.shape[0])[rows], np.arange(grid.shape[1])[columns]
     return Rim(grid, contact, along_x, along_y, first, second, _mean_segment(contact, gap))
 
@@ -144,7 +146,9 @@ def _block(contact: Bools, axis: int) -> slice:
     return slice(max(int(touched[0]) - MARGIN, 0), int(touched[-1]) + 1 + MARGIN)
 
 
-def _trace_around(grid: Grid, contact: Bools, gap: Floats, outline: Outline | None) -> Rim:
+def _trace_around(
+    grid: Grid, contact: Bools, gap: Floats, outline: Outline | None, recession: Recession | None
+) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
     segment = _mean_segment(contact, gap, periodic=grid.periodic)
     (rows, wide_rows, inner_rows), (columns, wide_columns, inner_columns) = (
@@ -152,6 +156,7 @@ def _trace_around(grid: Grid, contact: Bools, gap: Floats, outline: Outline | No
     )
     wide = np.ix_(wide_rows, wide_columns)
     contact, gap = contact[wide], gap[wide]
+    recession = None if recession is None else recession.within(wide)
     ends = None
     if outline is not None:
         # A body that reaches the border ends there, in the middle between two centres.
@@ -159,7 +164,7 @@ def _trace_around(grid: Grid, contact: Bools, gap: Floats, outline: Outline | No
         end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
         ends = end_x, end_y
     inner = inner_rows, inner_columns
-    along_x, along_y = locate_rim(grid, contact, gap, ends)
+    along_x, along_y = locate_rim(grid, contact, gap, recession, ends)
     return Rim(grid, contact[inner], along_x[inner], along_y[inner], rows, columns, segment)
 
 

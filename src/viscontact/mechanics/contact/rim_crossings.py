@@ -3,21 +3,41 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.contact.straight_edge import edge_law
+from viscontact.mechanics.contact.straight_edge import EdgeLaw, edge_laws
 
 #: Open cells beside the contact from which its rim is extrapolated.
 MARGIN = 3
+
+#: Cells in contact behind the first one from which pressures locate the rim.
+LEAST_CHORD = 4
 
 #: Lines of cells around a block, outside the body: two cells are read beyond an open one.
 PADDING = 2
 
 #: Least descent of a chord from line to line, in cells.
 LEAST_DESCENT = 1e-6
+
+
+class Recession(NamedTuple):
+    """Where a contact on a creeping body recedes: gaps open beside it, and pressures fall within.
+
+    There the surface that it leaves is almost closed, so that its gap does not show the rim. Where
+    the contact grows over such a surface, the gap does, and the pressure less well.
+    """
+
+    pressure: Floats  # [Pa]
+    falls: Bools
+    opens: Bools
+
+    def within(self, block: Any) -> Recession:
+        """Return the part of a block of cells."""
+        return Recession(*(field[block] for field in self))
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,12 +62,22 @@ class _Intervals:
 
 
 def locate_rim(
-    grid: Grid, contact: Bools, gap: Floats, ends: tuple[Floats, Floats] | None
+    grid: Grid,
+    contact: Bools,
+    gap: Floats,
+    recession: Recession | None,
+    ends: tuple[Floats, Floats] | None,
 ) -> tuple[Floats, Floats]:
     """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
     intervals = _changes(contact)
-    touches, gaps = _pad(contact, outside=False), _pad(gap, outside=np.inf)
-    located, slope = _by_gaps(grid, intervals, touches.ravel(), gaps.ravel())
+    touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
+    located, slope = _by_gaps(_laws(grid, 0), intervals, touches, gaps.ravel())
+    if recession is not None:
+        pressure, falls, opens = (_pad(each, outside=0).ravel() for each in recession)
+        at = np.flatnonzero(opens[intervals.outer] & falls[intervals.inner])
+        found = _by_pressures(_laws(grid, 1), intervals.some(at), pressure)
+        known = ~np.isnan(found[0])
+        located[at[known]], slope[at[known]] = (each[known] for each in found)
     at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
         located[at_end] = _body_ends(ends, intervals.some(at_end), gaps.shape[1])
@@ -58,7 +88,7 @@ def locate_rim(
     chosen = np.flatnonzero(oblique)
     if chosen.size:
         lines = intervals.some(chosen)
-        chords = _by_chords(fields, lines, touches.ravel(), slope[chosen] > 0)
+        chords = _by_chords(fields, lines, touches, slope[chosen] > 0)
         _write_intervals(fields, lines, np.where(np.isnan(chords), located[chosen], chords))
     inside = slice(PADDING, -PADDING)
     along_x, along_y = fields.reshape(2, *gaps.shape)[:, inside, inside]
@@ -100,8 +130,17 @@ def _changes(contact: Bools) -> _Intervals:
     return _Intervals(count_along_x, start, inner, outwards, width + 1 - step)
 
 
+def _laws(grid: Grid, side: int) -> tuple[EdgeLaw, EdgeLaw]:
+    """Laws of the gaps (side 0) or the pressures (side 1) on lines along x and along y."""
+    # Ratios that differ by rounding share a law.
+    dx, dy = grid.cell_size
+    ratios = (round(ratio, 6 if ratio > 1e-3 else 15) for ratio in (dy / dx, dx / dy))
+    along_x, along_y = (edge_laws(each, periodic=all(grid.periodic))[side] for each in ratios)
+    return along_x, along_y
+
+
 def _by_gaps(
-    grid: Grid, intervals: _Intervals, contact: Bools, gap: Floats
+    laws: tuple[EdgeLaw, EdgeLaw], intervals: _Intervals, contact: Bools, gap: Floats
 ) -> tuple[Floats, Floats]:
     """Distances from the inner centres by the gaps further out, and slopes of the rim."""
     # The middle, if the second gap is not wider (a groove of one cell, the body's end).
@@ -117,16 +156,48 @@ def _by_gaps(
     both = known & np.isfinite(behind) & np.isfinite(before)
     gaps = np.array([np.where(both, behind, 0.0), np.where(both, before, 0.0), far, near])
     # Of ratios, so that no unit of length changes the rounding.
-    behind, before, rise, base = np.cbrt(np.square(gaps / far))
-    slope = (behind - before) / (2 * (rise - base))
-    # Ratios that differ by rounding share a law.
-    dx, dy = grid.cell_size
-    ratios = (round(ratio, 6 if ratio > 1e-3 else 15) for ratio in (dy / dx, dx / dy))
-    laws = [edge_law(ratio, periodic=all(grid.periodic)) for ratio in ratios]
-    split = intervals.count_along_x
-    offset = np.concatenate([laws[0].offset(slope[:split]), laws[1].offset(slope[split:])])
-    distance = laws[0].distance(near, far, farther) - offset
+    slope = _slope(np.cbrt(np.square(gaps / far)))
+    distance = _distance(laws, intervals, (near, far, farther), slope)
     return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope
+
+
+def _by_pressures(
+    laws: tuple[EdgeLaw, EdgeLaw], intervals: _Intervals, pressure: Floats
+) -> tuple[Floats, Floats]:
+    """Distances from the inner centres by the pressures further in, NaN if unknown, and slopes."""
+    inner, inwards = intervals.inner, -intervals.outwards
+    second = inner + inwards
+    near, far, farther = pressure[inner], pressure[second], pressure[second + inwards]
+    # A few cells between two rims do not tell them apart.
+    beyond = np.take(pressure, inner + LEAST_CHORD * inwards, mode="clip")
+    known = (near > 0) & (far > near) & (farther > 0) & (beyond > 0)
+    near, far = np.where(known, near, 0.0), np.where(known, far, 1.0)
+    # Squares of pressures, also on the lines beside.
+    behind, before = pressure[second + intervals.across], pressure[second - intervals.across]
+    slope = -_slope(np.square(np.array([behind, before, far, near]) / far))
+    distance = _distance(laws, intervals, (near, far, farther), slope)
+    return np.where(known, np.minimum(distance, 1.5), np.nan), slope
+
+
+def _slope(values: Floats) -> Floats:
+    """Slope of the rim by values behind, before, far and near, linear in the distance from it."""
+    behind, before, far, near = values
+    return np.asarray((behind - before) / (2 * (far - near)))
+
+
+def _distance(
+    laws: tuple[EdgeLaw, EdgeLaw],
+    intervals: _Intervals,
+    values: tuple[Floats, Floats, Floats],
+    slope: Floats,
+) -> Floats:
+    """Distances of the rim from the first of three centres on lines across it, in cells."""
+    split = intervals.count_along_x
+    parts = [
+        law.distance(*(each[part] for each in values)) - law.offset(slope[part])
+        for law, part in zip(laws, (slice(split), slice(split, None)), strict=True)
+    ]
+    return np.concatenate(parts)
 
 
 def _body_ends(ends: tuple[Floats, Floats], intervals: _Intervals, width: int) -> Floats:

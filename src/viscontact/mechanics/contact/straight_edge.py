@@ -7,6 +7,7 @@ matter.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -29,7 +30,7 @@ MAX_DISTANCE = 1.5
 
 @dataclass(frozen=True, eq=False)
 class EdgeLaw:
-    """Gaps of the cells next to a smooth rim, along lines of the grid that cross it.
+    """Gaps or pressures of the cells next to a smooth rim, along lines of the grid that cross it.
 
     Notes
     -----
@@ -51,18 +52,24 @@ class EdgeLaw:
     and contacts of finite size. A third gap determines it. Across an oblique edge, the result
     has a small mean error over the positions of the edge between the centres, the offset.
 
+    The pressures inside follow from 1/K₋ in the same way: distances from the edge inwards, the
+    threshold -c, and growth by the coefficients of the reciprocal power series.
+
     References
     ----------
     B. Noble, Methods Based on the Wiener-Hopf Technique, Pergamon (1958).
     """
 
-    threshold: float  # c: cells with their centre less far outside the edge are in contact [cells]
-    growth: tuple[float, float]  # b_1 and b_2
+    threshold: float  # c, or -c: least distance of the centres on this side of the edge [cells]
+    growth: tuple[float, float]  # b_1 and b_2, or those of the reciprocal series
     slopes: tuple[float, ...] = (0.0,)  # slopes of the edge, in cells
     offsets: tuple[float, ...] = (0.0,)  # mean errors of the distance at these slopes [cells]
 
     def distance(self, first: Floats, second: Floats, third: Floats) -> Floats:
-        """Distance of the rim from the first of three open centres, in cells, by their gaps."""
+        """Distance of the rim from the first of three centres on a line, in cells, by their values.
+
+        The values are gaps outwards, or pressures inwards; the third is NaN where it is not known.
+        """
         b, c = self.growth
         slack = second - (1 + b) * first
         t = np.full_like(first, MAX_DISTANCE)
@@ -84,17 +91,23 @@ class EdgeLaw:
 
 
 @lru_cache(maxsize=256)
-def edge_law(cell_ratio: float, *, periodic: bool) -> EdgeLaw:
-    """Law of the gaps along lines of a grid; `cell_ratio` is a cell's breadth over its length."""
-    edge = _straight_edge(1, 0, cell_ratio, periodic=periodic)
-    law = EdgeLaw(edge.threshold, (float(edge.growth[1]), float(edge.growth[2])))
-    edges = [_straight_edge(*normal, cell_ratio, periodic=periodic) for normal in NORMALS]
-    return EdgeLaw(
-        law.threshold,
-        law.growth,
-        tuple(n / m for m, n in NORMALS),
-        tuple(_mean_error(law, each, m) for each, (m, _) in zip(edges, NORMALS, strict=True)),
-    )
+def edge_laws(cell_ratio: float, *, periodic: bool) -> tuple[EdgeLaw, EdgeLaw]:
+    """Laws of the gaps outside an edge and of the pressures inside, along lines of a grid.
+
+    The ratio is that of a cell's breadth over its length along the line.
+    """
+    normals = ((1, 0), *NORMALS)
+    edges = [_straight_edge(*normal, cell_ratio, periodic=periodic) for normal in normals]
+    return _law(edges), _law([each.reversed() for each in edges])
+
+
+def _law(edges: Sequence[_StraightEdge]) -> EdgeLaw:
+    """Law of an edge along the grid, with its mean errors across those of `NORMALS`."""
+    straight, *others = edges
+    growth = float(straight.growth[1]), float(straight.growth[2])
+    law = EdgeLaw(straight.threshold, growth)
+    offsets = (_mean_error(law, each, m) for each, (m, _) in zip(others, NORMALS, strict=True))
+    return EdgeLaw(law.threshold, growth, tuple(n / m for m, n in NORMALS), tuple(offsets))
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +122,14 @@ class _StraightEdge:
         """Gaps at distances from the threshold, over their first slope."""
         steps = np.arange(len(self.growth))[:, None] * self.spacing
         return np.asarray(self.growth @ np.maximum(beyond - steps, 0.0))
+
+    def reversed(self) -> _StraightEdge:
+        """The same edge from within: its pressures take the place of the gaps."""
+        reciprocal = np.zeros_like(self.growth)
+        reciprocal[0] = 1.0
+        for each in range(1, len(reciprocal)):
+            reciprocal[each] = -self.growth[1 : each + 1] @ reciprocal[each - 1 :: -1][:each]
+        return _StraightEdge(self.spacing, -self.threshold, reciprocal)
 
 
 def _mean_error(law: EdgeLaw, edge: _StraightEdge, m: int) -> float:

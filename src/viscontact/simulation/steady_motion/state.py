@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
 from viscontact.mechanics.contact.resistance import is_even, reaches_end, resistance_by_slope
 from viscontact.mechanics.contact.rim import Rim, mean_chords, trace_rim
+from viscontact.mechanics.contact.rim_crossings import Recession
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.simulation.steady_motion.contact import SteadyContact
 from viscontact.simulation.steady_motion.problem import SteadyProblem
@@ -17,7 +20,13 @@ from viscontact.simulation.steady_motion.resistance import Resistance, resistanc
 def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
     """Rim of a contact between the cell centres."""
     outline = trace_outline(problem.contact.indenter, contact.grid)
-    return trace_rim(contact.grid, contact.in_contact, contact.gap, outline)
+    # The material passes from the leading edge, at the end of the axis, to the rear one.
+    opens, falls = (
+        later(field, np.roll(field, -1, axis=problem.axis))
+        for later, field in ((np.greater, contact.gap), (np.less, contact.pressure))
+    )
+    recession = Recession(contact.pressure, falls=falls, opens=opens)
+    return trace_rim(contact.grid, contact.in_contact, contact.gap, outline, recession)
 
 
 def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:

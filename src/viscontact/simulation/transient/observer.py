@@ -14,6 +14,7 @@ from viscontact.bodies.grid import MIN_CELLS_ACROSS
 from viscontact.bodies.loads.history import LoadPoint
 from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
+from viscontact.mechanics.contact.recession import ContactTrend, Trend
 from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
@@ -65,6 +66,9 @@ class Observer:
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
         self._held = False  # the load of the last step
+        self._trend = (
+            None if run.problem.surface.creep.is_elastic else ContactTrend.at_first(run.grid)
+        )
         self._cycles = LoadCycleWork(run.problem.history.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: Bools | None = None  # its spots are not counted yet
@@ -83,13 +87,15 @@ class Observer:
         self._motion.continue_on(run)
         if self._before is not None:
             self._before = enlargement.solution(self._before)
+        if self._trend is not None:
+            self._trend = self._trend.on(enlargement.small.grid, run.grid)
 
     def evaluate(self, step: TimeStep, point: LoadPoint, solution: StepSolution) -> ContactState:
         """Return the state at the end of a step, still without warnings."""
         if self._run.position_at(step.time) != self._position:
             self._set_geometry(self._run, step.time)
         # Cells in contact, and the rim within cells, from the gap beside them.
-        rim = trace_rim(self._run.grid, solution.in_contact, solution.gap, self._outline)
+        rim = self._rim_of(solution)
         # Work since the step before, and the loss of a cycle that ends here.
         has_datum = self._run.problem.has_datum(rim.grid)
         self._work += self._work_of(point, solution) if has_datum else math.nan
@@ -112,6 +118,15 @@ class Observer:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before = solution
         return state
+
+    def _rim_of(self, solution: StepSolution) -> Rim:
+        gap, in_contact = solution.gap, solution.in_contact
+        recession = None
+        if self._trend is not None:
+            error = self._run.problem.solver_error * float(np.abs(solution.displacement).max())
+            self._trend = self._trend.after(gap, solution.pressure, in_contact, error)
+            recession = self._trend.recession(solution.pressure)
+        return trace_rim(self._run.grid, in_contact, gap, self._outline, recession)
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
         """Add the new warnings; at the last state, the mesh is judged by the largest contact."""
@@ -145,6 +160,7 @@ class Observer:
             "work": self._work,
             "before": before and vars(before) | {"outcome": int(before.outcome)},
             "point": self._point and vars(self._point),
+            "trend": self._trend and [vars(self._trend.gap), vars(self._trend.pressure)],
             "cycles": self._cycles.restart_data(),
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
@@ -165,6 +181,8 @@ class Observer:
             else StepSolution(**before | {"outcome": Outcome(before["outcome"])})
         )
         self._point = None if point is None else LoadPoint(**point)
+        trend = restart_data["trend"]
+        self._trend = trend and ContactTrend(*(Trend(**each) for each in trend))
         self._cycles.restore(restart_data["cycles"])
         self._largest_area = restart_data["largest_area"]
         self._cells_at_largest = restart_data["cells_at_largest"]
