@@ -245,6 +245,7 @@ class AutomaticGrid(Displayable):
         Largest relative error of the quantities due to the mesh, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
         Any of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``; these three when left out.
+        Where the approach is prescribed, the force takes its place.
         Also ``"mean_pressure"``, ``"contact_length"``, ``"contact_width"``, ``"peak_line_load"``,
         ``"force"``, ``"eccentricity_x"``, ``"eccentricity_y"``, ``"tilt_x"``, ``"tilt_y"``. Errors
         of eccentricities and tilts are relative to their absolute value, or where that is smaller,

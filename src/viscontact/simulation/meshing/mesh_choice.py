@@ -90,6 +90,10 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     )
     highest = max(each.point.level for each in found)
     largest = next(each for each in found if each.point.level == highest)
+    if largest.point.approach is not None:
+        # The approach itself is exact there: what follows from it is the force.
+        names = ["force" if name == "approach" else name for name in request.quantities]
+        request = replace(request, quantities=names)
     found += _contacts_before_creep(problem, end)
     centre = grid_centre([each.estimate for each in found])
     reach = np.array([each.estimate.reach_from(centre) for each in found]).max(axis=0)
@@ -197,7 +201,7 @@ def _first_cells(
 
 def _first_across(request: AutomaticGrid) -> float:
     """Cells across the contact in the first trial."""
-    if request.quantities == ("approach",):  # hardly affected by the rim and the peak
+    if request.quantities in (("approach",), ("force",)):  # hardly affected by the rim and the peak
         return MIN_ACROSS
     return max(MIN_ACROSS, ACROSS / math.sqrt(request.tolerance))
 
