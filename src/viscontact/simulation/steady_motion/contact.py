@@ -106,11 +106,23 @@ class SteadySolver:
         return SteadyContact(speed, domain, solution)
 
     def coarser(self, speed: float, grid: Grid, tolerance: float) -> SteadyContact | None:
-        """Solve on half the cells along each axis; None where there are few. One is kept."""
-        if any(1 < cells < FEWEST_TO_HALVE for cells in grid.shape):
+        """Solve on half the cells along each axis; None where there are few.
+
+        They are kept along a period in which nothing varies.
+        """
+        kept = [self._is_uniform(grid, axis) for axis in (0, 1)]
+        pairs = list(zip(grid.shape, kept, strict=True))
+        if any(cells < FEWEST_TO_HALVE and not keeps for cells, keeps in pairs):
             return None
-        nx, ny = (cells if cells == 1 else (cells + 1) // 2 for cells in grid.shape)
+        nx, ny = (cells if keeps else (cells + 1) // 2 for cells, keeps in pairs)
         return self.solve(speed, replace(grid, shape=(nx, ny)), tolerance)
+
+    def _is_uniform(self, grid: Grid, axis: int) -> bool:
+        """True for a periodic axis along which the body is a cylinder."""
+        gap = gap_on(self.problem, grid)
+        return grid.shape[axis] == 1 or (
+            grid.periodic[axis] and bool((gap == np.take(gap, [0], axis)).all())
+        )
 
 
 def gap_on(problem: SteadyProblem, grid: Grid) -> Floats:

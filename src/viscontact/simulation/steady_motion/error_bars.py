@@ -33,21 +33,22 @@ LEAST_ERRORS = {
 #: resistance.
 LEAST_TILT, LEAST_FORCE_ERROR = 0.5, 1.2
 
-#: Least error of the area along the motion, in cells: the surface behind the contact is almost
-#: closed, and the rear edge is found too far outside.
-AREA_CELLS = 0.2
+#: Least error of the area along the motion, in cells, and of extents along it: where all creep
+#: within the contact takes many cells, and what is added where it happens within one.
+AREA_CELLS, UNRESOLVED_AREA_CELLS = 0.05, 0.15
+ALONG_CELLS, UNRESOLVED_ALONG_CELLS = 0.05, 0.45
 
-#: Least error of extents along and across the motion, in cells, and of the place of the resultant,
-#: over the extents and times the square of these cells.
-ALONG_CELLS, ACROSS_CELLS, LEAST_ECCENTRICITY = 0.5, 0.2, 0.1
+#: Least error of extents across the motion, in cells, and of the place of the resultant, over the
+#: extents and times the square of these cells.
+ACROSS_CELLS, LEAST_ECCENTRICITY = 0.2, 0.1
 
 #: Error of the resistance over the difference of its forms: both err where a retardation length is
 #: shorter than a cell.
 FORMS = 1.25
 
 #: Error over the difference of two grids, where it is of the first order in the cells: of areas and
-#: pressures, and of all scalars on a law without instant compliance, which always has retardation
-#: lengths shorter than a cell.
+#: pressures as far as creep happens within a cell, and of all scalars on a law without instant
+#: compliance, which always has retardation lengths shorter than a cell.
 FIRST_ORDER = 2.0
 OF_FIRST_ORDER = ("contact_area", "mean_pressure", "peak_pressure")
 
@@ -55,6 +56,9 @@ OF_FIRST_ORDER = ("contact_area", "mean_pressure", "peak_pressure")
 #: ones, error of such a peak over its excess over the others, and power of time with which a law
 #: creeps at first from which the pressure has no limit there.
 ENTRY_CELLS, ENTRY_EXCESS, SINGULAR_EXPONENT = 2, 1.5, 0.5
+
+#: Least error of the rim on thin layers, in cells, over the cell's size in thicknesses.
+THIN_RIM_CELLS = 0.24
 
 #: Part of a period that a strip in contact fills.
 WHOLE = 1 - 1e-9
@@ -77,10 +81,12 @@ def error_bars(
     # by the solver; of a resistance by the slope also the difference of both forms.
     state, least = fine.state, _least_bars(problem, fine)
     bars = {}
-    at_once = problem.contact.compliance.instant > 0
+    at_once, unresolved = problem.contact.compliance.instant > 0, _unresolved(problem, fine)
     for name in WITH_ERROR:
         difference = abs(float(getattr(state, name)) - float(getattr(coarse.state, name)))
-        factor = 1.0 if at_once and name not in OF_FIRST_ORDER else FIRST_ORDER
+        factor = 1.0 if at_once else FIRST_ORDER
+        if at_once and name in OF_FIRST_ORDER:
+            factor += (FIRST_ORDER - 1) * unresolved
         bars[name] = max(factor * difference, least[name])
     along_motion = f"resistance_{problem.motion.along}"
     forces = bars[along_motion]
@@ -118,11 +124,14 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
         name: (LEAST_ERRORS.get(name, 0.0) / square + relative) * abs(float(getattr(state, name)))
         for name in WITH_ERROR
     }
+    unresolved, thinnest = _unresolved(problem, fine), problem.contact.thinnest_layer
+    along = ALONG_CELLS + UNRESOLVED_ALONG_CELLS * unresolved
     for axis, name in enumerate(("contact_length", "contact_width")):
-        part = ALONG_CELLS if axis == problem.axis else ACROSS_CELLS
-        least[name] = part * cell[axis]
+        part = along if axis == problem.axis else ACROSS_CELLS
+        least[name] = (part + THIN_RIM_CELLS * cell[axis] / thinnest) * cell[axis]
     if not _fills_period(rim, problem.axis):
-        edges = _edge_error(problem, rim, least)
+        cells = AREA_CELLS + UNRESOLVED_AREA_CELLS * unresolved
+        edges = _edge_error(problem, rim, least, cells)
         for name in ("contact_area", "mean_pressure"):
             least[name] = max(least[name], edges * float(getattr(state, name)))
         least["peak_pressure"] = max(least["peak_pressure"], _entry_excess(problem, fine))
@@ -139,13 +148,31 @@ def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
     return least
 
 
-def _edge_error(problem: SteadyProblem, rim: Rim, least: Mapping[str, float]) -> float:
+def _unresolved(problem: SteadyProblem, fine: Measured) -> float:
+    """Part of the creep on the way through the contact that happens within a cell [-].
+
+    All of it on a law without instant compliance, which creeps on any way.
+    """
+    compliance, axis = problem.contact.compliance, problem.axis
+    if not compliance.instant > 0:
+        return 1.0
+    extent = max((fine.rim.length, fine.rim.width)[axis], fine.rim.grid.cell_size[axis])
+    ways = np.array([fine.rim.grid.cell_size[axis], extent])
+    within, whole = (
+        compliance(ways / float(fine.state.speed or 1.0)) - compliance.instant
+    ).tolist()
+    return within / whole if whole > 0 else 0.0
+
+
+def _edge_error(
+    problem: SteadyProblem, rim: Rim, least: Mapping[str, float], cells: float
+) -> float:
     """Relative error of the area by its edges along the motion; a strip ends alike anywhere."""
     axis = problem.axis
     extent = (rim.length, rim.width)[axis]
     if _fills_period(rim, 1 - axis):
         return least[("contact_length", "contact_width")[axis]] / extent
-    return AREA_CELLS * rim.grid.cell_size[axis] / extent
+    return cells * rim.grid.cell_size[axis] / extent
 
 
 def _fills_period(rim: Rim, axis: int) -> bool:
