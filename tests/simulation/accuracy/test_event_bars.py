@@ -7,7 +7,7 @@ import viscontact as vc
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import CoarserResult
-from viscontact.simulation.accuracy.event_bars import event_errors
+from viscontact.simulation.accuracy.event_bars import event_errors, segment_end_errors
 from viscontact.simulation.transient.found_events import carried_out
 from viscontact.simulation.transient.setup import prepare_run
 
@@ -104,12 +104,12 @@ def coarser(spacing, ends, *, divides_steps=False):
     """Coarser run of which only the ends of the segments are known [s]."""
     none = np.zeros(0)
     flags = none.astype(bool)
-    kinds = (none, flags, none, none, none, np.zeros((0, 2), bool))
+    kinds = (none, flags, none, none, none, none, np.zeros((0, 2), bool))
     return CoarserResult(spacing, divides_steps, {}, *kinds, is_sharp=False, segment_ends=ends)
 
 
 def bars(run, results):
-    return np.array(event_errors(run, results)["event_time_errors"])
+    return np.array(event_errors(run, segment_end_errors(run, results))["event_time_errors"])
 
 
 ERRORS = np.array([2e-3, -5e-3])  # [s], far above those of the solver

@@ -81,7 +81,7 @@ def test_peak_has_no_limit_between_instants_that_coarser_runs_have_far_apart(bal
         count = len(instants)
         scalars = {name: np.repeat(values, count) for name, values in each.scalars.items()}
         peaks = np.full(count, history["peak_pressure"][0] * each.spacing**-exponent)
-        repeated = ("bend_growth", "spots", "peak_drops", "rises_to_ends")
+        repeated = ("bend_growth", "spots", "peak_drops", "apex_exponents", "rises_to_ends")
         changed.append(
             replace(
                 each,

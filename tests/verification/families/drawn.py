@@ -5,9 +5,12 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from verification.families.blunt_bodies import blunt_apex, rounded_punch, shrinking_contact
+from verification.families.eccentric_bodies import eccentric_ball, eccentric_ellipsoid
 from verification.families.ellipses import slender_ellipse, turned_ellipse
 from verification.families.exact_run import ExactRun, NotDrawnError
 from verification.families.layered_bodies import covered_core, layered_ball, layered_cylinder
+from verification.families.load_programs import load_program
 from verification.families.punches import dent, eccentric_punch, punch
 from verification.families.rollers import roller
 from verification.families.round_bodies import automatic, harmonic_load, held_ball, round_body
@@ -54,7 +57,20 @@ LAYERED: dict[str, Draw] = {
     each.__name__: each for each in (layered_ball, layered_cylinder, covered_core)
 }
 
-FAMILIES = CALIBRATED | HELD_OUT | LAYERED
+#: Bodies whose bars were short before, with seeds below 100 for the choice.
+BLUNT: dict[str, Draw] = {
+    each.__name__: each
+    for each in (
+        blunt_apex,
+        shrinking_contact,
+        rounded_punch,
+        eccentric_ball,
+        eccentric_ellipsoid,
+        load_program,
+    )
+}
+
+FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT
 
 
 def drawn(

@@ -27,6 +27,8 @@ class ExactRun:
     times: Any
     exact: Callable[[Array], dict[str, Array]]
     more: dict[str, Any] = field(default_factory=dict)
+    #: Instants of the events of a load program [s].
+    events: tuple[float, ...] = ()
     #: Uncertainties of the exact values at the run's instants, where they count.
     uncertainty: Callable[[Array], dict[str, Array]] = lambda times: {}
 

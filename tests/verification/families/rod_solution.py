@@ -109,7 +109,7 @@ def _load_points(load: vc.LoadHistory, times: Array, finer: float) -> tuple[Arra
 
 
 def _peak(contact: reference.AxisymmetricContact, k: int) -> float:
-    """Largest pressure over the radius: on 30 circles, and by a parabola through the largest."""
+    """Largest pressure over the radius, on circles."""
     a = float(contact.contact_radius[k])
     if a == 0:
         return 0.0
@@ -120,12 +120,13 @@ def _peak(contact: reference.AxisymmetricContact, k: int) -> float:
     depths = contact.profile.depth(ends)
     rises, extents = np.diff(loads), np.diff(depths)
     slopes = np.divide(rises, extents, out=np.zeros_like(rises), where=extents > 0)
-    radii = np.linspace(0.0, 0.99, 30) * a
-    pressure = np.array(
-        [-slopes @ contact.profile.pressure_weights(ends, r) / math.pi for r in radii]
-    )
-    best = int(pressure.argmax())
-    if 0 < best < len(radii) - 1:
-        low, top, high = pressure[best - 1 : best + 2]
-        return float(top + (high - low) ** 2 / (8 * (2 * top - low - high)))
-    return float(pressure[best])
+    low, high, largest = 0.0, 0.99, 0.0
+    for _ in range(4):  # ever closer to the largest, which may be near a rounded edge
+        radii = np.linspace(low, high, 20)
+        pressure = np.array(
+            [-slopes @ contact.profile.pressure_weights(ends, r * a) / math.pi for r in radii]
+        )
+        best = int(pressure.argmax())
+        largest = max(largest, float(pressure[best]))
+        low, high = radii[max(best - 1, 0)], radii[min(best + 1, len(radii) - 1)]
+    return largest

@@ -14,6 +14,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import history_of
 from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.simulation.accuracy.error_bars import error_bars_from
+from viscontact.simulation.transient.found_events import carried_out
 from viscontact.simulation.transient.setup import prepare_run
 from viscontact.simulation.transient.state_generator import march_run
 
@@ -49,14 +50,28 @@ def solve(family: str, drawn: ExactRun, *, sampled: int | None = None) -> dict[s
         for quantity, values in values_at(times[places]).items():
             record[name][quantity] = np.full(len(times), np.nan)
             record[name][quantity][places] = values
+    if drawn.events:
+        _add_events(record, drawn.events)
     record["seconds_exact"] = time.process_time() - begin
     return record
+
+
+def _add_events(record: dict[str, Any], exact: tuple[float, ...]) -> None:
+    """Add the instants of events as a scalar, one after the other over the first instants."""
+    load, count = record["setup"].problem.load, len(record["history"]["time"])
+    found = [event.time for event in load.events]
+    for kind, values in (
+        ("history", found),
+        ("exact", exact),
+        ("bars", record["event_errors"]),
+    ):
+        record[kind]["event_time"] = np.append(values, np.full(count - len(values), np.nan))
 
 
 def _solved(drawn: ExactRun) -> dict[str, Any]:
     """Run, coarser runs and bars."""
     begin = time.process_time()
-    run = prepare_run(Problem(**drawn.arguments))
+    run = prepare_run(carried_out(Problem(**drawn.arguments)))
     states = list(march_run(run))
     own = time.process_time() - begin
     setup = run.on(states[-1].grid)
@@ -78,6 +93,7 @@ def _solved(drawn: ExactRun) -> dict[str, Any]:
         "results": results,
         "bars": bars.values,
         "bar_warnings": bars.warnings,
+        "event_errors": bars.attributes.get("event_time_errors", ()),
         "seconds": own,
         "seconds_coarser": coarser,
     }

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from campaigns import tried
-from verification.families.drawn import CALIBRATED, HELD_OUT, LAYERED, drawn
+from verification.families.drawn import BLUNT, CALIBRATED, HELD_OUT, LAYERED, drawn
 from verification.families.solved import solve
 from verification.families.tally import report, shortfalls, values_of
 
@@ -33,6 +33,7 @@ SHORT = {name: family for name, family in HELD_OUT.items() if name not in LONG}
     "families",
     [
         pytest.param(SHORT, id="held out"),
+        pytest.param(BLUNT, id="blunt"),
         pytest.param(CALIBRATED, id="calibrated", marks=pytest.mark.slow),
     ],
 )
@@ -63,6 +64,15 @@ def test_bars_hold_in_families_that_were_held_out(campaign) -> None:
     values = values_of(records)
     assert shortfalls(values) == []
     assert all(value.warned for value in values if value.ratio < 1 / 3)
+
+
+@pytest.mark.slow
+def test_bars_hold_on_blunt_bodies_eccentric_ones_and_after_events(campaign) -> None:
+    """A seed that was not looked at when the limits for them were set."""
+    records = solved(308, tried(12, 60) * len(BLUNT), BLUNT)
+    for each in report(records):
+        campaign(f"blunt bodies, {each}")
+    assert shortfalls(values_of(records)) == []
 
 
 @pytest.mark.slow

@@ -13,6 +13,7 @@ from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.checks.mesh import cells_across_spots
 from viscontact.simulation.checks.singularities import (
     MIN_ANGLE,
+    apex_exponent,
     bend_at,
     cells_at_end,
     sharpest_angle,
@@ -42,6 +43,8 @@ class CoarserResult:
     bend_growth: Floats
     spots: Floats  # mean width of the contact spots, in cells of the original run
     peak_drops: Floats  # relative drop of pressure from the largest one to the cells next to it
+    #: Exponents of the gap around the largest pressure, see `apex_exponent` [-].
+    apex_exponents: Floats
     rises_to_ends: Bools  # pressure rises to both ends along x, y; shape (instants, 2)
     is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
     #: Ends of the segments of a load program, NaN where they ended in another way than those of the
@@ -60,6 +63,7 @@ class CoarserResult:
             bend_growth=self.bend_growth[known],
             spots=self.spots[known],
             peak_drops=self.peak_drops[known],
+            apex_exponents=self.apex_exponents[known],
             rises_to_ends=self.rises_to_ends[known],
             segment_ends=segment_ends,
         )
@@ -78,9 +82,11 @@ class ObservedStates:
         self._bends: list[float] = []
         self._spots: list[float] = []
         self._drops: list[float] = []
+        self._exponents: list[float] = []
         self._rises: list[tuple[bool, bool]] = []
         self._peak, self._is_sharp = 0.0, False
-        # The largest pressure stays in a few cells: bends and angles of the body there [rad].
+        # The largest pressure stays in a few cells: exponents, bends and angles of the body there.
+        self._exponents_at: dict[tuple[int, int], float] = {}
         self._bends_at: dict[tuple[int, int], float] = {}
         self._angles_at: dict[tuple[float, float], float] = {}
 
@@ -90,7 +96,7 @@ class ObservedStates:
         self._states.append(state.without_fields())
         self._ends.append(self._end_cells.pressures(pressure))
         self._at_end.append(bool(state.in_contact[self._end_cells.beside].any()))
-        self._bends.append(self._bend_growth(state))
+        self._examine_body(state)
         self._spots.append(cells_across_spots(state.in_contact, periodic=run.grid.periodic))
         self._drops.append(_drop_beside_peak(pressure))
         self._rises.append((_rises_to_ends(pressure), _rises_to_ends(pressure.T)))
@@ -109,19 +115,22 @@ class ObservedStates:
             np.array(self._bends, dtype=float),
             self._spacing * np.array(self._spots, dtype=float),
             np.array(self._drops, dtype=float),
+            np.array(self._exponents, dtype=float),
             np.array(self._rises, dtype=bool).reshape(-1, 2),
             self._is_sharp,
         )
 
-    def _bend_growth(self, state: ContactState) -> float:
-        """Growth of the largest pressure that the body's bend can cause, over the mean pressure."""
+    def _examine_body(self, state: ContactState) -> None:
+        """Growth of the largest pressure that the body's bend there can cause, and its exponent."""
         run = self._run
         i, j = np.unravel_index(int(state.pressure.argmax()), state.pressure.shape)
         cell = int(i), int(j)
         if cell not in self._bends_at:
             self._bends_at[cell] = bend_at(run.open_gap, run.grid, cell)
+            self._exponents_at[cell] = apex_exponent(run.open_gap, run.grid, cell)
         strain = 2 * np.pi * float(run.problem.compliance(state.time)) * state.mean_pressure
-        return self._bends_at[cell] / strain if strain > 0 else 0.0
+        self._bends.append(self._bends_at[cell] / strain if strain > 0 else 0.0)
+        self._exponents.append(self._exponents_at[cell])
 
     def _peaks_at_point(self, state: ContactState) -> bool:
         """Test whether the largest pressure lies at a point that is sharp on the original cells."""

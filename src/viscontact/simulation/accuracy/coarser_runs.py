@@ -61,6 +61,9 @@ LITTLE_CREEP = 0.1
 #: no contact is large: it cannot be estimated from the steps before.
 LARGE_FIRST_PEAK = 0.1
 
+#: The same of the force for the first step of a run.
+LARGE_FIRST_FORCE = 0.05
+
 #: Least number of cells across the largest contact on the coarsest grid.
 MIN_ACROSS = 4.5
 
@@ -126,9 +129,13 @@ def _kept_times(run: RunSetup, times: Floats, step_ratio: int) -> Floats:
 
 def _has_small_time_error(run: RunSetup, history: History) -> bool:
     """Test whether the estimated time errors are small and no contact begins within a step."""
+    if run.problem.surface.creep.is_elastic and run.problem.motion.stands:
+        return True
     times, peak, error = history["time"], history["peak_pressure"], history["time_error"]
     begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
-    begins &= times[:-1] > 0
+    # The first step of a ramp from zero has no estimate, but a small load where there are many.
+    force = history["force"]
+    begins &= (times[:-1] > 0) | (force[1:] > LARGE_FIRST_FORCE * force.max(initial=0.0))
     jumps = not run.problem.motion.stands or run.problem.history.jumps.size > 0
     small = SMALL_WITH_JUMPS if jumps else SMALL_TIME_ERROR
     return bool(np.nanmax(error) <= small and (error[1:][begins] > 0).all())

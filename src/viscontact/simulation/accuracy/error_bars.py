@@ -27,16 +27,22 @@ from viscontact.simulation.accuracy.error_models import (
     ERROR_MODELS,
     MOVING_MODELS,
 )
-from viscontact.simulation.accuracy.event_bars import event_errors, set_bars_at_events
+from viscontact.simulation.accuracy.event_bars import (
+    event_errors,
+    segment_end_errors,
+    set_bars_at_events,
+    widen_after_events,
+    with_least_errors,
+)
 from viscontact.simulation.accuracy.least_bars import ContactKinds, least_bar, least_peak_bar
 from viscontact.simulation.accuracy.refinement_levels import (
     RefinementLevels,
     aligned,
+    beside_peak,
     between_known,
     end_flags,
     moving_maximum,
     moving_minimum,
-    peak_drops,
     rises_to_ends,
     spots_across,
 )
@@ -117,6 +123,8 @@ def error_bars_from(
     sharp = replace(kinds, at_end=kinds.at_end | np.isinf(values["peak_pressure"]))
     line_load = RefinementLevels.of("peak_line_load", history, found)
     values["peak_line_load"] = _bar(run, "peak_line_load", line_load, sharp, history)
+    ends = with_least_errors(segment_end_errors(run, found), values, run, history)
+    widen_after_events(values, run, history, ends)
     touching = _touching(history, found)
     _bound_by_first_contact(values, history, touching)
     apart = _certainly_separated(run, history, touching)
@@ -132,7 +140,7 @@ def error_bars_from(
                 values[name][where] = 0.0
     warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
     set_bars_at_events(values, run, history)
-    return ErrorBars(values, warnings, event_errors(run, found))
+    return ErrorBars(values, warnings, event_errors(run, ends))
 
 
 def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]) -> ContactKinds:
@@ -145,10 +153,10 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     creeping = creeps(run.problem.surface.creep, times)
     ended = np.logical_or.accumulate(at_end) if creeping else at_end
     singular = moving_maximum(unbounded_peak(history, results)) > 0
-    drops = moving_maximum(peak_drops(times, results))
+    drops, exponents = beside_peak(times, results)
     rises = rises_to_ends(times, results)
     divided = any(each.divides_steps for each in results)
-    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, divided)
+    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, exponents, divided)
 
 
 def unknown_bars(history: History) -> ErrorBars:
@@ -184,7 +192,11 @@ def _bar(
     if not kinds.divided:
         # What is prescribed does not differ between the grids.
         differs = between_known(by_cells) > run.problem.solver_error * scale
-        estimated = model.of_time_error * moving_maximum(history["time_error"]) * own
+        largest = moving_maximum(history["time_error"])
+        # What a step has added to the work keeps its error.
+        added = np.abs(np.diff(levels.values[0], prepend=0.0))
+        kept = np.nancumsum(largest * added) if name == "work" else largest * own
+        estimated = model.of_time_error * np.fmax(kept, largest * own)
         by_steps = np.fmax(by_steps, np.where(differs, estimated, 0.0))
     relative += np.nan_to_num(_quotient(by_steps, scale))
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)

@@ -30,9 +30,9 @@ class ErrorModel:
 
 #: Approach, force, its offset and work, also where a contact reaches the end of a body: pressure is
 #: singular there, and the cells approximate the end by a staircase.
-_BULK = ErrorModel(2.0, 1.1, at_end=ErrorModel(0.7, 1.2))
+_BULK = ErrorModel(2.0, 1.2, at_end=ErrorModel(0.7, 1.2), of_time_error=0.1)
 _FORCE = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 1.2), of_time_error=0.15)
-_OFFSET = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 0.8))
+_OFFSET = ErrorModel(2.0, 1.0, at_end=ErrorModel(0.7, 0.8))
 _WORK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2), of_time_error=0.4)
 
 #: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
@@ -43,7 +43,7 @@ _PEAK = ErrorModel(
     *(2.0, 1.5),
     at_end=ErrorModel(1.0, 1.5),
     of_spots=ErrorModel(2.0, 4.0),
-    of_time_error=1.0,
+    of_time_error=0.8,
 )
 
 #: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned

@@ -8,16 +8,20 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import MixedHistory
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
 from viscontact.simulation.accuracy.error_models import ERROR_MODELS
+from viscontact.simulation.accuracy.least_bars import TINY
 from viscontact.simulation.accuracy.refinement_levels import DIVIDED_STEP_FACTOR, RefinementLevels
 from viscontact.simulation.transient.provenance import event_attributes
 from viscontact.simulation.transient.setup import RunSetup
 
 
-def event_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, str | list[float]]:
-    """Errors of the instants of events from coarser runs, as attributes, modelled as approach."""
+def segment_end_errors(run: RunSetup, results: list[CoarserResult]) -> Floats:
+    """Errors of the ends of a program's segments from coarser runs, modelled as the approach [s].
+
+    NaN where coarser runs end them in another way; empty for other loads.
+    """
     load = run.problem.load
     if not isinstance(load, MixedHistory) or load.program is None:
-        return {}
+        return np.zeros(0)
     grids = [each for each in results if not each.divides_steps]
     own = np.array(load.times[1:])
     rows = np.stack([own, *(each.segment_ends for each in grids)])
@@ -29,8 +33,51 @@ def event_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, str |
     levels = RefinementLevels((1.0, *(each.spacing for each in grids)), rows, by_steps)
     methods = run.problem.solver_error + max(plan.error for plan in run.plans)
     methods += run.problem.surface.splitting_error + run.problem.compliance.inversion_error
-    errors = ERROR_MODELS["approach"].of(levels) + levels.by_steps + methods * own
+    return np.asarray(ERROR_MODELS["approach"].of(levels) + levels.by_steps + methods * own)
+
+
+def with_least_errors(
+    errors: Floats, values: dict[str, Floats], run: RunSetup, history: History
+) -> Floats:
+    """Raise errors of the ends of segments to what the scalars of their conditions cause [s]."""
+    # All grids meet a condition too early alike, as a force is too large on any cells. A segment
+    # that begins late ends late.
+    load, raised = run.problem.load, errors.copy()
+    for event in load.events if isinstance(load, MixedHistory) else ():
+        at = int(np.searchsorted(history["time"], event.time))
+        if event.scalar in values and 0 < at < len(history["time"]):
+            steps = (np.diff(history[each][at - 1 : at + 1])[0] for each in (event.scalar, "time"))
+            change, duration = steps
+            least = values[event.scalar][at] * duration / max(abs(change), TINY)
+            raised[event.segment - 1] = np.fmax(errors[event.segment - 1], least)
+    return np.where(np.isnan(errors), errors, np.fmax.accumulate(raised))
+
+
+def event_errors(run: RunSetup, errors: Floats) -> dict[str, str | list[float]]:
+    """Errors of the instants of events as attributes, from those of the ends of segments."""
+    load = run.problem.load
+    if not isinstance(load, MixedHistory) or load.program is None:
+        return {}
     return event_attributes(load, [float(errors[each.segment - 1]) for each in load.events])
+
+
+def widen_after_events(
+    values: dict[str, Floats], run: RunSetup, history: History, errors: Floats
+) -> None:
+    """Add the error of the instant at which a segment began, times the rate of each scalar."""
+    # Coarser runs are compared at equal times after it.
+    load, times = run.problem.load, history["time"]
+    if not isinstance(load, MixedHistory):
+        return
+    for number, error in enumerate(np.nan_to_num(errors[:-1]), start=1):
+        begin, end = load.times[number : number + 2]
+        at = np.flatnonzero((times >= begin) & (times <= end))
+        if len(at) < 2 or not error > 0:
+            continue
+        for name in values:
+            rates = np.abs(np.diff(history[name][at]) / np.diff(times[at]))
+            fastest = np.fmax(np.append(rates, 0.0), np.append(0.0, rates))
+            values[name][at[1:]] += error * np.nan_to_num(fastest[1:])
 
 
 def set_bars_at_events(values: dict[str, Floats], run: RunSetup, history: History) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.simulation.accuracy.coarser_grids import straight_ends
 from viscontact.simulation.accuracy.coarser_results import History
+from viscontact.simulation.accuracy.refinement_levels import moving_maximum
 from viscontact.simulation.accuracy.rim_cells import (
     EXTENTS,
     cells_across,
@@ -16,8 +17,6 @@ from viscontact.simulation.accuracy.rim_cells import (
     cells_over_thickness,
     crest_cells,
     fills_period,
-    half_breadth,
-    late_cells,
     slenderness,
     thin_rim_cells,
     tip_curvature,
@@ -32,14 +31,18 @@ TINY = float(np.finfo(np.float64).tiny)
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
 #: the contact may end in the last cells of the body.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.028, 1.0, 1.5, 3.5, 1.5
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.024, 1.0, 1.5, 3.5, 1.5
 
 #: Cells across the contact at which the first of them is twice as large, as its rim is curved.
 FEW_CELLS = 9.0
 
 #: Least relative error of the area, times the square of the cells across; and times these cells
 #: where the pressure is largest near the rim.
-LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.35, 0.05
+LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.28, 0.05
+
+#: The same where a contact on a creeping body has begun to recede: neither the pressure beside its
+#: rim nor the gap is as far from it. Balls err by 2, within one cell of their largest contact.
+RECEDING_AREA_ERROR = 2.0
 
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
@@ -49,10 +52,6 @@ AGREEMENT_TOLERANCE = 1e-6
 #: L = ln(1 + 2 cell/radius of the tip). Hertz's ellipses on cells as slender as they are too short
 #: by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
 TIP_CELLS, TIP_AREA = 0.1, 0.3
-
-#: Factor of the least error of a late rim for the area of a strip, whose rims lie alike among the
-#: cells all along, so that their errors do not cancel: with 1, bars of such strips held 96 %.
-STRAIGHT_RIM = 1.5
 
 #: Least relative error of scalars, times the square of the cells across the contact: the approach
 #: of a ball is too small by 0.14 +- 0.04, at most by 0.23, with the place of the rim in its cells.
@@ -64,6 +63,9 @@ LEAST_ERRORS = {
     "loss_per_cycle": 0.25,
 }
 
+#: The same where the pressure drops steeply to the rim, under blunt bodies, times the cells across.
+STEEP_ERRORS = {"approach": 0.045, "force": 0.045}
+
 #: Growth of the first of these with the logarithm of a contact's length over its width: Hertz's
 #: ellipses err by 0.15 in the mean, at most by 0.8.
 LONG_CONTACT = 0.15
@@ -72,6 +74,11 @@ LONG_CONTACT = 0.15
 #: the cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
 #: Straight ends lie alike within the cells of all grids, whose differences show the error.
 LEAST_END_ERROR = 0.4
+
+#: Least error of an eccentricity, over the extent of the contact, and of a tilt, over the slope of
+#: the indentation, times the square of the cells along that axis: balls and ellipses have 0.04 in
+#: the median. A tilt of e/R is four times the slope a/(2R) where e is the extent.
+LEAST_OFFSET, LEAST_TURN = 0.04, 0.16
 
 #: Least relative error of the tilt there: that of an eccentric round punch is up to 1.5.
 LEAST_END_TILT_ERROR = 1.0
@@ -82,7 +89,13 @@ LEAST_END_AREA_ERROR = 1.1
 
 #: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
 #: smooth peak drops by much less than the second number.
-LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
+LEAST_PEAK_ERROR, SMOOTH_DROP = 0.14, 0.2
+
+#: Least error of a peak at an apex r^n, in its drop to a neighbouring cell of a coarser grid, by
+#: the exponents that `apex_exponent` finds. It holds where the apex is midway between four cells of
+#: the run, and in the centre of one of the coarser grid; 24 to 161 cells. The pressure has a cusp.
+APEX_EXPONENTS = (1.0, 1.14, 1.19, 1.29, 1.44, 1.57, 1.7, 1.83, 1.92, 2.0)
+APEX_ERRORS = (6.0, 5.6, 5.0, 4.0, 2.0, 1.1, 0.62, 0.4, 0.29, 0.0)
 
 #: Most by which a crest between cells, a parabola, is higher than the largest cell, in the drop
 #: from there to the cells next to it. Without a rim, nothing else may show on coarser grids.
@@ -107,6 +120,7 @@ class ContactKinds:
     #: Pressure rises to both ends of the contact along x, y; shape (2, times).
     rises: Bools
     drops: Floats  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
+    exponents: Floats  # of the gap around the peak, see `apex_exponent`; NaN if unknown
     divided: bool  # a third run has divided the steps that the others take as the run does
 
     @property
@@ -127,8 +141,7 @@ def least_bar(
             return _least_body_extent_bar(run, axis, kinds)
         return _least_extent_bar(run, axis, kinds, history)
     if name == "contact_area":
-        smooth = np.maximum(_least_rim_area(run, kinds, history), _late_area(run, history))
-        smooth = np.maximum(smooth, _thin_area(run, history))
+        smooth = np.maximum(_least_rim_area(run, kinds, history), _thin_area(run, history))
         return np.maximum(_least_end_area(run, kinds, history), smooth)
     if name in MOMENTS:
         smooth = _least_moment_bar(run, name, history)
@@ -145,6 +158,8 @@ def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floa
     drops = kinds.drops
     relative = LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP)
     relative = np.fmax(relative, np.where(kinds.steep, entry_rise(run, history["time"]), 0.0))
+    apex = np.interp(np.nan_to_num(kinds.exponents, nan=2.0), APEX_EXPONENTS, APEX_ERRORS)
+    relative = np.fmax(relative, apex * drops)
     has_no_rim = np.isinf(cells_across(run, history))
     relative = np.fmax(relative, np.where(has_no_rim, CREST_BETWEEN_CELLS * drops, 0.0))
     return np.asarray(relative * history["peak_pressure"])
@@ -157,8 +172,7 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     smooth = RIM_CELLS * few + TIP_CELLS * tip_curvature(run, history)[axis]
     smooth = np.asarray(smooth + crest_cells(run, history, axis))
     smooth = np.maximum(smooth, 2 * thin_rim_cells(run, axis))
-    smooth_or_late = np.maximum(smooth, 2 * late_cells(run, history))
-    parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
+    parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth)
     if min(straight_ends(run)) < np.inf:
         parts = np.where(kinds.at_end, END_RIM_CELLS, parts)
         parts = np.where(kinds.at_end & kinds.singular, SHARP_RIM_CELLS, parts)
@@ -176,16 +190,6 @@ def _thin_area(run: RunSetup, history: History) -> Floats:
     return np.asarray(relative * history["contact_area"])
 
 
-def _late_area(run: RunSetup, history: History) -> Floats:
-    """Least error of the area of a shrinking contact [m²]."""
-    girth = np.pi * (cells_along(run, history) / 2 + half_breadth(run, history))
-    strips = fills_period(run, history)
-    for axis in (0, 1):  # a strip has two straight rims, however few cells they consist of
-        straight = 2.0 * STRAIGHT_RIM * run.grid.shape[axis]
-        girth = np.where(strips[axis] & ~strips[1 - axis], straight, girth)
-    return np.asarray(girth * late_cells(run, history) * run.grid.cell_area)
-
-
 def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Floats:
     """Cells in which the contact may end before the body does [m]: pressure falls to its ends."""
     uncertain = ~kinds.rises[axis] & (not run.grid.periodic[axis])
@@ -195,11 +199,23 @@ def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Flo
 def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
     """Least error of the area where the rim is steep, or curved within long cells [m²]."""
     across, along = np.maximum(cells_across(run, history), 1.0), cells_along(run, history)
-    smooth = LEAST_AREA_ERROR / across**2
+    smooth = (LEAST_AREA_ERROR + RECEDING_AREA_ERROR * _just_receding(run, history)) / across**2
     steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
     tip = TIP_AREA * tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
     relative = np.maximum(smooth, np.maximum(steep, tip))
     return np.asarray(relative * history["contact_area"])
+
+
+def _just_receding(run: RunSetup, history: History) -> Floats:
+    """1 where a contact on a creeping body begins to recede, 0 from one cell on."""
+    area, largest = history["contact_area"], np.maximum.accumulate(history["contact_area"])
+    if run.problem.surface.creep.is_elastic or not run.problem.motion.stands:
+        return np.zeros(len(area))
+    # The way of a rim, over the half width of the contact, is half the relative change of its area.
+    parts = 1 - np.divide(area, largest, out=np.ones_like(area), where=largest > 0)
+    ways = parts * cells_across(run, history) / 4
+    # At first it may seem to grow by this error.
+    return moving_maximum(np.where(ways > 0, np.maximum(1 - ways, 0.0), 0.0))
 
 
 def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
@@ -212,12 +228,16 @@ def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
 
 
 def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
-    """Effect of the solver's tolerance of the moments, force times extent, on a symmetric body."""
-    axis = "contact_length" if name.endswith("x") else "contact_width"
-    extent = np.nan_to_num(history[axis])
+    """Effect of the solver's tolerance of the moments, and of a rim among the cells."""
+    axis = int(name.endswith("y"))
+    extent = np.nan_to_num(history[EXTENTS[axis]])
     slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(extent, TINY)
-    lever = extent if name.startswith("eccentricity") else slope
-    return np.asarray(np.where(extent > 0, run.problem.solver_error * lever, 0.0))
+    part, lever = (LEAST_OFFSET, extent) if name.startswith("eccentricity") else (LEAST_TURN, slope)
+    by_solver = run.problem.solver_error * lever
+    by_cells = part * lever / np.maximum(extent / run.grid.cell_size[axis], 1.0) ** 2
+    # Both grids of a symmetric contact have none.
+    moved = np.abs(np.nan_to_num(history[name])) > by_solver
+    return np.asarray(np.where(extent > 0, np.where(moved, by_solver + by_cells, by_solver), 0.0))
 
 
 def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
@@ -236,6 +256,8 @@ def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     ratios = [cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
     least = least * (1 + THIN_GROWTH * min(ratios, default=0.0) ** 2)
     relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
+    steep = STEEP_ERRORS.get(name, 0.0) / np.maximum(across, 1.0)
+    relative = np.where(kinds.steep & (across > 0), np.maximum(relative, steep), relative)
     longest = np.fmax.accumulate(cells_along(run, history))
     curved = kinds.ended & (min(straight_ends(run)) == np.inf)
     at_end = np.where(curved, LEAST_END_ERROR / longest, 0.0)

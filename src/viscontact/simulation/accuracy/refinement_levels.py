@@ -93,15 +93,19 @@ def spots_across(times: Floats, results: list[CoarserResult]) -> Floats:
     return spots
 
 
-def peak_drops(times: Floats, results: list[CoarserResult]) -> Floats:
-    """Largest relative drop beside the peak on the finest coarser grid; NaN where unknown."""
-    drops = np.full(len(times), np.nan)
+def beside_peak(times: Floats, results: list[CoarserResult]) -> tuple[Floats, Floats]:
+    """Largest drops beside the peak on the finest coarser grid, and apex exponents there.
+
+    Both are NaN where they are not known.
+    """
+    drops, exponents = np.full((2, len(times)), np.nan)
     grids = [each for each in results if not each.divides_steps]
     if grids:
         finest = min(grids, key=lambda each: each.spacing)
         theirs = finest.scalars["time"]
-        drops[np.isin(times, theirs)] = finest.peak_drops[np.isin(theirs, times)]
-    return drops
+        shared, known = np.isin(times, theirs), np.isin(theirs, times)
+        drops[shared], exponents[shared] = finest.peak_drops[known], finest.apex_exponents[known]
+    return moving_maximum(drops), -moving_maximum(-exponents)
 
 
 def aligned(name: str, times: Floats, result: CoarserResult) -> Floats:

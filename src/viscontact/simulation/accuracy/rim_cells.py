@@ -6,17 +6,10 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.simulation.accuracy.coarser_results import History
-from viscontact.simulation.accuracy.coarser_runs import creeps
 from viscontact.simulation.transient.setup import RunSetup
 
 #: Least error of the crests of a rim that waves along a period, in its height over half a cell.
 CREST_PART = 2.0
-
-#: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, or is
-#: that much smaller than it has been, the surface that it left is still almost closed and its rim
-#: is found too far outside. Least error of the rim over the way that it has moved, and its largest
-#: value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less than 0.2.
-LATE_PART, LATE_CELLS, MOST_LATE = 0.5, 2.0, 0.1
 
 #: Relative rounding of the area of a whole period.
 ROUNDING = 1e-9
@@ -58,21 +51,6 @@ def crest_cells(run: RunSetup, history: History, axis: int) -> Floats:
     return np.asarray(CREST_PART * heights / grid.cell_size[axis])
 
 
-def late_cells(run: RunSetup, history: History) -> Floats:
-    """Least error of the rim of a shrinking contact, in cells."""
-    radius = half_breadth(run, history)
-    if not creeps(run.problem.surface.creep, history["time"]):
-        return np.zeros_like(radius)
-    if not run.problem.motion.stands:  # the rear edge leaves a surface that is almost closed
-        return np.full_like(radius, MOST_LATE)
-    grows = np.diff(radius, prepend=0.0) > 0
-    last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
-    ways = np.stack([radius[last] - radius, np.maximum.accumulate(radius) - radius])
-    shrunk = (ways > 0) & (ways < LATE_CELLS)
-    late = np.where(shrunk, np.minimum(LATE_PART * ways, MOST_LATE), 0.0)
-    return np.asarray(late.max(axis=0))
-
-
 def cells_over_thickness(run: RunSetup, axis: int) -> float:
     """Length of a cell over the thickness of the thinnest layer; 0 on a half-space."""
     thinnest = min(term.response.length for term in run.problem.surface.terms)
@@ -82,15 +60,6 @@ def cells_over_thickness(run: RunSetup, axis: int) -> float:
 def thin_rim_cells(run: RunSetup, axis: int) -> float:
     """Least error of the rim on thin layers, in cells."""
     return min(THIN_RIM_CELLS * cells_over_thickness(run, axis), MOST_THIN_RIM)
-
-
-def half_breadth(run: RunSetup, history: History) -> Floats:
-    """Shorter half axis of the contact as an ellipse, or half width of a strip, in cells."""
-    cells = history["contact_area"] / run.grid.cell_area
-    ellipse = np.asarray(cells / (np.pi / 2 * cells_along(run, history)))
-    for axis, strip in enumerate(fills_period(run, history)):
-        ellipse = np.where(strip, cells / (2 * run.grid.shape[axis]), ellipse)
-    return ellipse
 
 
 def fills_period(run: RunSetup, history: History) -> Bools:

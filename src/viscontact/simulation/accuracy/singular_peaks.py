@@ -39,6 +39,9 @@ UNBOUNDED_GROWTH = 0.3
 #: length), and at most 0.1 at the resolved end of a logarithmic profile.
 UNBOUNDED_EXPONENT = 0.1
 
+#: Least power of the cell size with which the bend of a body that is round there falls.
+ROUND_BEND = 0.7
+
 #: Largest pressures that differ by less than this part are the same.
 SAME_PEAK = 1e-3
 
@@ -119,8 +122,13 @@ def _does_not_converge(
     grows = growth > UNBOUNDED_GROWTH * history["mean_pressure"]
     # A contact of few cells does not exist on the coarsest grid.
     fine = history["cells_across"] >= MIN_ACROSS * spacings[-1]
-    finest = _finest(results)
-    bent = _at_times(history["time"], finest, finest.bend_growth) > UNBOUNDED_GROWTH
+    finest, coarsest = _finest(results), max(results, key=lambda each: each.spacing)
+    bends, coarser_bends = (
+        _at_times(history["time"], each, each.bend_growth) for each in (finest, coarsest)
+    )
+    # Between cells a round edge bends in proportion to their size, a corner as much on any.
+    falling = (coarsest.spacing / finest.spacing) ** ROUND_BEND
+    bent = (bends > UNBOUNDED_GROWTH) & ~(coarser_bends > falling * bends)
     unbounded = np.where(known, ~verdict.converges & grows & fine & bent, np.nan)
     mean = moving_mean(unbounded)
     # Between instants that are farther apart than the window, as at one of the next ones.

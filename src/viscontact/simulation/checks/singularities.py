@@ -24,6 +24,10 @@ CORNER_SHARE = 0.5
 #: cells then adds E* angle ln(2)/(2 pi), or 1 %, to a peak of 2/pi E* strain.
 MIN_ANGLE = 0.06
 
+#: Deviation of an exponent from 2 by two and four cells, over that by one and two, from which a
+#: body counts as smooth: 4 where it is, at most 2 at an apex beside a centre.
+SMOOTH_DEVIATION = 3.0
+
 
 @dataclass(frozen=True, eq=False)
 class EndCells:
@@ -59,6 +63,27 @@ def bend_at(open_gap: Floats, grid: Grid, place: tuple[int, int]) -> float:
     around = np.where(np.isinf(open_gap[np.ix_(*lines)]), np.nan, open_gap[np.ix_(*lines)])
     bends = [np.abs(np.diff(around, 2, axis=axis)) / grid.cell_size[axis] for axis in (0, 1)]
     return max(float(np.nanmax(bend, initial=0.0)) for bend in bends)
+
+
+def apex_exponent(open_gap: Floats, grid: Grid, place: tuple[int, int]) -> float:
+    """Exponent n < 2 of a gap that grows as r^n around a cell, by four cells; 2 where smooth."""
+    # The sum of both sides has no tilt.
+    exponents = [2.0]
+    for axis, (middle, count) in enumerate(zip(place, grid.shape, strict=True)):
+        line = np.take(open_gap, place[1 - axis], axis=1 - axis)
+        cells = middle + np.array([[-1, 1], [-2, 2], [-4, 4]])
+        if grid.periodic[axis]:
+            cells = cells % count
+        elif cells.min() < 0 or cells.max() >= count:
+            continue
+        near, far, farther = line[cells].sum(axis=1) - 2 * line[middle]
+        if not 0 < near < far < farther < np.inf:
+            continue
+        inner, outer = np.log2([far / near, farther / far]).tolist()
+        # A smooth body deviates from r^2 with the square of the distance, an apex does near by.
+        if 2 - outer < SMOOTH_DEVIATION * (2 - inner):
+            exponents.append(outer)
+    return max(min(exponents), 1.0)
 
 
 def is_sharp(
