@@ -46,7 +46,7 @@ def _instant(until: object, times: Floats) -> float:
     if instant is None or not times[0] < instant < np.inf:
         raise ValueError(
             "fit_indentation: until must be 'loading', 'hold', 'end' or an instant after "
-            f"{times[0]:.6g} s, got {until!r}"
+            f"{format_quantity(float(times[0]), 's', 6)}, got {until!r}"
         )
     return instant
 

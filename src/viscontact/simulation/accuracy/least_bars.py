@@ -213,7 +213,7 @@ def _just_receding(run: RunSetup, history: History) -> Floats:
         return np.zeros(len(area))
     # The way of a rim, over the half width of the contact, is half the relative change of its area.
     parts = 1 - np.divide(area, largest, out=np.ones_like(area), where=largest > 0)
-    ways = parts * cells_across(run, history) / 4
+    ways = parts * history["cells_across"] / 4
     # At first it may seem to grow by this error.
     return moving_maximum(np.where(ways > 0, np.maximum(1 - ways, 0.0), 0.0))
 
