@@ -20,7 +20,8 @@ from viscontact.studies.design.evaluated_trials import searched as searched_amon
 from viscontact.studies.design.goals import Goal
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
-from viscontact.studies.design.search import Foreseen, Point, Score, search
+from viscontact.studies.design.scores import Foreseen, Point, Score
+from viscontact.studies.design.search import search
 from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level
 from viscontact.studies.scalars import Value
@@ -52,11 +53,12 @@ def test_the_search_needs_only_a_function_of_points() -> None:
         error = 0.05 if level == "rough" else 0.0
         return [_score(each, level, 1 + (each[0] - 0.37) ** 2 + error) for each in points]
 
-    best, is_cut_short = search(scores, space_of({"load.x": ("0", "1")}), budget, ("rough", "fine"))
+    found = search(scores, space_of({"load.x": ("0", "1")}), budget, ("rough", "fine"))
+    best = found.best
     assert best is not None
     assert best.level == "fine"
     assert best.point[0] == close_to(0.37, abs=0.03)
-    assert not is_cut_short
+    assert not found.is_cut_short
 
 
 def test_points_within_their_errors_of_the_best_are_computed_on_the_finest_cells() -> None:
@@ -71,7 +73,8 @@ def test_points_within_their_errors_of_the_best_are_computed_on_the_finest_cells
             for point, number in zip(points, numbers, strict=True)
         ]
 
-    best, _ = search(scores, space_of({"load.x": ["0", "1", "2"]}), Budget(60), ("rough", "fine"))
+    space = space_of({"load.x": ["0", "1", "2"]})
+    best = search(scores, space, Budget(60), ("rough", "fine")).best
     assert best is not None
     assert best.value == 1.05
     # The third one is worse by more than its error.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from os import PathLike
@@ -36,6 +37,8 @@ from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, w
 from viscontact.studies.study_result import InfeasibleError
 from viscontact.units.numbers import whole
 
+#: Way of the search, which another journal does not have: trials would follow on others.
+SEARCH = "surrogate of what the runs state"
 #: Most runs of a search, where none are given.
 RUNS = 60
 
@@ -170,7 +173,7 @@ def design(  # noqa: PLR0913
     arguments = {
         **{"case": fingerprint(own), "change": repr(change), "goal": repr(goals)},
         **{"over": repr(over), "scatter": repr(scatter or None)},
-        **{"constraints": repr(limits), "settings": fixed},
+        **{"constraints": repr(limits), "settings": fixed, "search": SEARCH},
     }
     of_case = CaseTrials(path, fixed, scenarios, goals, limits, coarse_cells(own))
     journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
@@ -213,8 +216,9 @@ def _search(
     about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
     about["sense"] = " ".join("least" if goal.least else "largest" for goal in goals)
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
+    left = math.nan if is_trade_off else searches[0].remaining_gain
     return DesignResult(
-        table.assign_attrs(about, best=number),
+        table.assign_attrs(about, best=number, remaining_gain=left),
         dict(best.settings),
         notes,
         trials.budget.runs,

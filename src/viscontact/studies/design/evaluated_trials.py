@@ -9,7 +9,8 @@ import numpy as np
 
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.objectives import Objective, PenalisedCost
-from viscontact.studies.design.search import Foreseen, Point, Score, search
+from viscontact.studies.design.scores import Foreseen, Point, Score
+from viscontact.studies.design.search import search
 from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level, StudyRun
 from viscontact.studies.journal import Entry
@@ -89,6 +90,7 @@ class Searched:
     objective: Objective
     best: Trial | None  # None if none is feasible on the cells of the case
     is_cut_short: bool  # the runs were used up before the gain was within the error
+    remaining_gain: float  # of the objective, as the runs around the best trial predict it
 
 
 def searched(trials: Trials, objective: Objective, *, held: int = 0) -> Searched:
@@ -101,14 +103,14 @@ def searched(trials: Trials, objective: Objective, *, held: int = 0) -> Searched
     def score(trial: Trial) -> Score:
         return cost.score(trial, trials.points[trial.key])
 
-    found, is_cut_short = search(
+    found = search(
         *(evaluate, trials.space, trials.budget, trials.levels),
         size=trials.size,
         held=held,
         known=list(map(score, trials.tried())),
     )
-    best = None if found is None else trials.made[found.key]
-    return Searched(trials, objective, best, is_cut_short)
+    best = None if found.best is None else trials.made[found.best.key]
+    return Searched(trials, objective, best, found.is_cut_short, found.remaining_gain)
 
 
 def _result(outcome: Entry) -> ScenarioResult:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viscontact.studies.design.goals import Constraint, Goal
-from viscontact.studies.design.search import Point, Score
+from viscontact.studies.design.scores import PENALTY, Point, Score, penalty
 from viscontact.studies.design.trials import Trial
 from viscontact.studies.scalars import Value
 
@@ -48,10 +48,18 @@ class Objective:
             error = math.inf
         return Value(float(1 + (weights * apart)[farthest] + AUGMENTATION * apart.sum()), error)
 
+    def parts(self, trial: Trial) -> tuple[float, ...]:
+        """Cost in each scenario, of which the largest one counts: smooth functions of a point."""
+        each_goal = [
+            [goal.cost(value.value) for value in trial.values_of(goal)] for goal in self.goals
+        ]
+        if len(self.goals) == 1:
+            return tuple(each_goal[0])
+        apart = (np.array(each_goal).T - self.best) / np.array(self.spans)
+        sums = AUGMENTATION * apart.max(axis=0).sum()
+        return tuple((1 + np.array(self.weights) * apart + sums).ravel().tolist())
 
-#: Cost of a relative excess over a bound, in parts of the objective: an exact penalty, as long as
-#: the objective changes less than this for a given relative change of the bound.
-PENALTY = 10.0
+
 #: Most that the reach of a contact adds to the cost of a value without a limit. A contact that
 #: reaches the sharp end of a body has a smaller cost the less it reaches.
 MOST_REACH = 5.0
@@ -72,6 +80,8 @@ class PenalisedCost:
     def score(self, trial: Trial, point: Point) -> Score:
         """Score of a trial at a point; the first one with a value gives the scale."""
         objective = self.objective.cost(trial)
+        if not trial.has_limits(self.goals, self.constraints):
+            objective = replace(objective, error=math.inf)
         cost, error = self._cost(trial, objective), objective.error
         return Score(
             trial.key,
@@ -83,6 +93,8 @@ class PenalisedCost:
             error / self.scale if self.scale and math.isfinite(error) else 0.0,
             trial.is_feasible(self.goals, self.constraints),
             bool(trial.failure),
+            self.objective.parts(trial),
+            trial.excesses(self.constraints),
         )
 
     def _cost(self, trial: Trial, objective: Value) -> float:
@@ -93,7 +105,4 @@ class PenalisedCost:
         self.reach = self.reach or trial.reach() or 1.0
         if objective.depends_on_mesh:
             return PENALTY + min(trial.reach() / self.reach, MOST_REACH)
-        excess = trial.violation(self.constraints)
-        # Less than two, and never flat, so that a search knows the way to the bound.
-        bounded = excess if excess < 1 else 2 - 1 / excess
-        return objective.value / self.scale + PENALTY * bounded
+        return objective.value / self.scale + penalty(trial.violation(self.constraints))

@@ -83,6 +83,15 @@ class DesignResult(StudyResult):
         return self.table.isel(trial=self.number)
 
     @property
+    def remaining_gain(self) -> float:
+        """Gain that further runs may have, as those around the best trial predict it [SI unit].
+
+        NaN for a trade-off, or if it is not known. It is a prediction for the surroundings of the
+        best trial, to be added to the error of its value.
+        """
+        return float(self.table.attrs["remaining_gain"])
+
+    @property
     def goal(self) -> Goal:
         """The scalar that is to be least or largest; of several the first one."""
         return self.goals[0]

@@ -2,63 +2,46 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
-from typing import Any
 
-import numpy as np
-from scipy.optimize import direct, minimize
-
+from viscontact.studies.design.exploration import UNFEASIBLE_PART, Exploration
+from viscontact.studies.design.local_search import LARGEST_RADIUS, LocalSearch
+from viscontact.studies.design.scores import (
+    Evaluate,
+    Foreseen,
+    Point,
+    Score,
+    best_or_closest,
+    closest,
+    ranked,
+)
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Level
 from viscontact.studies.space import Choice, Space
 
-Point = tuple[float, ...]
-
-#: Times the patience of a search that has found no feasible trial, and the part of the runs, as its
-#: inverse, after which the search of the whole space ends without one.
-NOTHING_FEASIBLE, UNFEASIBLE_PART = 3, 2
-#: Trials in which a search must gain something, for each parameter and for the search itself: of
-#: the whole space, and of the surroundings of the best trial.
-PATIENCE, LOCAL_PATIENCE = 6, 3
-#: Least gain that counts, relative to the objective, where the error is not known or smaller.
-LEAST_GAIN = 1e-3
-#: Most points that are certified on the cells of the case, before the local search, and the part of
-#: all runs that is kept for them at most, as its inverse.
-CANDIDATES, RESERVED = 3, 3
-#: Edge of the first simplex of the local search, in parts of the ranges: around the best trial, and
+#: Most points that are certified on the cells of the case, before the local search.
+CANDIDATES = 3
+#: Runs that are kept for the cells of the case: their part of all, as its inverse, and the most of
+#: them for each parameter and for the search itself.
+RESERVED, MOST_RESERVED = 2, 6
+#: Half edge of the first box of a local search, in parts of the ranges: around the best trial, and
 #: around the one that is closest to a feasible one.
-SIMPLEX, WIDE_SIMPLEX = 0.04, 0.1
+BOX, WIDE_BOX = 0.08, 0.15
 #: Parts of a range from its end in which the end itself is tried: for the best trial, and, where
 #: none is feasible, for the one that is closest to being so.
 NEAR_END, NEAR_UNFEASIBLE_END = 0.1, 0.25
 
 
 @dataclass(frozen=True)
-class Score:
-    """Score of a point: the objective, and the cost, which has penalties where it is infeasible."""
+class Found:
+    """Best point that a search has found."""
 
-    key: Hashable  # the same for points with the same values on the same cells
-    point: Point
-    level: Level
-    value: float  # objective: NaN if a run failed
-    error: float  # of the objective; NaN if unknown, inf if it depends on the mesh
-    cost: float  # [-]
-    cost_error: float  # [-], 0 if unknown
-    is_feasible: bool
-    has_failed: bool
-
-
-#: Points that are likely to follow, a given number of them.
-Foreseen = Callable[[int], Sequence[Point]]
-#: Scores of some points; workers that are free compute those that are likely to follow.
-#: BudgetSpentError if they would take more runs than are left.
-Evaluate = Callable[[Sequence[Point], Level, Foreseen | None], Sequence[Score]]
-#: Cost of a point.
-_Cost = Callable[[Any], float]
+    best: Score | None  # feasible, on the cells of the case
+    is_cut_short: bool  # the runs were used up before the gain was within the error
+    remaining_gain: float = math.nan  # of the objective, predicted around the best point
 
 
 def search(
@@ -70,30 +53,28 @@ def search(
     size: int = 1,
     held: int = 0,
     known: Iterable[Score] = (),
-) -> tuple[Score | None, bool]:
-    """Best feasible point of a space on the last of some levels of cells, the cheapest first.
+) -> Found:
+    """Search for the best feasible point on the last of some levels of cells, the cheapest first.
 
     A point takes `size` runs; `held` runs of the budget are left to later searches, `known` points
-    are those of earlier ones. True if the runs were used up before the gain was within the error.
+    are those of earlier ones.
     """
     made = _Search(evaluate, space, budget, levels, size)
     made.tried.update({each.key: each for each in known})
     budget.reserved = held
     if len(levels) > 1:
-        # The best points are to be computed on the finest cells in any event.
-        budget.reserved += min(CANDIDATES * size, budget.left // RESERVED)
+        # The optimum is that of the finest cells.
+        most = MOST_RESERVED * (1 + len(space.parameters)) * size
+        budget.reserved += min(most, budget.left // RESERVED)
     first = levels[0]
     made.within_budget(partial(made.explore, first))
-    if made.best(first) is None:
+    if not ranked(made.at(first)):
         made.within_budget(partial(made.approach, first))
-    budget.reserved = held
+    budget.reserved, made.is_cut_short = held, False
     made.within_budget(made.certify)
     made.within_budget(made.refine)
-    return made.best(levels[-1]), made.is_cut_short
-
-
-class _EnoughError(Exception):
-    """The last trials of a search have gained less than the error, or enough points are known."""
+    best = next(iter(ranked(made.at(levels[-1]))), None)
+    return Found(best, made.is_cut_short, made.remaining_gain)
 
 
 @dataclass
@@ -107,6 +88,7 @@ class _Search:
     size: int
     tried: dict[Hashable, Score] = field(default_factory=dict)
     is_cut_short: bool = False
+    remaining_gain: float = math.nan
 
     def within_budget(self, part: Callable[[], None]) -> None:
         """Search until the runs are used up."""
@@ -115,22 +97,9 @@ class _Search:
         except BudgetSpentError:
             self.is_cut_short = True
 
-    def best(self, level: Level) -> Score | None:
-        """Best feasible point of a level."""
-        return next(iter(self._ranked(level)), None)
-
-    def closest(self, level: Level) -> Score | None:
-        """Point of a level with the least cost, feasible or not; None if all of them failed."""
-        done = (each for each in self._scores_at(level) if not each.has_failed)
-        return min(done, key=lambda each: each.cost, default=None)
-
-    def _scores_at(self, level: Level) -> list[Score]:
+    def at(self, level: Level) -> list[Score]:
+        """Points of a level."""
         return [each for each in self.tried.values() if each.level == level]
-
-    def _ranked(self, level: Level) -> list[Score]:
-        """Feasible points of a level, the best first."""
-        found = [each for each in self._scores_at(level) if each.is_feasible]
-        return sorted(found, key=lambda each: each.value)
 
     def explore(self, level: Level) -> None:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
@@ -140,31 +109,28 @@ class _Search:
             middles = ([(n + 0.5) / count for n in range(count)] for count in counts)
             self._try_all(list(product(*middles)), level)
             return
-        bounds = [(0.0, 1.0)] * len(self.space.parameters)
-        most = 100 * self.budget.most
-
-        def minimise(cost: _Cost) -> None:
-            direct(cost, bounds, maxfun=most, vol_tol=0, len_tol=1e-4)
-
         left = (self.budget.most - self.budget.reserved) // self.size
-        patience = PATIENCE * (1 + len(self.space.parameters))
-        _Watched(self, level, patience, minimise, left // UNFEASIBLE_PART).run()
+        Exploration(
+            lambda point, ahead: self.score_at(point, level, ahead),
+            len(self.space.parameters),
+            self.budget.most,
+            lambda tried: tried >= left // UNFEASIBLE_PART and closest(self.at(level)) is not None,
+            lambda: bool(ranked(self.at(level))),
+        ).run()
         self._try_ends(level)
 
     def approach(self, level: Level) -> None:
         """Search around the point that is closest to a feasible one, where none is feasible."""
-        closest = self.closest(level)
-        if closest is not None and self.space.ranges:
-            self._search_around(closest, level, WIDE_SIMPLEX)
+        if closest(self.at(level)) is not None and self.space.ranges:
+            self._search_around(level, WIDE_BOX, lambda: bool(ranked(self.at(level))))
 
     def _try_ends(self, level: Level) -> None:
         """Try the end of a range that the best or least infeasible point is close to."""
         # DIRECT never reaches it.
-        best, near_end = self.best(level), NEAR_END
-        if best is None:
-            best, near_end = self.closest(level), NEAR_UNFEASIBLE_END
+        best = best_or_closest(self.at(level))
         if best is None:
             return
+        near_end = NEAR_END if best.is_feasible else NEAR_UNFEASIBLE_END
         point = list(best.point)
         ends = {n: round(point[n]) for n in self.space.ranges}
         near = [(n, end) for n, end in ends.items() if abs(point[n] - end) < near_end]
@@ -181,46 +147,54 @@ class _Search:
         coarse, fine = self.levels[0], self.levels[-1]
         if coarse == fine:
             return
-        ranked = self._ranked(coarse)
-        if not ranked and (closest := self.closest(coarse)) is not None:
+        found = ranked(self.at(coarse))
+        if not found and (nearest := closest(self.at(coarse))) is not None:
             # It may be feasible on smaller cells.
-            self.score_at(closest.point, fine, _first_of([]))
-        for rank, each in enumerate(ranked):
-            best = self.best(fine)
+            self.score_at(nearest.point, fine, _first_of([]))
+        for rank, each in enumerate(found):
+            best = next(iter(ranked(self.at(fine))), None)
             if best is not None:
                 # The others are worse by more than the cells can explain.
                 known = each.error if math.isfinite(each.error) else 0.0
                 if rank >= CANDIDATES or each.value - known > best.value:
                     return
-            others = [other.point for other in ranked[rank + 1 : CANDIDATES]]
+            others = [other.point for other in found[rank + 1 : CANDIDATES]]
             self.score_at(each.point, fine, _first_of(others))
 
     def refine(self) -> None:
-        """Search around the best point on the finest cells, by Nelder and Mead."""
-        best = self.best(self.levels[-1])
-        if best is None or not self.space.ranges:
+        """Search around the best point on the finest cells, or the closest one if none is."""
+        if best_or_closest(self.at(self.levels[-1])) is None or not self.space.ranges:
             return
-        self._search_around(best, self.levels[-1], SIMPLEX)
+        self._search_around(self.levels[-1], BOX, lambda: False)
         self._try_ends(self.levels[-1])
 
-    def _search_around(self, best: Score, level: Level, edge: float) -> None:
-        """Search around a point by Nelder and Mead, from a simplex with some edge."""
-        start, ranges = np.array(best.point), self.space.ranges
-        simplex = np.tile(start[list(ranges)], (len(ranges) + 1, 1))
-        for row in range(len(ranges)):
-            simplex[row + 1, row] += edge if simplex[0, row] < 0.5 else -edge
-        bounds = [(0, 1)] * len(ranges)
-        options = {"initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.0}
+    def _search_around(self, level: Level, radius: float, is_enough: Callable[[], bool]) -> None:
+        """Search around the best or the closest point of a level."""
+        state = self._local(level, radius)
+        try:
+            while not is_enough() and (step := state.proposal()) is not None:
+                state, made = step
+                score = self.score_at(made.point, level, partial(_followers, state))
+                state = state.after(made, score)
+        finally:
+            if state.best.is_feasible:
+                self.remaining_gain = state.scale * state.remaining_gain()
 
-        def minimise(cost: _Cost) -> None:
-            def of_ranges(coordinates: Any) -> float:
-                point = start.copy()
-                point[list(ranges)] = coordinates
-                return cost(point)
+    def _local(self, level: Level, radius: float) -> LocalSearch:
+        """Local search among the points with the choices of the best one."""
+        best = best_or_closest(self.at(level))
+        assert best is not None
+        ranges = self.space.ranges
 
-            minimize(of_ranges, simplex[0], method="Nelder-Mead", bounds=bounds, options=options)
+        def choices(score: Score) -> tuple[str, ...]:
+            settings = self.space.settings(score.point)
+            return tuple(settings[self.space.keys[n]] for n in range(len(self.space.keys)) if n not in ranges)
 
-        _Watched(self, level, LOCAL_PATIENCE * (1 + len(ranges)), minimise).run()
+        own = choices(best)
+        alike = [each for each in self.tried.values() if choices(each) == own]
+        coarse = [each for each in alike if each.level != level and each.has_limit]
+        scores = tuple(each for each in alike if each.level == level)
+        return LocalSearch(ranges, scores, tuple(coarse), radius)
 
     def _try_all(self, points: Sequence[Point], level: Level) -> None:
         for number, point in enumerate(points, 1):
@@ -232,67 +206,14 @@ class _Search:
         return self.tried.setdefault(score.key, score)
 
 
-class _Watched:
-    """Cost of points in parts of the objective; it ends a search that gains less than the error."""
-
-    def __init__(
-        self,
-        search: _Search,
-        level: Level,
-        patience: int,
-        minimise: Callable[[_Cost], None],
-        most_unfeasible: float = math.inf,
-    ) -> None:
-        self._search, self._level, self._patience = search, level, patience
-        self._minimise, self._most_unfeasible = minimise, most_unfeasible
-        self._known: dict[Point, float] = {}  # costs so far
-        self._mark = math.inf  # best cost when something was gained last
-        self._tried, self._last = 0, 0
-
-    def run(self) -> None:
-        """Search until nothing is gained."""
-        with contextlib.suppress(_EnoughError):
-            self._minimise(self)
-
-    def __call__(self, given: Any) -> float:
-        before, point = len(self._search.tried), tuple(map(float, np.ravel(given)))
-        score = self._search.score_at(point, self._level, self._next_points)
-        self._known[point] = score.cost
-        self._watch(score, is_new=len(self._search.tried) > before)
-        return score.cost
-
-    def _next_points(self, count: int) -> list[Point]:
-        """Next points of the search, if each of them costs as much as the nearest known one."""
-        # The first one is the present point. A method asks for several points before it decides on
-        # their costs, and repeated with the known costs it takes the same way.
-        found: dict[Point, None] = {}
-        points, costs = list(self._known), list(self._known.values())
-
-        def repeated(given: Any) -> float:
-            point = tuple(map(float, np.ravel(given)))
-            if point in self._known:
-                return self._known[point]
-            if len(found) > count:
-                raise _EnoughError
-            found[point] = None
-            distances = [math.dist(point, each) for each in points]
-            return costs[int(np.argmin(distances))] if costs else 0.0
-
-        with contextlib.suppress(_EnoughError):
-            self._minimise(repeated)
-        return list(found)
-
-    def _watch(self, score: Score, *, is_new: bool) -> None:
-        self._tried += is_new
-        if score.cost < self._mark - max(LEAST_GAIN, score.cost_error):
-            self._mark, self._last = score.cost, self._tried
-        patience = self._patience
-        if self._search.best(self._level) is None:
-            if self._tried >= self._most_unfeasible and self._search.closest(self._level):
-                raise _EnoughError
-            patience *= NOTHING_FEASIBLE
-        if self._tried - self._last >= patience:
-            raise _EnoughError
+def _followers(state: LocalSearch, count: int) -> list[Point]:
+    """Points of a local search, if the surrogate is right at each of them."""
+    found: list[Point] = []
+    while len(found) <= count and (step := state.proposal()) is not None:
+        state, made = step
+        found.append(made.point)
+        state = state.after(made, state.believed(made))
+    return found
 
 
 def _first_of(points: Sequence[Point]) -> Foreseen:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -11,16 +10,12 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.studies.case_values import case_with, result_with
+from viscontact.studies.case_values import result_with
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
-from viscontact.studies.design.sharp_ends import reaches_sharp_end
 from viscontact.studies.design.trials import REACH, goal_name
 from viscontact.studies.evaluation import Level, SimulatedRun
 from viscontact.studies.scalars import magnitude
-
-#: Scalar without a limit at a sharp end, also where the cells do not resolve that.
-PEAK = "peak_pressure"
 
 
 @dataclass(frozen=True)
@@ -44,18 +39,12 @@ class CaseTrials:
             whole = {**fixed, **each.settings(settings)}
             result = partial(result_with, self.case, whole)
             key = f"{level} {number} {values}"
-            runs.append(SimulatedRun(key, result, partial(self.numbers, whole)))
+            runs.append(SimulatedRun(key, result, self.numbers))
         return runs
 
-    def numbers(self, settings: Mapping[str, str], found: xr.Dataset) -> dict[str, Any]:
+    def numbers(self, found: xr.Dataset) -> dict[str, Any]:
         """Goals, constraints and reach of the contact in a run, with their errors, by name."""
         values = {goal_name(goal): goal.value(found) for goal in self.goals}
         values |= {str(each): each.value(found) for each in self.constraints}
         values[REACH] = magnitude(found, REACH, "worst")
-        outcome = {name: [each.value, each.error] for name, each in values.items()}
-        warned = bool(found.attrs.get("warnings"))
-        if warned and reaches_sharp_end(case_with(self.case, settings).indenter, found):
-            peaks = [goal_name(goal) for goal in self.goals if goal.scalar == PEAK]
-            peaks += [str(each) for each in self.constraints if each.scalar == PEAK]
-            outcome |= {name: [outcome[name][0], math.inf] for name in peaks}
-        return outcome
+        return {name: [each.value, each.error] for name, each in values.items()}

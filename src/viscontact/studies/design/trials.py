@@ -47,9 +47,13 @@ class Trial:
         lines = (line for each in self.results for line in each.warnings.splitlines())
         return tuple(dict.fromkeys(lines))
 
+    def values_of(self, goal: Goal) -> list[Value]:
+        """Value of the goal in each scenario; NaN if a run failed."""
+        return [each.values.get(goal_name(goal), _NONE) for each in self.results]
+
     def worst(self, goal: Goal) -> Value:
         """Value of the goal in the scenario that is farthest off; NaN if a run failed."""
-        values = [each.values.get(goal_name(goal), _NONE) for each in self.results]
+        values = self.values_of(goal)
         if any(math.isnan(each.value) for each in values):
             return _NONE
         # A value without a limit is worse than any number.
@@ -65,16 +69,34 @@ class Trial:
         values = [each.values.get(str(constraint), _NONE) for each in self.results]
         return max(values, key=lambda each: constraint.violation(each.value))
 
+    def excesses(self, constraints: tuple[Constraint, ...]) -> tuple[float, ...]:
+        """Relative excess over each bound in each scenario, below zero if it is kept."""
+        return tuple(
+            each.violation(result.values.get(str(each), _NONE).value)
+            for each in constraints
+            for result in self.results
+        )
+
     def violation(self, constraints: tuple[Constraint, ...]) -> float:
         """Largest relative excess over a bound; zero if all constraints are kept."""
-        excess = (each.violation(self.extreme(each).value) for each in constraints)
-        return max(0.0, *excess, 0.0)
+        return max(0.0, *self.excesses(constraints), 0.0)
+
+    def has_limits(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
+        """True if no goal depends on the mesh, and no scalar that has a largest allowed value."""
+        values = [self.worst(goal) for goal in goals]
+        values += [
+            result.values.get(str(each), _NONE)
+            for each in constraints
+            for result in self.results
+            if each.upper
+        ]
+        return not any(each.depends_on_mesh for each in values)
 
     def is_feasible(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
         """True if all runs have a result with a limit, and all constraints are kept."""
-        values = [self.worst(goal) for goal in goals]
-        have_limits = all(math.isfinite(v.value) and not v.depends_on_mesh for v in values)
-        return have_limits and self.violation(constraints) == 0.0
+        have_values = all(math.isfinite(self.worst(goal).value) for goal in goals)
+        has_limits = self.has_limits(goals, constraints)
+        return have_values and has_limits and self.violation(constraints) == 0.0
 
 
 _NONE = Value(math.nan, math.nan)

@@ -1,0 +1,241 @@
+"""Local search: points where a surrogate predicts a gain, and around the best one."""
+
+# A trust-region method with polls. The surrogate proposes the point with the least predicted cost in
+# a box around the best one; where it predicts no gain, the points at the faces of the box are
+# polled, as in a pattern search (Torczon 1997), and then the box is halved.
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats.qmc import Sobol
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.studies.design.scores import PENALTY, Point, Score, best_or_closest
+from viscontact.studies.design.surrogate import Surrogate
+
+#: Least gain that counts, relative to the objective, where the error is smaller or not known; the
+#: part of the error that counts where it is larger, and the most of that.
+LEAST_GAIN, ERROR_PART, MOST_ERROR = 1e-3, 0.25, 2.5e-3
+#: Half edges of the box around the best point, in parts of the ranges: the least and the largest.
+LEAST_RADIUS, LARGEST_RADIUS = 1e-3, 0.25
+#: Least distance from the points that are known, in parts of the radius, and at least.
+APART, LEAST_APART = 0.02, 2e-4
+#: Points in the box at which the surrogate is evaluated, by the number of ranges.
+GRIDS, SOBOL = {1: 161, 2: 41}, 11
+#: Last predictions that give the error of the surrogate.
+REMEMBERED = 3
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Point that is proposed, and what the surrogate predicts there."""
+
+    point: Point
+    responses: tuple[float, ...]  # the cost alone, if no known point has a limit
+    cost: float  # [-]
+    objective: float  # [-]
+    excess: float
+
+
+@dataclass(frozen=True)
+class LocalSearch:
+    """State of a local search; a step of it makes another one."""
+
+    ranges: tuple[int, ...]  # coordinates that change
+    scores: tuple[Score, ...]  # on one level of cells
+    coarse: tuple[Score, ...] = ()  # on a cheaper one, with limits
+    radius: float = 0.1
+    misses: tuple[float, ...] = ()  # last errors of the predicted objective [-]
+    margin: float = 0.0  # last error of a predicted excess where a bound was not kept
+
+    @property
+    def best(self) -> Score:
+        """Best feasible point, or the closest one."""
+        found = best_or_closest(self.scores)
+        return self.scores[0] if found is None else found
+
+    @property
+    def tolerance(self) -> float:
+        """Gain that does not count [-]."""
+        return max(LEAST_GAIN, min(ERROR_PART * self.best.cost_error, MOST_ERROR))
+
+    @property
+    def scale(self) -> float:
+        """Size of the objective."""
+        return abs(self.best.value) if math.isfinite(self.best.value) else 1.0
+
+    @property
+    def with_limits(self) -> list[Score]:
+        """Points whose responses the surrogate interpolates."""
+        return [each for each in self.scores if each.has_limit]
+
+    @property
+    def miss(self) -> float:
+        """Error of the predicted objective [-]; inf if it is not known."""
+        return max(self.misses[-REMEMBERED:], default=math.inf)
+
+    @property
+    def parts(self) -> int:
+        """Number of the responses that are parts of the objective."""
+        return len(self.scores[0].parts) or 1
+
+    def responses(self, points: Floats) -> Floats:
+        """Responses at some points, of shape (points, responses): the costs without limits."""
+        fine, own = self.with_limits, list(self.ranges)
+        if not fine:
+            known = [each for each in self.scores if not each.has_failed]
+            return Surrogate.through([(np.take(s.point, own), (s.cost,)) for s in known])(points)
+        few = len(fine) <= 2 * len(own) + 1
+        coarse = self.coarse if few and len(self.coarse) > len(own) else ()
+        samples = (
+            [(np.take(each.point, own), each.responses) for each in group]
+            for group in (fine, coarse)
+        )
+        return Surrogate.through(*samples)(points)
+
+    def objective_and_excess(self, responses: Floats) -> tuple[Floats, Floats]:
+        """Objective over its size, and largest excess, of some responses."""
+        if not self.with_limits:
+            return responses[:, 0], np.zeros(len(responses))
+        excess = responses[:, self.parts :].max(axis=1, initial=-1.0)
+        return responses[:, : self.parts].max(axis=1) / self.scale, excess
+
+    def own_cost(self, score: Score) -> float:
+        """Cost of a point in the sense of the predictions [-]."""
+        if not self.with_limits:
+            return score.cost
+        if not score.has_limit:
+            return math.inf
+        return score.value / self.scale + PENALTY * score.excess
+
+    def proposal(self) -> tuple[LocalSearch, Prediction] | None:
+        """Next point, and the search with its present box; None if nothing is to be gained."""
+        if all(each.has_failed for each in self.scores):
+            return None
+        state = self
+        while state.radius >= LEAST_RADIUS:
+            found = state._model_step() or state._poll()
+            if found is not None:
+                return state, found
+            if len(state.misses) >= REMEMBERED and state.remaining_gain() <= state.tolerance:
+                return None
+            state = replace(state, radius=state.radius / 2)
+        return None
+
+    def after(self, made: Prediction, score: Score) -> LocalSearch:
+        """The search with the score of a point that it has proposed."""
+        before, known = self.best, {each.key for each in self.scores}
+        scores = self.scores if score.key in known else (*self.scores, score)
+        found = replace(self, scores=scores)
+        misses, margin, radius = self.misses, self.margin, self.radius
+        if score.has_limit:
+            misses = (*misses, abs(score.value / self.scale - made.objective))
+            over = score.excess - made.excess if score.excess > 0 else 0.0
+            margin = min(max(over, margin / 2), 10 * LEAST_GAIN)
+        if found.best is score and self._gain(before, score) > self.tolerance:
+            if self._distance(score.point, before.point) > 0.9 * radius:
+                radius = min(2 * radius, LARGEST_RADIUS)
+        elif score.has_limit and made.cost < self.own_cost(before) - self.tolerance:
+            radius /= 2  # the surrogate has promised a gain
+        return replace(found, misses=misses, margin=margin, radius=radius)
+
+    def remaining_gain(self) -> float:
+        """Gain that the surrogate leaves in the box, with the error of its predictions [-]."""
+        points = self._box()
+        objective, excess = self.objective_and_excess(self.responses(points))
+        open_to = (excess <= self.margin) & ~self._behind_barriers(points)
+        best = self.best.value / self.scale
+        gain = best - objective[open_to].min(initial=math.inf)
+        return max(0.0, gain if math.isfinite(gain) else 0.0) + self.miss
+
+    def _gain(self, before: Score, after: Score) -> float:
+        if before.is_feasible != after.is_feasible:
+            return math.inf
+        return self.own_cost(before) - self.own_cost(after)
+
+    def _model_step(self) -> Prediction | None:
+        """Point of the box with the least predicted cost, if that is a gain."""
+        points = self._box()
+        made = self._best_of(points[self._is_open(points)])
+        return made if made and made.cost < self.own_cost(self.best) - self.tolerance else None
+
+    def _poll(self) -> Prediction | None:
+        """Point at a face of the box where a gain is possible, the most likely one first."""
+        center, own = np.array(self.best.point)[list(self.ranges)], len(self.ranges)
+        points = np.clip(center + self.radius * np.vstack([np.eye(own), -np.eye(own)]), 0, 1)
+        distances = np.linalg.norm(points[:, None] - self._coordinates(self.scores), axis=2)
+        is_apart = distances.min(axis=1) > self.radius / 2
+        made = self._best_of(points[is_apart & ~self._behind_barriers(points)])
+        miss = self.miss if len(self.misses) >= REMEMBERED else math.inf
+        hoped = made.cost - miss if made else math.inf
+        return made if hoped < self.own_cost(self.best) - self.tolerance else None
+
+    def _best_of(self, points: Floats) -> Prediction | None:
+        """Prediction with the least cost; None without points."""
+        if not len(points):
+            return None
+        responses = self.responses(points)
+        objective, excess = self.objective_and_excess(responses)
+        # A surrogate that has missed a bound keeps this distance from it.
+        costs = objective + PENALTY * np.maximum(excess + self.margin, 0.0)
+        row = int(costs.argmin())
+        point = np.array(self.best.point)
+        point[list(self.ranges)] = points[row]
+        found = (float(each[row]) for each in (costs, objective, excess))
+        return Prediction(tuple(point.tolist()), tuple(responses[row].tolist()), *found)
+
+    def believed(self, made: Prediction) -> Score:
+        """Score of a point if the prediction is right."""
+        return replace(
+            self.best,
+            key=made.point,
+            point=made.point,
+            value=made.objective * self.scale,
+            cost=made.cost,
+            is_feasible=bool(self.with_limits) and made.excess <= 0,
+            parts=made.responses[: self.parts],
+            excesses=made.responses[self.parts :],
+        )
+
+    def _box(self) -> Floats:
+        center = np.array(self.best.point)[list(self.ranges)]
+        return np.clip(center + self.radius * _offsets(len(self.ranges)), 0.0, 1.0)
+
+    def _is_open(self, points: Floats) -> Bools:
+        """True where a point is apart from all known ones, and the nearest one has a limit."""
+        known = self._coordinates(self.scores)
+        distances = np.linalg.norm(points[:, None] - known, axis=2)
+        limits = np.array([each.has_limit for each in self.scores])
+        apart = distances.min(axis=1) > max(LEAST_APART, APART * self.radius)
+        near = limits[distances.argmin(axis=1)] if limits.any() else True
+        return np.asarray(apart & near)
+
+    def _behind_barriers(self, points: Floats) -> Bools:
+        """True where a point without a limit lies between a point and the best one."""
+        barriers = [each for each in self.scores if not each.has_limit]
+        if not barriers or not self.best.has_limit:
+            return np.zeros(len(points), dtype=bool)
+        center = np.array(self.best.point)[list(self.ranges)]
+        ways, walls = points - center, self._coordinates(barriers) - center
+        lengths, far = np.linalg.norm(ways, axis=1), np.linalg.norm(walls, axis=1)
+        along = ways @ walls.T >= 0.7 * np.outer(lengths, far)
+        return np.asarray((along & (lengths[:, None] >= far)).any(axis=1))
+
+    def _coordinates(self, scores: Sequence[Score]) -> Floats:
+        return np.array([each.point for each in scores])[:, list(self.ranges)]
+
+    def _distance(self, one: Point, other: Point) -> float:
+        return float(np.abs(np.subtract(one, other)).max())
+
+
+def _offsets(count: int) -> Floats:
+    """Points of a box, from -1 to 1, of shape (points, `count`)."""
+    if count in GRIDS:
+        line = np.linspace(-1, 1, GRIDS[count])
+        return np.stack(np.meshgrid(*[line] * count), axis=-1).reshape(-1, count)
+    inside = 2 * Sobol(count, scramble=False).random_base2(SOBOL) - 1
+    return np.vstack([inside, 0.3 * inside, np.eye(count), -np.eye(count)])
