@@ -17,7 +17,12 @@ from viscontact.studies.scalars import magnitude
 from viscontact.studies.space import given_parameter
 
 POM = """
-indenter: {shape: roller, diameter: 12 mm, length: 20 mm, straight_length: 14 mm, crown_radius: 0.3 m}
+indenter:
+  shape: roller
+  diameter: 12 mm
+  length: 20 mm
+  straight_length: 14 mm
+  crown_radius: 300 mm
 material: pom-c-23c
 load: {kind: step, force: 600 N, eccentricity_x: 6 mm}
 time: {end: 30 d, steps: 12, spacing: log, first: 1 h}
@@ -162,7 +167,8 @@ CROWN, STRAIGHT = "indenter.crown_radius", "indenter.half_length"
 PROFILE = "indenter.profile"
 PROBLEMS = (
     Problem(
-        *("crown, POM, 30 d", POM, {CROWN: ("30 mm", "5 m", "log")}, "peak_pressure", (61,)), runs=14
+        *("crown, POM, 30 d", POM, {CROWN: ("30 mm", "5 m", "log")}, "peak_pressure", (61,)),
+        runs=14,
     ),
     Problem("crown, elastic", ROLLER, {CROWN: ("20 mm", "2 m", "log")}, "peak_pressure", (61,)),
     Problem(
@@ -189,7 +195,11 @@ PROBLEMS = (
         runs=25,
     ),
     Problem(
-        *("cover under a ball", COVER, {"material.layers[1].thickness": ("0.5 mm", "10 mm", "log")}),
+        *(
+            "cover under a ball",
+            COVER,
+            {"material.layers[1].thickness": ("0.5 mm", "10 mm", "log")},
+        ),
         *("peak_pressure", (41,)),
         constraints=("approach<=0.6 mm",),
         runs=25,

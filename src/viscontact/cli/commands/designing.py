@@ -44,6 +44,13 @@ Constraints = Annotated[
         help="Bound that is to be kept at all instants, e.g. 'contact_length<=18mm', or with >=.",
     ),
 ]
+ClearOfEnds = Annotated[
+    bool,
+    typer.Option(
+        "--clear-of-ends",
+        help="Leave out trials whose contact reaches a sharp end of the body at any instant.",
+    ),
+]
 Minimised = Annotated[
     list[str] | None,
     typer.Option(
@@ -93,6 +100,7 @@ def design(
     profile: Profile = None,
     drop_tolerance: DropTolerance = None,
     constraint: Constraints = None,
+    clear_of_ends: ClearOfEnds = False,
     runs: Runs = None,
 ) -> None:
     """Find the values of a case for which a scalar is least or largest.

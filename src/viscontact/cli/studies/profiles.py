@@ -41,9 +41,10 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         refuse(
             f"--profile {profile}: write free, free:KNOTS, or free:KNOTS:asymmetric, e.g. free:8"
         )
-    for name in ("change", "maximise", "constraint", "scatter"):
+    for name in ("change", "maximise", "constraint", "clear_of_ends", "scatter"):
         if typed[name]:
-            refuse(f"--{name}: does not go with --profile, which minimises the peak pressure")
+            option = name.replace("_", "-")
+            refuse(f"--{option}: does not go with --profile, which minimises the peak pressure")
     if set(typed["minimise"] or ()) - {"peak_pressure"}:
         given = ", ".join(typed["minimise"])
         refuse(f"--minimise: a free profile minimises peak_pressure, got {given}")

@@ -27,7 +27,7 @@ def why_infeasible(trials: Trials) -> str:
         reason = tried[0].failure if tried else "runs: are too few"
         return f"{begin}: every trial failed, the first one with: {reason}"
     closest = min(done, key=lambda trial: trial.violation(limits))
-    where = ", ".join((f"{key}={value}" for key, value in closest.settings.items()))
+    where = _where(closest)
     if closest.violation(limits) == 0.0:
         return (
             f"{begin}: the {names} has no limit, as at a sharp end, or the trials on coarse "
@@ -42,18 +42,10 @@ def why_infeasible(trials: Trials) -> str:
 def notes_on(best: Trial, before: Trial, search: Searched) -> Iterator[str]:
     """Yield notes on the best trial, and on that of the case `before`."""
     trials, objective = search.trials, search.objective
-    space, goals, point = trials.space, objective.goals, trials.points[best.key]
-    for number in space.ranges if len(goals) == 1 else ():
-        goal = goals[0]
-        part, key = point[number], space.parameters[number].key
-        if min(part, 1 - part) <= AT_BOUND:
-            which, verb = "upper" if part > 0.5 else "lower", "falls" if goal.least else "grows"
-            yield (
-                f"the optimum lies at the {which} bound of {key}, {best.settings[key]}: the "
-                f"{goal.scalar} {verb} up to there, and a wider range may give a better one; if it "
-                f"{verb} for ever, there is no optimum"
-            )
+    if len(objective.goals) == 1:
+        yield from _at_bounds(best, search)
     yield from _beside_no_limit(best, search)
+    yield from _at_sharp_end(best, search)
     for limit in trials.constraints:
         yield from _undecided(best, limit)
     if search.is_cut_short:
@@ -80,6 +72,44 @@ def notes_on_trade_off(searches: Sequence[Searched], before: Trial) -> Iterator[
     yield from dict.fromkeys(notes)
 
 
+def _at_bounds(best: Trial, search: Searched) -> Iterator[str]:
+    """Yield that the optimum lies at a bound, and what the trial next to it has."""
+    points, trials = search.trials.points, search.trials
+    own = points[best.key]
+    others = [each for each in trials.tried(best.level) if each is not best]
+    for number in trials.space.ranges:
+        part, key = own[number], trials.space.parameters[number].key
+        inside = [each for each in others if points[each.key][number] != part]
+        if min(part, 1 - part) > AT_BOUND or not inside:
+            continue
+        nearest = min(inside, key=lambda each: math.dist(points[each.key], own))
+        which = "upper" if part > 0.5 else "lower"
+        yield (
+            f"the optimum lies at the {which} bound of {key}, {best.settings[key]}: "
+            f"{_next_to_bound(nearest, best, search)}"
+        )
+
+
+def _next_to_bound(nearest: Trial, best: Trial, search: Searched) -> str:
+    trials, (goal,), where = search.trials, search.objective.goals, _where(nearest)
+    if nearest.failure:
+        return f"the nearest trial, at {where}, failed"
+    if not nearest.has_limits(trials.goals, trials.constraints):
+        return f"the nearest trial, at {where}, has no limit"
+    if not nearest.is_feasible(trials.goals, trials.constraints):
+        return f"the nearest trial, at {where}, does not keep the constraints"
+    units, verb = SCALARS[goal.scalar].units, "falls" if goal.least else "grows"
+    value, own = (format_quantity(each.worst(goal).value, units) for each in (nearest, best))
+    return (
+        f"the {goal.scalar} {verb} up to there, from {value} at {where} to {own}, and a wider "
+        f"range may give a better one; if it {verb} for ever, there is no optimum"
+    )
+
+
+def _where(trial: Trial) -> str:
+    return ", ".join(f"{key}={value}" for key, value in trial.settings.items())
+
+
 def _beside_no_limit(best: Trial, search: Searched) -> Iterator[str]:
     """Yield that a trial next to the best one has no limit, as at a sharp end."""
     points = search.trials.points
@@ -89,14 +119,34 @@ def _beside_no_limit(best: Trial, search: Searched) -> Iterator[str]:
 
     for goal in search.objective.goals:
         tried = search.trials.tried(best.level)
-        beside = [each for each in tried if each.worst(goal).depends_on_mesh]
+        beside = [each for each in tried if not each.has_limits((goal,), ())]
         nearest = min(beside, key=distance, default=None)
         if nearest is not None and distance(nearest) <= BESIDE:
-            where = ", ".join(f"{key}={value}" for key, value in nearest.settings.items())
             yield (
-                f"the optimum lies beside values without a limit: at {where} the contact reaches "
-                f"an edge of the body, where the {goal.scalar} grows as the cells get smaller"
+                f"the optimum lies beside values without a limit: at {_where(nearest)} the "
+                f"contact reaches an edge of the body, where the {goal.scalar} grows as the cells "
+                "get smaller"
             )
+
+
+def _at_sharp_end(best: Trial, search: Searched) -> Iterator[str]:
+    """Yield the best trial whose contact is clear of the ends, if that of the best one is not."""
+    trials, cost = search.trials, search.objective.cost
+    if not best.is_at_sharp_end or len(search.objective.goals) > 1:
+        return
+    found = [
+        each
+        for each in trials.tried(best.level)
+        if not each.is_at_sharp_end and each.is_feasible(trials.goals, trials.constraints)
+    ]
+    clear = min(found, key=lambda each: cost(each).value, default=None)
+    if clear is not None:
+        (goal,) = search.objective.goals
+        value = format_quantity(clear.worst(goal).value, SCALARS[goal.scalar].units)
+        yield (
+            f"the contact of the best trial reaches a sharp end; of the trials whose contact does "
+            f"not, the best has {value}, at {_where(clear)}; clear_of_ends (--clear-of-ends) searches among these"
+        )
 
 
 def _undecided(best: Trial, limit: Constraint) -> Iterator[str]:

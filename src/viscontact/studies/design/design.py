@@ -53,6 +53,7 @@ def design(  # noqa: PLR0913
     over: Mapping[str, Sequence[Any]] | None = None,
     scatter: Mapping[str, tuple[Any, Any] | str] | None = None,
     constraints: Sequence[str] = (),
+    clear_of_ends: bool = False,
     settings: Mapping[str, Any] | None = None,
     runs: int | None = None,
     workers: int | None = None,
@@ -91,6 +92,10 @@ def design(  # noqa: PLR0913
     constraints : sequence of str, optional
         Bounds on the magnitudes of scalars at all instants of all scenarios, as
         ``["contact_length<=18mm"]``, or with ``>=``.
+    clear_of_ends : bool, optional
+        True: a contact that reaches a sharp end of the body at any instant is never the best one.
+        Pressure has no limit there, also where the cells of a run do not resolve that, so that its
+        peak pressure has an error bar and a warning. By default the error bar decides.
     settings : mapping, optional
         Values of other keys, the same in all runs.
     runs : int, optional
@@ -132,12 +137,13 @@ def design(  # noqa: PLR0913
     1993; locally biased: Gablonsky and Kelley 2001), which needs no derivatives and no random
     numbers; constraints are an exact penalty. If half of the runs have given no feasible trial, the
     search goes on around the one that is closest. The best trials are computed again on the cells
-    of the case, and the search goes on around the best one by the method of Nelder and Mead (1965).
-    Each search ends when its last trials have gained less than the error of the scalar. A global
-    optimum is not guaranteed. A peak pressure without a limit, as where a contact reaches the sharp
-    end of a roller, is never the best one. A trade-off is searched for the best value of each
-    scalar, then for compromises of different weights, by the augmented weighted Chebyshev distance
-    (Steuer and Choo 1983), which also finds curves that are not convex.
+    of the case, and the search goes on around the best one, by radial basis functions through the
+    scalars of all trials and by polls where these predict no gain (Torczon 1997). It ends when the
+    predicted gain, with the error of the last predictions, is small: the gain that is left is
+    `DesignResult.remaining_gain`. A global optimum is not guaranteed. A peak pressure of which a
+    run states that it has no limit is never the best one. A trade-off is searched for the best
+    value of each scalar, then for compromises of different weights, by the augmented weighted
+    Chebyshev distance (Steuer and Choo 1983), which also finds curves that are not convex.
 
     Examples
     --------
@@ -174,8 +180,10 @@ def design(  # noqa: PLR0913
         **{"case": fingerprint(own), "change": repr(change), "goal": repr(goals)},
         **{"over": repr(over), "scatter": repr(scatter or None)},
         **{"constraints": repr(limits), "settings": fixed, "search": SEARCH},
+        **{"clear_of_ends": bool(clear_of_ends)},
     }
-    of_case = CaseTrials(path, fixed, scenarios, goals, limits, coarse_cells(own))
+    cells = coarse_cells(own)
+    of_case = CaseTrials(path, fixed, scenarios, goals, limits, cells, bool(clear_of_ends))
     journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:

@@ -44,12 +44,14 @@ class Exploration:
     def run(self) -> None:
         """Explore until nothing is gained."""
         with contextlib.suppress(EnoughError):
-            self._minimise(self)
+            self._minimise(self._cost)
 
     def _minimise(self, cost: _Cost) -> None:
-        direct(cost, [(0.0, 1.0)] * self.parameters, maxfun=100 * self.most, vol_tol=0, len_tol=1e-4)
+        direct(
+            cost, [(0.0, 1.0)] * self.parameters, maxfun=100 * self.most, vol_tol=0, len_tol=1e-4
+        )
 
-    def __call__(self, given: Any) -> float:
+    def _cost(self, given: Any) -> float:
         point = tuple(map(float, np.ravel(given)))
         score = self.score_at(point, self._next_points)
         self._known[point] = score.cost

@@ -1,8 +1,9 @@
 """Local search: points where a surrogate predicts a gain, and around the best one."""
 
-# A trust-region method with polls. The surrogate proposes the point with the least predicted cost in
-# a box around the best one; where it predicts no gain, the points at the faces of the box are
-# polled, as in a pattern search (Torczon 1997), and then the box is halved.
+# A trust-region method with polls. The surrogate proposes the point with the least predicted cost
+# in a box around the best one; where it predicts no gain, the points at the faces of the box are
+# polled, as in a pattern search (Torczon 1997), and then the box is halved. In the end, points of
+# the whole space are proposed.
 
 from __future__ import annotations
 
@@ -28,6 +29,9 @@ APART, LEAST_APART = 0.02, 2e-4
 GRIDS, SOBOL = {1: 161, 2: 41}, 11
 #: Last predictions that give the error of the surrogate.
 REMEMBERED = 3
+#: Half edge of the box that is the whole space, and the looks there without a gain that end a
+#: search, for each parameter and for the search itself.
+WHOLE, LOOKS = 1.0, 2
 
 
 @dataclass(frozen=True)
@@ -51,6 +55,7 @@ class LocalSearch:
     radius: float = 0.1
     misses: tuple[float, ...] = ()  # last errors of the predicted objective [-]
     margin: float = 0.0  # last error of a predicted excess where a bound was not kept
+    looks: int = 0  # into the whole space, since the last gain
 
     @property
     def best(self) -> Score:
@@ -65,8 +70,10 @@ class LocalSearch:
 
     @property
     def scale(self) -> float:
-        """Size of the objective."""
-        return abs(self.best.value) if math.isfinite(self.best.value) else 1.0
+        """Size of the objective, also where the best one is about zero."""
+        sizes = [abs(each.value) for each in self.with_limits]
+        own = abs(self.best.value) if self.best.has_limit else 0.0
+        return max(own, 1e-3 * max(sizes, default=0.0)) or 1.0
 
     @property
     def with_limits(self) -> list[Score]:
@@ -75,27 +82,37 @@ class LocalSearch:
 
     @property
     def miss(self) -> float:
-        """Error of the predicted objective [-]; inf if it is not known."""
-        return max(self.misses[-REMEMBERED:], default=math.inf)
+        """Error of the predicted objective [-]; NaN if it is not known."""
+        if self.misses:
+            return max(self.misses[-REMEMBERED:])
+        others = [each for each in self.scores if each is not self.best]
+        if not self.best.has_limit or not any(each.has_limit for each in others):
+            return math.nan
+        made, _ = self._predicted(others, np.array([self.best.point])[:, list(self.ranges)])
+        return abs(float(made[0]) - self.best.value / self.scale)
 
     @property
     def parts(self) -> int:
         """Number of the responses that are parts of the objective."""
         return len(self.scores[0].parts) or 1
 
-    def responses(self, points: Floats) -> Floats:
+    def responses(self, points: Floats, scores: Sequence[Score] | None = None) -> Floats:
         """Responses at some points, of shape (points, responses): the costs without limits."""
-        fine, own = self.with_limits, list(self.ranges)
+        known, own = self.scores if scores is None else scores, list(self.ranges)
+        fine = [each for each in known if each.has_limit]
         if not fine:
-            known = [each for each in self.scores if not each.has_failed]
-            return Surrogate.through([(np.take(s.point, own), (s.cost,)) for s in known])(points)
-        few = len(fine) <= 2 * len(own) + 1
-        coarse = self.coarse if few and len(self.coarse) > len(own) else ()
+            done = [each for each in known if not each.has_failed]
+            return Surrogate.through([(_part(each, own), (each.cost,)) for each in done])(points)
+        # Many points on the cells of the case know more about a small box than the coarse ones.
+        is_coarse = len(fine) <= 2 * len(own) + 1 or self.radius == WHOLE
+        coarse = self.coarse if is_coarse and len(self.coarse) > len(own) else ()
         samples = (
-            [(np.take(each.point, own), each.responses) for each in group]
-            for group in (fine, coarse)
+            [(_part(each, own), each.responses) for each in group] for group in (fine, coarse)
         )
         return Surrogate.through(*samples)(points)
+
+    def _predicted(self, scores: Sequence[Score], points: Floats) -> tuple[Floats, Floats]:
+        return self.objective_and_excess(self.responses(points, scores))
 
     def objective_and_excess(self, responses: Floats) -> tuple[Floats, Floats]:
         """Objective over its size, and largest excess, of some responses."""
@@ -122,35 +139,38 @@ class LocalSearch:
             if found is not None:
                 return state, found
             if len(state.misses) >= REMEMBERED and state.remaining_gain() <= state.tolerance:
-                return None
+                break
             state = replace(state, radius=state.radius / 2)
-        return None
+        if state.looks >= LOOKS * (1 + len(self.ranges)) or not self.with_limits:
+            return None
+        made = replace(state, radius=WHOLE)._model_step()
+        return None if made is None else (replace(state, looks=state.looks + 1), made)
 
     def after(self, made: Prediction, score: Score) -> LocalSearch:
         """The search with the score of a point that it has proposed."""
         before, known = self.best, {each.key for each in self.scores}
         scores = self.scores if score.key in known else (*self.scores, score)
         found = replace(self, scores=scores)
-        misses, margin, radius = self.misses, self.margin, self.radius
+        misses, margin, radius, looks = self.misses, self.margin, self.radius, self.looks
         if score.has_limit:
-            misses = (*misses, abs(score.value / self.scale - made.objective))
+            if len(self.with_limits) > len(self.ranges):
+                misses = (*misses, abs(score.value / self.scale - made.objective))
             over = score.excess - made.excess if score.excess > 0 else 0.0
             margin = min(max(over, margin / 2), 10 * LEAST_GAIN)
         if found.best is score and self._gain(before, score) > self.tolerance:
-            if self._distance(score.point, before.point) > 0.9 * radius:
-                radius = min(2 * radius, LARGEST_RADIUS)
+            moved = self._distance(score.point, before.point)
+            looks, radius = 0, min(max(2 * moved, radius / 2), LARGEST_RADIUS)
         elif score.has_limit and made.cost < self.own_cost(before) - self.tolerance:
             radius /= 2  # the surrogate has promised a gain
-        return replace(found, misses=misses, margin=margin, radius=radius)
+        return replace(found, misses=misses, margin=margin, radius=radius, looks=looks)
 
     def remaining_gain(self) -> float:
         """Gain that the surrogate leaves in the box, with the error of its predictions [-]."""
         points = self._box()
-        objective, excess = self.objective_and_excess(self.responses(points))
-        open_to = (excess <= self.margin) & ~self._behind_barriers(points)
-        best = self.best.value / self.scale
-        gain = best - objective[open_to].min(initial=math.inf)
-        return max(0.0, gain if math.isfinite(gain) else 0.0) + self.miss
+        objective, excess = self._predicted(self.scores, points)
+        is_open = (excess <= self.margin) & ~self._behind_barriers(points)
+        least = float(objective[is_open].min(initial=math.inf))
+        return max(0.0, self.best.value / self.scale - least) + self.miss
 
     def _gain(self, before: Score, after: Score) -> float:
         if before.is_feasible != after.is_feasible:
@@ -230,6 +250,10 @@ class LocalSearch:
 
     def _distance(self, one: Point, other: Point) -> float:
         return float(np.abs(np.subtract(one, other)).max())
+
+
+def _part(score: Score, numbers: Sequence[int]) -> Point:
+    return tuple(score.point[number] for number in numbers)
 
 
 def _offsets(count: int) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -24,6 +25,10 @@ from viscontact.studies.scalars import Value, places_of, value_columns
 from viscontact.studies.study_result import StudyResult
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
+from viscontact.units.formatting import format_quantity
+
+#: Least remaining gain that a sentence states, relative to the best value.
+LEAST_STATED = 5e-4
 
 
 @dataclass(frozen=True)
@@ -174,7 +179,8 @@ class DesignResult(StudyResult):
         values = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
         if len(self.goals) == 1:
             goal = self.goal
-            return f"{goal}: {self._format(goal, self.number)} at {values}{self._prior(goal)}"
+            own, further = self._format(goal, self.number), self._further(goal)
+            return f"{goal}: {own} at {values}{self._prior(goal)}{further}"
         each = (f"{g.scalar} {self._format(g, self.number)}{self._prior(g)}" for g in self.goals)
         return (
             f"{_list_texts(map(str, self.goals))}: {self.front.sizes['trial']} trials are not "
@@ -185,6 +191,15 @@ class DesignResult(StudyResult):
         if not np.isfinite(self.table[goal.scalar].values[0]):
             return ""
         return f", where the case has {self._format(goal, 0)}"
+
+    def _further(self, goal: Goal) -> str:
+        """Gain that further runs may have, unless that is within the last digit of the value."""
+        left, value = self.remaining_gain, abs(float(self.best[goal.scalar]))
+        if not LEAST_STATED * value < left < math.inf:
+            return ""
+        return (
+            f"; further runs may gain up to {format_quantity(left, SCALARS[goal.scalar].units, 2)}"
+        )
 
     def _format(self, goal: Goal, trial: int) -> str:
         name = goal.scalar

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
 
 from viscontact.studies.design.exploration import UNFEASIBLE_PART, Exploration
-from viscontact.studies.design.local_search import LARGEST_RADIUS, LocalSearch
+from viscontact.studies.design.local_search import LocalSearch
 from viscontact.studies.design.scores import (
     Evaluate,
     Foreseen,
@@ -61,18 +61,19 @@ def search(
     """
     made = _Search(evaluate, space, budget, levels, size)
     made.tried.update({each.key: each for each in known})
+    # The optimum is that of the finest cells. What its surroundings do not need is left to the rest
+    # of the space.
+    most = MOST_RESERVED * (1 + len(space.parameters)) * size
     budget.reserved = held
-    if len(levels) > 1:
-        # The optimum is that of the finest cells.
-        most = MOST_RESERVED * (1 + len(space.parameters)) * size
-        budget.reserved += min(most, budget.left // RESERVED)
-    first = levels[0]
-    made.within_budget(partial(made.explore, first))
-    if not ranked(made.at(first)):
-        made.within_budget(partial(made.approach, first))
-    budget.reserved, made.is_cut_short = held, False
-    made.within_budget(made.certify)
-    made.within_budget(made.refine)
+    for kept in (min(most, budget.left // RESERVED), 0):
+        budget.reserved = held + kept
+        made.is_cut_short = False
+        made.within_budget(made.explore)
+        budget.reserved, is_unexplored = held, made.is_cut_short
+        made.within_budget(made.certify)
+        made.within_budget(made.refine)
+        if not is_unexplored:
+            break
     best = next(iter(ranked(made.at(levels[-1]))), None)
     return Found(best, made.is_cut_short, made.remaining_gain)
 
@@ -101,7 +102,13 @@ class _Search:
         """Points of a level."""
         return [each for each in self.tried.values() if each.level == level]
 
-    def explore(self, level: Level) -> None:
+    def explore(self) -> None:
+        """Search the whole space on the cheapest cells, until there are feasible points."""
+        self._explore(self.levels[0])
+        if not ranked(self.at(self.levels[0])):
+            self._approach(self.levels[0])
+
+    def _explore(self, level: Level) -> None:
         """Search the whole space: all combinations of choices, or DIRECT over the ranges."""
         choices = [each for each in self.space.parameters if isinstance(each, Choice)]
         if len(choices) == len(self.space.parameters):
@@ -119,7 +126,7 @@ class _Search:
         ).run()
         self._try_ends(level)
 
-    def approach(self, level: Level) -> None:
+    def _approach(self, level: Level) -> None:
         """Search around the point that is closest to a feasible one, where none is feasible."""
         if closest(self.at(level)) is not None and self.space.ranges:
             self._search_around(level, WIDE_BOX, lambda: bool(ranked(self.at(level))))
@@ -186,9 +193,11 @@ class _Search:
         assert best is not None
         ranges = self.space.ranges
 
-        def choices(score: Score) -> tuple[str, ...]:
+        keys = [key for number, key in enumerate(self.space.keys) if number not in ranges]
+
+        def choices(score: Score) -> list[str]:
             settings = self.space.settings(score.point)
-            return tuple(settings[self.space.keys[n]] for n in range(len(self.space.keys)) if n not in ranges)
+            return [settings[key] for key in keys]
 
         own = choices(best)
         alike = [each for each in self.tried.values() if choices(each) == own]

@@ -12,6 +12,8 @@ from viscontact.backend.arrays import Floats
 
 #: Values at some points, of shape (points, columns).
 Interpolant = Callable[[Floats], Floats]
+#: Point and its responses.
+Sample = tuple[Sequence[float], Sequence[float]]
 
 
 def interpolant(points: Floats, values: Floats) -> Interpolant:
@@ -19,11 +21,13 @@ def interpolant(points: Floats, values: Floats) -> Interpolant:
     count, size = points.shape
     if count == 1:
         return lambda wanted: np.repeat(values, len(wanted), axis=0)
-    # Points on a line or in a plane do not fix the linear part.
+    # Points of a line in a plane do not fix a linear part.
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
     if count > size and spread[-1] > 1e-6 * spread[0]:
-        return RBFInterpolator(points, values, kernel="cubic", degree=1)
-    return RBFInterpolator(points, values, kernel="linear", degree=0)
+        found: Interpolant = RBFInterpolator(points, values, kernel="cubic", degree=1)
+    else:
+        found = RBFInterpolator(points, values, kernel="linear", degree=0)
+    return found
 
 
 @dataclass(frozen=True)
@@ -46,10 +50,6 @@ class Surrogate:
         """Responses at some points, of shape (points, responses)."""
         found = self.correction(points)
         return found if self.coarse is None else found + self.coarse(points)
-
-
-#: Point and its responses.
-Sample = tuple[Sequence[float], Sequence[float]]
 
 
 def _columns(samples: Sequence[Sample]) -> tuple[Floats, Floats]:

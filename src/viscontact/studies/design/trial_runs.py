@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -10,12 +11,13 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.studies.case_values import result_with
+from viscontact.studies.case_values import case_with, result_with
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
-from viscontact.studies.design.trials import REACH, goal_name
+from viscontact.studies.design.sharp_ends import reaches_sharp_end
+from viscontact.studies.design.trials import AT_END, REACH, goal_name
 from viscontact.studies.evaluation import Level, SimulatedRun
-from viscontact.studies.scalars import magnitude
+from viscontact.studies.scalars import Value, magnitude
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,7 @@ class CaseTrials:
     goals: tuple[Goal, ...]
     constraints: tuple[Constraint, ...]
     coarse: Mapping[str, str]  # settings of the coarse cells
+    clear_of_ends: bool = False  # a contact that reaches a sharp end is as one without a limit
 
     def __call__(self, settings: Mapping[str, str], level: Level) -> list[SimulatedRun]:
         """Runs of a trial with some values, in the order of the scenarios."""
@@ -39,12 +42,16 @@ class CaseTrials:
             whole = {**fixed, **each.settings(settings)}
             result = partial(result_with, self.case, whole)
             key = f"{level} {number} {values}"
-            runs.append(SimulatedRun(key, result, self.numbers))
+            runs.append(SimulatedRun(key, result, partial(self.numbers, whole)))
         return runs
 
-    def numbers(self, found: xr.Dataset) -> dict[str, Any]:
+    def numbers(self, settings: Mapping[str, str], found: xr.Dataset) -> dict[str, Any]:
         """Goals, constraints and reach of the contact in a run, with their errors, by name."""
         values = {goal_name(goal): goal.value(found) for goal in self.goals}
         values |= {str(each): each.value(found) for each in self.constraints}
         values[REACH] = magnitude(found, REACH, "worst")
+        if found.attrs.get("warnings"):
+            is_sharp = reaches_sharp_end(case_with(self.case, settings).indenter, found)
+            has_limit = not (is_sharp and self.clear_of_ends)
+            values[AT_END] = Value(float(is_sharp), 0.0 if has_limit else math.inf)
         return {name: [each.value, each.error] for name, each in values.items()}

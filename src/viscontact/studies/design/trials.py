@@ -12,6 +12,9 @@ from viscontact.studies.scalars import Value
 
 #: Scalar that shows how far a contact reaches, where it reaches a sharp end.
 REACH = "contact_length"
+#: Name of the value that is one where a contact reaches a sharp end, without a limit where that is
+#: not allowed.
+AT_END = "contact at a sharp end"
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,11 @@ class Trial:
         lengths = [each.values.get(REACH, _NONE).value for each in self.results]
         return max((each for each in lengths if not math.isnan(each)), default=0.0)
 
+    @property
+    def is_at_sharp_end(self) -> bool:
+        """True if the contact reaches a sharp end of the body in a scenario."""
+        return any(each.values.get(AT_END, _NONE).value == 1.0 for each in self.results)
+
     def extreme(self, constraint: Constraint) -> Value:
         """Value of a constraint in the scenario that comes closest to its bound, or exceeds it."""
         values = [each.values.get(str(constraint), _NONE) for each in self.results]
@@ -83,13 +91,12 @@ class Trial:
 
     def has_limits(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
         """True if no goal depends on the mesh, and no scalar that has a largest allowed value."""
-        values = [self.worst(goal) for goal in goals]
-        values += [
-            result.values.get(str(each), _NONE)
-            for each in constraints
-            for result in self.results
-            if each.upper
+        names = [goal_name(goal) for goal in goals] + [
+            str(each) for each in constraints if each.upper
         ]
+        values = (
+            each.values.get(name, _NONE) for each in self.results for name in (*names, AT_END)
+        )
         return not any(each.depends_on_mesh for each in values)
 
     def is_feasible(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
