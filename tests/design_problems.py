@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ import viscontact as vc
 from viscontact.studies.case_values import result_with
 from viscontact.studies.design.goals import constraints_of
 from viscontact.studies.scalars import magnitude
-from viscontact.studies.space import given_parameter
+from viscontact.studies.space import Choice, Range, given_parameter
 
 POM = """
 indenter:
@@ -73,6 +72,22 @@ load: {kind: step, force: 40 N}
 time: {end: 1 s, steps: 1}
 grid: {shape: [48, 48], size: [14 mm, 14 mm]}
 """
+TWO_RADII = """
+indenter:
+  shape: roller
+  radius: 6 mm
+  half_length: 2 mm
+  profile:
+    kind: two-radii
+    crown_radius: 500 mm
+    crown_length: 6 mm
+    end_radius: 50 mm
+    end_length: 10 mm
+material: {law: elastic, shear_modulus: 900 MPa, poisson_ratio: 0.38}
+load: {kind: step, force: 2 kN, eccentricity_x: 1 mm}
+time: {end: 1 s, steps: 1}
+grid: {shape: [60, 32], size: [20.5 mm, 2.4 mm]}
+"""
 BALL = """
 indenter: {shape: sphere, radius: 5 mm}
 material:
@@ -88,6 +103,7 @@ ROUNDED = """
 indenter:
   shape: revolved
   points: [[0 mm, 0 um], [1 mm, 10 um], [1.5 mm, 60 um], [2 mm, 260 um]]
+  interpolation: smooth
 material: {law: elastic, shear_modulus: 3 MPa, poisson_ratio: 0.45}
 load: {kind: step, force: 4 N}
 time: {end: 1 s, steps: 1}
@@ -119,7 +135,6 @@ class Problem:
     constraints: tuple[str, ...] = ()
     least: bool = True
     runs: int | None = None
-    settings: Mapping[str, str] | None = None
 
     @property
     def aim(self) -> dict[str, Any]:
@@ -142,25 +157,39 @@ class Problem:
             warnings.simplefilter("ignore", vc.AccuracyWarning)
             return vc.design(self.written(folder), dict(self.change), **self.aim, **options)
 
-    def scanned(self, folder: Path) -> tuple[float, dict[str, str], float]:
-        """Best value with a limit that keeps the constraints, its settings and its error."""
+    def scanned(self, folder: Path) -> float:
+        """Best value of a scan of runs, among those with a limit that keep the constraints."""
         path, limits = self.written(folder), constraints_of(self.constraints)
         ranges = [given_parameter("change", *each) for each in self.change.items()]
-        parts = [[n / (count - 1) for n in range(count)] for count in self.points]
-        best, where, bar = math.inf, {}, math.nan
+        parts = [_parts(*each) for each in zip(ranges, self.points, strict=True)]
+        found = []
         for point in product(*parts):
             values = {r.key: r.value(part) for r, part in zip(ranges, point, strict=True)}
             try:
-                warnings.simplefilter("ignore")
-                found = result_with(path, values | {"output.fields": "none"})
+                result = result_with(path, {**values, "output.fields": "none"})
             except (ValueError, vc.ConvergenceError, vc.DomainError):
                 continue
-            value = magnitude(found, self.goal, "worst", largest=self.least)
-            kept = all(limit.violation(limit.value(found).value) <= 0 for limit in limits)
-            cost = value.value if self.least else -value.value
-            if kept and not value.depends_on_mesh and cost < best:
-                best, where, bar = cost, values, value.error
-        return abs(best), where, bar
+            value = magnitude(result, self.goal, "worst", largest=self.least)
+            excess = [limit.violation(limit.value(result).value) for limit in limits]
+            if not value.depends_on_mesh and max(excess, default=0.0) <= 0.0:
+                found.append(value.value)
+        return min(found) if self.least else max(found)
+
+    def found(self, design: vc.DesignResult) -> tuple[float, float]:
+        """Best value of a design, and its error bar."""
+        best = design.best
+        return float(best[self.goal]), float(best[f"{self.goal}_error"])
+
+    def shortfall(self, found: float, best: float) -> float:
+        """Part of the best value by which the found one is worse."""
+        return (found - best) / best * (1 if self.least else -1)
+
+
+def _parts(parameter: Range | Choice, count: int) -> list[float]:
+    """Coordinates of the points of a scan, with both ends of a range."""
+    if isinstance(parameter, Choice):
+        return [(number + 0.5) / count for number in range(count)]
+    return [number / (count - 1) for number in range(count)]
 
 
 CROWN, STRAIGHT = "indenter.crown_radius", "indenter.half_length"
@@ -189,6 +218,14 @@ PROBLEMS = (
         *("peak_pressure", (21, 13)),
     ),
     Problem(
+        *("two radii", TWO_RADII),
+        {
+            f"{PROFILE}.crown_radius": ("100 mm", "5 m", "log"),
+            f"{PROFILE}.end_radius": ("10 mm", "100 mm", "log"),
+        },
+        *("peak_pressure", (17, 11)),
+    ),
+    Problem(
         *("chamfer", CHAMFER),
         {f"{PROFILE}.corner_radius": ("0.5 mm", "25 mm", "log")},
         *("peak_pressure", (41,)),
@@ -205,6 +242,16 @@ PROBLEMS = (
         runs=25,
     ),
     Problem(
+        *("cover and ball", COVER),
+        {
+            "material.layers[1].thickness": ("0.5 mm", "10 mm", "log"),
+            "indenter.radius": ("5 mm", "60 mm", "log"),
+        },
+        *("peak_pressure", (17, 17)),
+        constraints=("approach<=0.5 mm", "contact_width<=10 mm"),
+        runs=40,
+    ),
+    Problem(
         *("ball, pressure bounded", BALL, {"load.force": ("0.05 N", "20 N", "log")}),
         *("approach", (41,)),
         constraints=("peak_pressure<=2 MPa",),
@@ -213,7 +260,7 @@ PROBLEMS = (
     ),
     Problem(
         *("rounded punch", ROUNDED),
-        {"indenter.points[3][1]": ("1.1 mm", "1.9 mm")},
+        {"indenter.points[2][2]": ("0 um", "60 um")},
         *("peak_pressure", (41,)),
         runs=25,
     ),

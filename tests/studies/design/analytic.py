@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from viscontact.studies.design import evaluated_trials
 from viscontact.studies.design.conclusions import notes_on
@@ -112,6 +116,43 @@ def trials_of(
 def notes(best: Trial, search: Searched) -> list[str]:
     """Notes on the best trial."""
     return list(notes_on(best, search.trials.in_order()[0], search))
+
+
+@dataclass(frozen=True)
+class KnownFunction:
+    """Function of two variables from 0 to 1, with its least value."""
+
+    values: Function
+    constraints: tuple[str, ...]
+    least: float
+
+
+def random_function(seed: int) -> KnownFunction:
+    """A parabola with waves: as it is, with a kink, without a limit behind a line, or bounded."""
+    rng = np.random.default_rng(seed)
+    center, curvature, waves = rng.uniform(0, 1, 2), rng.uniform(0.2, 3, 2), rng.uniform(2, 6, 2)
+    height, slope, normal = rng.uniform(0, 0.3), rng.uniform(-2, 2, 2), rng.uniform(0.3, 1.5, 2)
+    kind = ("smooth", "kinked", "limited", "bounded")[seed % 4]
+
+    def force(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = 3 + (x - center) ** 2 @ curvature + height * np.sin(x @ waves)
+        plane = 3.2 + (x - center) @ slope
+        return np.asarray(np.maximum(found, plane) if kind == "kinked" else found)
+
+    def behind(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(x @ normal / normal.sum() - 0.5)
+
+    def values(v: Mapping[str, float]) -> dict[str, Value]:
+        x = np.array([v["load.x"], v["load.y"]])
+        error = math.inf if kind == "limited" and behind(x) > 0 else 0.0
+        limit = {"contact_length <= 500 mm": Value(0.5 + float(behind(x)), 0.0)}
+        return {"force": Value(float(force(x)), error)} | (limit if kind == "bounded" else {})
+
+    line = np.linspace(0, 1, 301)
+    points = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
+    is_open = (behind(points) <= 0) | (kind in ("smooth", "kinked"))
+    bounds = ("contact_length<=0.5 m",) if kind == "bounded" else ()
+    return KnownFunction(values, bounds, float(force(points[is_open]).min()))
 
 
 def _number(text: str) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import time
@@ -200,6 +201,21 @@ def test_a_directory_of_another_design_is_refused(ball: Path, tmp_path: Path) ->
     ball.write_text(BALL)
     with pytest.raises(ValueError, match="with a different case"):
         vc.design(ball, change, minimise="approach", workers=1, directory=place)
+
+
+def test_a_journal_of_an_earlier_search_is_refused_in_one_sentence(
+    ball: Path, tmp_path: Path
+) -> None:
+    place, change = tmp_path / "found", {"load.force": ["0.05 N", "0.2 N"]}
+    vc.design(ball, change, minimise="approach", workers=1, directory=place)
+    journal = place / "trials.jsonl"
+    first, *others = journal.read_text().splitlines(keepends=True)
+    header = json.loads(first)
+    del header["search"], header["clear_of_ends"]  # which it did not have
+    journal.write_text("".join([json.dumps(header) + "\n", *others]))
+    with pytest.raises(ValueError, match="holds another design, with a different search") as error:
+        vc.design(ball, change, minimise="approach", workers=1, directory=place)
+    assert "\n" not in str(error.value)
 
 
 CROWNED = """

@@ -145,7 +145,8 @@ def _at_sharp_end(best: Trial, search: Searched) -> Iterator[str]:
         value = format_quantity(clear.worst(goal).value, SCALARS[goal.scalar].units)
         yield (
             f"the contact of the best trial reaches a sharp end; of the trials whose contact does "
-            f"not, the best has {value}, at {_where(clear)}; clear_of_ends (--clear-of-ends) searches among these"
+            f"not, the best has {value}, at {_where(clear)}; clear_of_ends "
+            "(--clear-of-ends) searches among these"
         )
 
 

@@ -15,8 +15,8 @@ import numpy as np
 from scipy.stats.qmc import Sobol
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.studies.design.scores import PENALTY, Point, Score, best_or_closest
-from viscontact.studies.design.surrogate import Surrogate
+from viscontact.studies.design.scores import PENALTY, Point, Score, best_or_closest, ranked
+from viscontact.studies.design.surrogate import Surrogate, interpolant
 
 #: Least gain that counts, relative to the objective, where the error is smaller or not known; the
 #: part of the error that counts where it is larger, and the most of that.
@@ -29,6 +29,8 @@ APART, LEAST_APART = 0.02, 2e-4
 GRIDS, SOBOL = {1: 161, 2: 41}, 11
 #: Last predictions that give the error of the surrogate.
 REMEMBERED = 3
+#: Points whose gain is expected of as many further ones, for each parameter and for the search.
+RECENT = 3
 #: Half edge of the box that is the whole space, and the looks there without a gain that end a
 #: search, for each parameter and for the search itself.
 WHOLE, LOOKS = 1.0, 2
@@ -172,6 +174,11 @@ class LocalSearch:
         least = float(objective[is_open].min(initial=math.inf))
         return max(0.0, self.best.value / self.scale - least) + self.miss
 
+    def recent_gain(self) -> float:
+        """Gain of the last points, a few for each parameter; zero if there was none."""
+        before = ranked(self.scores[: -RECENT * (1 + len(self.ranges))])
+        return (before[0].value - self.best.value) / self.scale if before else 0.0
+
     def _gain(self, before: Score, after: Score) -> float:
         if before.is_feasible != after.is_feasible:
             return math.inf
@@ -226,13 +233,16 @@ class LocalSearch:
         return np.clip(center + self.radius * _offsets(len(self.ranges)), 0.0, 1.0)
 
     def _is_open(self, points: Floats) -> Bools:
-        """True where a point is apart from all known ones, and the nearest one has a limit."""
+        """True where a point is apart from all known ones, and more likely than not has a limit."""
         known = self._coordinates(self.scores)
         distances = np.linalg.norm(points[:, None] - known, axis=2)
+        is_apart = distances.min(axis=1) > max(LEAST_APART, APART * self.radius)
         limits = np.array([each.has_limit for each in self.scores])
-        apart = distances.min(axis=1) > max(LEAST_APART, APART * self.radius)
-        near = limits[distances.argmin(axis=1)] if limits.any() else True
-        return np.asarray(apart & near)
+        if limits.all() or not limits.any():
+            return np.asarray(is_apart)
+        # The surface between both kinds of points is that on which an interpolant is zero.
+        kinds = interpolant(known, np.where(limits, 1.0, -1.0)[:, None])
+        return np.asarray(is_apart & (kinds(points)[:, 0] >= 0.0))
 
     def _behind_barriers(self, points: Floats) -> Bools:
         """True where a point without a limit lies between a point and the best one."""

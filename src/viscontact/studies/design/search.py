@@ -177,15 +177,19 @@ class _Search:
 
     def _search_around(self, level: Level, radius: float, is_enough: Callable[[], bool]) -> None:
         """Search around the best or the closest point of a level."""
-        state = self._local(level, radius)
+        state, is_over = self._local(level, radius), False
         try:
             while not is_enough() and (step := state.proposal()) is not None:
                 state, made = step
                 score = self.score_at(made.point, level, partial(_followers, state))
                 state = state.after(made, score)
+            is_over = True
         finally:
             if state.best.is_feasible:
-                self.remaining_gain = state.scale * state.remaining_gain()
+                # Smaller gains than the tolerance have not been followed.
+                left = max(state.remaining_gain(), state.tolerance)
+                left = left if is_over else max(left, state.recent_gain())
+                self.remaining_gain = state.scale * left
 
     def _local(self, level: Level, radius: float) -> LocalSearch:
         """Local search among the points with the choices of the best one."""
