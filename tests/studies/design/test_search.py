@@ -156,6 +156,16 @@ def test_a_scalar_without_a_limit_does_not_keep_an_upper_bound() -> None:
     assert 0.39 < float(best.settings["load.x"]) <= 0.4
 
 
+def test_a_range_of_less_than_the_digits_of_its_values_is_searched_to_an_end() -> None:
+    def slope(v: Mapping[str, float]) -> dict[str, Value]:
+        return exact(3 - v["load.x"])
+
+    design, best = searched(slope, {"load.x": ("1", "1.0001")})
+    assert best is not None
+    assert float(best.settings["load.x"]) == 1.0001
+    assert design.trials.budget.runs < 10
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_the_optimum_of_a_random_function_is_found_within_the_stated_gain(seed: int) -> None:
     known = random_function(seed)

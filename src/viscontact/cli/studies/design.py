@@ -51,7 +51,7 @@ def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         "over": scenarios_of(typed["over"]),
         "scatter": by_key("--scatter", typed["scatter"], _SCATTER, _scatter),
         "constraints": typed["constraint"] or (),
-        "clear_of_ends": typed["clear_of_ends"],
+        "clear_of_ends": bool(typed.get("clear_of_ends")),
         "runs": typed["runs"],
     }
 

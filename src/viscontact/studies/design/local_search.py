@@ -150,9 +150,10 @@ class LocalSearch:
 
     def after(self, made: Prediction, score: Score) -> LocalSearch:
         """The search with the score of a point that it has proposed."""
-        before, known = self.best, {each.key for each in self.scores}
-        scores = self.scores if score.key in known else (*self.scores, score)
-        found = replace(self, scores=scores)
+        if any(each.key == score.key for each in self.scores):
+            # The values of a narrow range are equal to all their digits.
+            return replace(self, radius=self.radius / 2)
+        before, found = self.best, replace(self, scores=(*self.scores, score))
         misses, margin, radius, looks = self.misses, self.margin, self.radius, self.looks
         if score.has_limit:
             if len(self.with_limits) > len(self.ranges):

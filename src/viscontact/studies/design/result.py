@@ -193,9 +193,11 @@ class DesignResult(StudyResult):
         return f", where the case has {self._format(goal, 0)}"
 
     def _further(self, goal: Goal) -> str:
-        """Gain that further runs may have, unless that is within the last digit of the value."""
+        """Gain that further runs may have, unless that is hardly more than nothing."""
         left, value = self.remaining_gain, abs(float(self.best[goal.scalar]))
-        if not LEAST_STATED * value < left < math.inf:
+        if math.isnan(left):
+            return "; what further runs may gain is not known"
+        if left <= LEAST_STATED * value:
             return ""
         return (
             f"; further runs may gain up to {format_quantity(left, SCALARS[goal.scalar].units, 2)}"

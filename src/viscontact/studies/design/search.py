@@ -170,7 +170,10 @@ class _Search:
 
     def refine(self) -> None:
         """Search around the best point on the finest cells, or the closest one if none is."""
-        if best_or_closest(self.at(self.levels[-1])) is None or not self.space.ranges:
+        if best_or_closest(self.at(self.levels[-1])) is None:
+            return
+        if not self.space.ranges:
+            self.remaining_gain = 0.0  # all combinations have been tried
             return
         self._search_around(self.levels[-1], BOX, lambda: False)
         self._try_ends(self.levels[-1])
