@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from closeness import close_to
 from viscontact.studies.calibration.unknowns import Unknown
 from viscontact.studies.case_values import refuse_repeated
 from viscontact.studies.space import Choice, Range, Scatter, Space, given_scatter
@@ -25,6 +26,18 @@ def test_bounds_of_a_range_keep_all_their_digits() -> None:
     assert found.value(0.0) == "1.2345678 mm"
     assert found.value(1.0) == "2.3456789 mm"
     assert found.value(0.5) == "1.7901 mm"
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 1.0])
+def test_value_of_a_range_is_at_its_own_part_in_any_unit(part: float) -> None:
+    force = Range("load.force", 1.0, 100.0, "kN", logarithmic=True)
+    assert force.part_of(force.value(part)) == close_to(part, abs=1e-11)
+    assert force.part_of("10000 N") == close_to(0.5, rel=1e-12)
+    assert force.part_of("200 kN") is None
+    assert force.part_of("10 mm") is None
+    material = Choice("material", ("a", "b"))
+    assert Space((force, material)).point({"load.force": "1 kN", "material": "b"}) == (0.0, 0.75)
+    assert Space((force, material)).point({"load.force": "1 kN"}) is None
 
 
 def test_point_of_a_choice_is_one_of_its_names() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, Literal
@@ -46,6 +46,19 @@ class Range:
             text = f"{float(text):.{self.digits}g}"
         return f"{text} {self.unit}".rstrip()
 
+    def part_of(self, value: str) -> float | None:
+        """Part of the range at a value; None outside of it, or if it is no quantity."""
+        try:
+            sizes = [parse_any_quantity(each) for each in (self.value(0.0), self.value(1.0), value)]
+        except ValueError:
+            return None
+        (low, unit), (high, _), (number, own) = sizes
+        if unit != own or not low <= number <= high:
+            return None
+        if self.logarithmic:
+            low, high, number = (math.log(each) for each in (low, high, number))
+        return (number - low) / (high - low)
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -57,6 +70,12 @@ class Choice:
     def value(self, part: float) -> str:
         """Value at a part of the list, 0 to 1, as ``--set`` takes it."""
         return self.values[min(int(part * len(self.values)), len(self.values) - 1)]
+
+    def part_of(self, value: str) -> float | None:
+        """Part of the list at a value; None if it is none of them."""
+        if value not in self.values:
+            return None
+        return (self.values.index(value) + 0.5) / len(self.values)
 
 
 @dataclass(frozen=True)
@@ -106,6 +125,11 @@ class Space:
         """Values of the case at a point, by key."""
         pairs = zip(self.parameters, point, strict=True)
         return {each.key: each.value(float(np.clip(part, 0.0, 1.0))) for each, part in pairs}
+
+    def point(self, settings: Mapping[str, str]) -> tuple[float, ...] | None:
+        """Point at some values by key; None if one is missing, or outside of the space."""
+        parts = [each.part_of(settings.get(each.key, "")) for each in self.parameters]
+        return None if None in parts else tuple(part for part in parts if part is not None)
 
     def corners(self) -> list[dict[str, str]]:
         """Values with one parameter at an end of its range, and the others in their middle."""

@@ -86,7 +86,7 @@ def searched(
     """Search for the best `force` of a function, and return the search and the best trial."""
     goals = (Goal("force", least),)
     trials = trials_of(function, goals, change, constraints=constraints, **options)
-    trials.of_case()
+    trials.of_case({})
     search = evaluated_trials.searched(trials, Objective(goals))
     return search, search.best
 

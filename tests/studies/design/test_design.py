@@ -108,6 +108,16 @@ def test_the_result_states_the_case_before_and_after(ball: Path) -> None:
     assert str(found).startswith("least approach: ")
 
 
+def test_the_values_of_the_case_count_as_a_trial_within_the_ranges(ball: Path) -> None:
+    ball.write_text(BALL)
+    # Two runs are the case, of 0.1 N, and the middle of the range.
+    change = {"load.force": ("0.05 N", "1 N")}
+    found = vc.design(ball, change, minimise="peak_pressure", runs=2, workers=1)
+    assert found.settings == {"load.force": "0.1 N"}
+    assert found.table["load.force"].values.tolist() == [0.1, 0.525]
+    assert int(found.table.attrs["best"]) == 0
+
+
 def test_a_design_goes_on_where_it_was_interrupted(ball: Path, tmp_path: Path) -> None:
     ball.write_text(BALL)
     place = tmp_path / "found"

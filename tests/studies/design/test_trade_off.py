@@ -44,7 +44,7 @@ def bells(v: Mapping[str, float]) -> dict[str, Value]:
 def front_of(function: object, budget: int = 300) -> tuple[NDArray[np.float64], int]:
     """Costs on the front of a function, sorted by the first one, and the number of runs."""
     trials = trials_of(function, GOALS, TWO, budget=budget)  # type: ignore[arg-type]
-    trials.of_case()
+    trials.of_case({})
     searched_trade_off(trials)
     done = [each for each in trials.in_order() if not each.failure]
     costs = costs_of(done, GOALS)

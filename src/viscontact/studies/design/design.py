@@ -208,7 +208,7 @@ def _search(
 ) -> DesignResult:
     """Search, and describe the best trial, with notes `known` before; ValueError if none is."""
     goals, limits = trials.goals, trials.constraints
-    searches = _searches(trials)
+    searches = _searches(trials, own)
     best = searches[-1].best
     if best is None:
         raise InfeasibleError(why_infeasible(trials))
@@ -238,10 +238,10 @@ def _search(
     )
 
 
-def _searches(trials: Trials) -> list[Searched]:
+def _searches(trials: Trials, own: Mapping[str, str]) -> list[Searched]:
     """Searches for the goals, after the case itself; all know the trials of the others."""
     try:
-        trials.of_case()
+        trials.of_case(own)
     except BudgetSpentError:
         most, size = trials.budget.most, trials.size
         raise ValueError(f"runs: {most} are too few for {size} scenarios") from None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -63,9 +63,14 @@ class Trials:
         found = (self.made[key] for key in self.points)
         return [trial for trial in found if level in (None, trial.level)]
 
-    def of_case(self) -> Trial:
-        """Trial of the case with its own values."""
-        return self._trial({}, "case", None)
+    def of_case(self, own: Mapping[str, str]) -> Trial:
+        """Trial of the case with its `own` values, which counts as any other within the ranges."""
+        trial, point = self._trial({}, "case", None), self.space.point(own)
+        if point is not None:
+            del self.made[trial.key]
+            trial = replace(trial, settings={key: own[key] for key in self.space.keys})
+            self.made[trial.key], self.points[trial.key] = trial, point
+        return trial
 
     def _trial(
         self,
