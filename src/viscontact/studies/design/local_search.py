@@ -29,8 +29,8 @@ APART, LEAST_APART = 0.02, 2e-4
 GRIDS, SOBOL = {1: 161, 2: 41}, 11
 #: Last predictions that give the error of the surrogate.
 REMEMBERED = 3
-#: Points whose gain is expected of as many further ones, for each parameter and for the search.
-RECENT = 3
+#: Last points, whose gain is expected of as many further ones, for each parameter and the search.
+RECENT = 1
 #: Half edge of the box that is the whole space, and the looks there without a gain that end a
 #: search, for each parameter and for the search itself.
 WHOLE, LOOKS = 1.0, 2
