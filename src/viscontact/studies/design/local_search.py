@@ -172,6 +172,7 @@ class LocalSearch:
         points = self._box()
         objective, excess = self._predicted(self.scores, points)
         is_open = (excess <= self.margin) & ~self._behind_barriers(points)
+        is_open &= self._limits(points) > -1.0
         least = float(objective[is_open].min(initial=math.inf))
         return max(0.0, self.best.value / self.scale - least) + self.miss
 
@@ -238,12 +239,15 @@ class LocalSearch:
         known = self._coordinates(self.scores)
         distances = np.linalg.norm(points[:, None] - known, axis=2)
         is_apart = distances.min(axis=1) > max(LEAST_APART, APART * self.radius)
+        return np.asarray(is_apart & (self._limits(points) >= 0.0))
+
+    def _limits(self, points: Floats) -> Floats:
+        """Interpolant that is 1 at the points with a limit and -1 at those without."""
         limits = np.array([each.has_limit for each in self.scores])
         if limits.all() or not limits.any():
-            return np.asarray(is_apart)
-        # The surface between both kinds of points is that on which an interpolant is zero.
-        kinds = interpolant(known, np.where(limits, 1.0, -1.0)[:, None])
-        return np.asarray(is_apart & (kinds(points)[:, 0] >= 0.0))
+            return np.ones(len(points))
+        known = self._coordinates(self.scores)
+        return interpolant(known, np.where(limits, 1.0, -1.0)[:, None])(points)[:, 0]
 
     def _behind_barriers(self, points: Floats) -> Bools:
         """True where a point without a limit lies between a point and the best one."""
