@@ -497,3 +497,26 @@ def test_a_curved_load_is_largest_at_its_crest():
 )
 def test_a_cycle_lasts_from_valley_to_valley_of_one_level(load, cycles):
     assert list(load.load_cycles) == cycles
+
+
+def test_points_on_a_straight_line_are_no_kinks():
+    """A ramp by its ends, by points on it, and by a row of a table at each of many instants."""
+    corners, forces = [0.0, 2.0, 4.0], [0.0, 0.05, 0.05]
+    for times in ([0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0], np.linspace(0.0, 4.0, 41)):
+        load = ForceHistory(times, np.interp(times, corners, forces))
+        assert load.kinks.tolist() == corners
+        assert load.at(0.7).force == close_to(0.7 * 0.025, rel=1e-15)
+
+
+def test_points_where_only_the_place_of_the_force_or_a_tilt_bends_are_kinks():
+    times, level = [0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 2.0, 3.0]
+    assert ForceHistory(times, level, [0.0, 1e-3, 2e-3, 3e-3]).kinks.tolist() == [0.0, 3.0]
+    assert ForceHistory(times, level, [0.0, 1e-3, 1e-3, 1e-3]).kinks.tolist() == [0.0, 1.0, 3.0]
+    tilted = ForceHistory(times, level, tilt_x=[0.0, 0.0, 1e-4, 2e-4])
+    assert tilted.kinks.tolist() == [0.0, 1.0, 3.0]
+
+
+def test_a_jump_between_equal_slopes_remains_one():
+    load = ForceHistory([0.0, 1.0, 1.0, 2.0], [1.0, 1.0, 2.0, 2.0])
+    assert load.kinks.tolist() == [0.0, 1.0, 2.0]
+    assert load.jumps.tolist() == [0.0, 1.0]

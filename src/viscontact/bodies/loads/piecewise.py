@@ -14,6 +14,9 @@ from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.history import Cycle, LoadHistory, LoadInstant, LoadPoint
 from viscontact.units.numbers import finite
 
+#: Deviation from a straight line, over the largest value, that is rounding.
+ROUNDING = 4 * float(np.finfo(np.float64).eps)
+
 
 @dataclass(frozen=True, eq=False, init=False)
 class PiecewiseHistory(LoadHistory):
@@ -61,8 +64,23 @@ class PiecewiseHistory(LoadHistory):
 
     @cached_property
     def kinks(self) -> Floats:
-        """All distinct instants of the points, increasing: kinks, jumps, first and last [s]."""
-        return np.unique(self.times)
+        """Kinks and jumps, the first and last instant [s]; not points on a straight line."""
+        instants = np.unique(self.times)
+        straight = np.zeros(len(instants), dtype=bool)
+        straight[1:-1] = True
+        names = [name for name in history_points.TAIL if getattr(self, name) is not None]
+        for values in (getattr(self, name) for name in (self.control, *names)):
+            straight[1:-1] &= self._is_straight(values, instants)
+        return instants[~straight]
+
+    def _is_straight(self, values: float | Floats, instants: Floats) -> Bools:
+        """True at inner instants whose values lie between their neighbours', up to rounding."""
+        before, after = (self._interpolate(values, instants, side) for side in ("left", "right"))
+        begin, middle, end = instants[:-2], instants[1:-1], instants[2:]
+        part = (middle - begin) / (end - begin)
+        line = after[:-2] + part * (before[2:] - after[:-2])
+        off = np.maximum(np.abs(before[1:-1] - line), np.abs(after[1:-1] - line))
+        return np.asarray(off <= ROUNDING * np.abs(values).max(initial=0.0))
 
     @cached_property
     def jumps(self) -> Floats:

@@ -190,13 +190,15 @@ class AdaptiveSteps:
             part = min(part, self._allowed / ISOLATED_STEP_SHARE)
         limit = part * instant + self._compliance.instant
 
-        def excess(log_time: float) -> float:
-            crept: float = self._compliance(math.exp(log_time)) - limit
+        def excess(logarithm: float) -> float:
+            crept: float = self._compliance(way * math.exp(logarithm)) - limit
             return crept
 
-        if excess(math.log(way)) <= 0:
+        # Over the way, so that the unit of time changes nothing.
+        least = math.log(shortest / way)
+        if excess(0.0) <= 0:
             return float(way)
-        if excess(math.log(shortest)) >= 0:
+        if excess(least) >= 0:
             return shortest
-        logarithms = math.log(shortest), math.log(way)
-        return math.exp(float(scipy.optimize.brentq(excess, *logarithms, rtol=1e-3)))
+        found = float(scipy.optimize.brentq(excess, least, 0.0, xtol=1e-3))
+        return float(way * math.exp(found))
