@@ -20,6 +20,7 @@ from viscontact.bodies.materials.cards.dyna_syntax import (
 from viscontact.bodies.materials.cards.prony_terms import Moduli, Terms
 from viscontact.bodies.materials.cards.record import NoRelaxation, PronySeries, Record, Relaxation
 from viscontact.tables import read_text
+from viscontact.units.formatting import format_quantity
 
 # Names of keywords without *MAT_, and their numbers.
 _READ = {"ELASTIC": 1, "VISCOELASTIC": 6, "GENERAL_VISCOELASTIC": 76}
@@ -264,8 +265,9 @@ def _bulk(first: CardLine, at_once: float, units: CardUnits) -> float:
         return given
     if given != 0 and not math.isclose(given, at_once, rel_tol=_ROUNDING):
         raise ValueError(
-            f"{first.where}: BULK and the sum of KI are two bulk moduli, {given:.4g} and "
-            f"{at_once:.4g} Pa; give one, the other 0"
+            f"{first.where}: BULK and the sum of KI are two bulk moduli, "
+            f"{format_quantity(given, 'Pa', 4)} and {format_quantity(at_once, 'Pa', 4)}; "
+            "give one, the other 0"
         )
     return at_once
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from viscontact.bodies.laws import Elastic, Law, RelaxationSeries, SeriesLaw
 from viscontact.bodies.materials.material import Material
+from viscontact.units.formatting import format_quantity
 
 # Difference from 1 of a sum written with a card's digits.
 _ROUNDING = 1e-12
@@ -81,7 +82,8 @@ def _require_modulus(where: str, name: str, value: float) -> None:
     if not value > 0:
         raise ValueError(f"{where}: {name} modulus must be positive, got {value!r}")
     if not _LEAST_MODULUS <= value <= _MOST_MODULUS:
-        raise ValueError(f"{where}: {name} modulus of {value:.3g} Pa is beyond all materials")
+        said = format_quantity(value, "Pa", 3)
+        raise ValueError(f"{where}: {name} modulus of {said} is beyond all materials")
 
 
 @dataclass(frozen=True)

@@ -51,7 +51,7 @@ def master_curve(
     ...     Isotherm(283.15 + 10 * k, times, {"compliance": 1e-9 * (10**k * times) ** 0.2})
     ...     for k in (1, 2, 3)
     ... ]
-    >>> figure = master_curve(build_master_curve(sets, 293.15))
+    >>> figure = master_curve(build_master_curve(sets, 293.15, vertical="none"))
     >>> [axes.get_ylabel() for axes in figure.axes][:2]
     ['Creep compliance [1/GPa]', 'log₁₀ of shift factor $a_T$']
     """
