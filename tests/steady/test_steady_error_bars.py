@@ -107,7 +107,7 @@ def test_bars_hold_the_values_on_finer_cells_in_95_of_100(campaign):
 def test_extents_are_less_certain_along_the_motion_where_creep_happens_within_a_cell(along):
     """The rear is known to half a cell then, and nearly as well as other rims otherwise."""
     grid, level = vc.Grid((32, 40), (1.0, 1.0)), vc.step(FORCE, tilt_x=0.0, tilt_y=0.0)
-    for time, least, most in ((1e-4, 0.45, 0.6), (1e4, 0.05, 0.4)):
+    for time, least, most in ((1e-4, 0.45, 0.6), (1e4, 0.012, 0.4)):
         rubber = vc.Material(vc.Zener(1000, 1000, 1000 * time), 0.5)
         ds = vc.steady(vc.Paraboloid(RADIUS, RADIUS), rubber, level, 1.0, along=along, grid=grid)
         cells = {

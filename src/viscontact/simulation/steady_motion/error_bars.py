@@ -36,7 +36,7 @@ LEAST_TILT, LEAST_FORCE_ERROR = 0.5, 1.2
 #: Least error of the area along the motion, in cells, and of extents along it: where all creep
 #: within the contact takes many cells, and what is added where it happens within one.
 AREA_CELLS, UNRESOLVED_AREA_CELLS = 0.05, 0.15
-ALONG_CELLS, UNRESOLVED_ALONG_CELLS = 0.05, 0.45
+ALONG_CELLS, UNRESOLVED_ALONG_CELLS = 0.012, 0.488
 
 #: Least error of extents across the motion, in cells, and of the place of the resultant, over the
 #: extents and times the square of these cells.
