@@ -83,7 +83,7 @@ def loaded_since(load: LoadHistory) -> float:
 def limit_warnings(bodies: Iterable[LimitedBody], contact: Contact) -> dict[str, str]:
     """Warn of a strain or a stress beyond that of the tests of a body."""
     warnings: dict[str, str] = {}
-    if not contact.mean_pressure > 0:
+    if contact.mean_pressure == 0:
         return warnings
     for body in bodies:
         warnings = _of_body(body, contact) | warnings

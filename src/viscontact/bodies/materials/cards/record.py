@@ -1,4 +1,4 @@
-"""What a card states about one material, in SI units, the same for all programs.
+"""One material of a card, in SI units, the same for all programs.
 
 A reader of one program returns records; `card` makes the material of each.
 """
