@@ -28,6 +28,10 @@ FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 #: Further arrays under a moving body, and of a sum over all steps.
 ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 
+#: Arrays of the whole grid for the trends of gap and pressure on a creeping body: two of numbers
+#: and two of marks.
+ARRAYS_OF_TRENDS = 2.25
+
 #: Fields that take as much memory as the tables and operators of a further term of layers.
 FIELDS_OF_TERM = 7
 
@@ -46,20 +50,23 @@ def run_memory(run: RunSetup) -> float:
             fields += min(plan.rows, BLOCK_STEPS)
             further += ARRAYS_OF_SUM
     fields += FIELDS_OF_TERM * len(run.other_terms)
-    return needed_memory(run.grid, fields, mirrored=run.mirrored, further=further) + kept
+    whole = 0.0 if run.problem.surface.creep.is_elastic else ARRAYS_OF_TRENDS
+    return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
 
 
 def needed_memory(
     grid: Grid,
     fields_kept: int,
-    *,
     mirrored: tuple[bool, bool] = (False, False),
+    *,
     further: float = 0.0,
+    whole: float = 0.0,
 ) -> float:
     """Memory of a run without the scalars of its steps [bytes]; allocates no arrays.
 
     `fields_kept` counts the stored fields of pressure, and as many of displacement: one for each
-    exponential term of the contact compliance, or one for each step; `further` other arrays.
+    exponential term of the contact compliance, or one for each step; `further` other arrays of
+    the cells that are computed, `whole` of all cells.
     """
     # A body that is even across x = 0, or y = 0 (`mirrored`), needs less.
     share = 0.5 ** sum(mirrored)
@@ -68,7 +75,7 @@ def needed_memory(
         arrays = WHOLE_ARRAYS + share * (COMPUTED_ARRAYS + arrays)
     else:
         arrays += WORK_ARRAYS
-    return PROGRAM + _array_memory(grid) * arrays + freed_memory(grid, mirrored)
+    return PROGRAM + _array_memory(grid) * (arrays + whole) + freed_memory(grid, mirrored)
 
 
 def freed_memory(grid: Grid, mirrored: tuple[bool, bool] = (False, False)) -> float:
@@ -87,7 +94,7 @@ def least_memory(
     """Lower bound of the memory of a run [bytes], known before it is set up."""
     # The fields that other laws store depend on the steps, which are not known yet.
     terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
-    return needed_memory(grid, terms, mirrored=mirrored)
+    return needed_memory(grid, terms, mirrored)
 
 
 def fitting(needs: Iterable[float], available: float) -> int:

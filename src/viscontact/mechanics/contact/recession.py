@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.team import blocks_of
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.rim_crossings import Recession
 
@@ -21,13 +22,15 @@ class Trend:
     extreme: Floats  # largest while they rise, least while they fall
     rises: Bools
 
-    def after(self, values: Floats, error: float) -> Trend:
-        """Trend after another step, with the error of the values."""
-        further = np.where(self.rises, values > self.extreme, values < self.extreme)
-        less = (1 + TURNS) * values + error < self.extreme
-        more = (1 + TURNS) * self.extreme + error < values
-        turned = np.where(self.rises, less, more)
-        return Trend(np.where(turned | further, values, self.extreme), self.rises ^ turned)
+    def follow(self, rows: slice, values: Floats, error: float) -> None:
+        """Take in the values of another step in some rows, in place, with the error of values."""
+        extreme, rises = self.extreme[rows], self.rises[rows]
+        further = np.where(rises, values > extreme, values < extreme)
+        less = (1 + TURNS) * values + error < extreme
+        more = (1 + TURNS) * extreme + error < values
+        turned = np.where(rises, less, more)
+        np.copyto(extreme, values, where=turned | further)
+        rises ^= turned
 
     def on(self, small: Grid, large: Grid, beyond: float) -> Trend:
         """The same trend on a larger grid, with a value beyond the smaller one."""
@@ -45,15 +48,15 @@ class ContactTrend:
     @classmethod
     def at_first(cls, grid: Grid) -> ContactTrend:
         """Before the first contact."""
-        nowhere = np.zeros(grid.shape, dtype=bool)
-        return cls(
-            Trend(np.full(grid.shape, np.inf), nowhere), Trend(np.zeros(grid.shape), ~nowhere)
-        )
+        gap = Trend(np.full(grid.shape, np.inf), np.zeros(grid.shape, dtype=bool))
+        return cls(gap, Trend(np.zeros(grid.shape), np.ones(grid.shape, dtype=bool)))
 
-    def after(self, gap: Floats, pressure: Floats, in_contact: Bools, error: float) -> ContactTrend:
-        """Trend after another step, with the solver's error of gaps [m]."""
-        closed = np.where(in_contact, 0.0, np.maximum(gap, 0.0))
-        return ContactTrend(self.gap.after(closed, error), self.pressure.after(pressure, 0.0))
+    def follow(self, gap: Floats, pressure: Floats, in_contact: Bools, error: float) -> None:
+        """Take in another step, in place, with the solver's error of gaps [m]."""
+        for rows in blocks_of(len(gap), gap[0].nbytes):
+            closed = np.where(in_contact[rows], 0.0, np.maximum(gap[rows], 0.0))
+            self.gap.follow(rows, closed, error)
+            self.pressure.follow(rows, pressure[rows], 0.0)
 
     def on(self, small: Grid, large: Grid) -> ContactTrend:
         """The same trends on a larger grid."""

@@ -73,11 +73,8 @@ def locate_rim(
     touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
     located, slope = _by_gaps(_laws(grid, 0), intervals, touches, gaps.ravel())
     if recession is not None:
-        pressure, falls, opens = (_pad(each, outside=0).ravel() for each in recession)
-        at = np.flatnonzero(opens[intervals.outer] & falls[intervals.inner])
-        found = _by_pressures(_laws(grid, 1), intervals.some(at), pressure)
-        known = ~np.isnan(found[0])
-        located[at[known]], slope[at[known]] = (each[known] for each in found)
+        at, *found = _where_receding(_laws(grid, 1), intervals, recession)
+        located[at], slope[at] = found
     at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
         located[at_end] = _body_ends(ends, intervals.some(at_end), gaps.shape[1])
@@ -159,6 +156,17 @@ def _by_gaps(
     slope = _slope(np.cbrt(np.square(gaps / far)))
     distance = _distance(laws, intervals, (near, far, farther), slope)
     return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope
+
+
+def _where_receding(
+    laws: tuple[EdgeLaw, EdgeLaw], intervals: _Intervals, recession: Recession
+) -> tuple[Integers, Floats, Floats]:
+    """Intervals where the contact recedes, distances by the pressure and slopes there."""
+    pressure, falls, opens = (_pad(each, outside=0).ravel() for each in recession)
+    at = np.flatnonzero(opens[intervals.outer] & falls[intervals.inner])
+    distance, slope = _by_pressures(laws, intervals.some(at), pressure)
+    known = ~np.isnan(distance)
+    return at[known], distance[known], slope[known]
 
 
 def _by_pressures(
