@@ -375,3 +375,15 @@ def test_task_of_several_runs_continues_after_a_failure_and_exits_with_it(
         assert task.wait(20) == 1  # of run 1
     log = (tmp_path / "run.py.log").read_text(encoding="utf-8")
     assert log == "began 0\nbegan 1\nbegan 2\n"
+
+
+@pytest.mark.parametrize(
+    "name", ["a\nrm x.sbatch", "a\r.sbatch", 'a".sbatch', "a\x1b.sbatch", "a:b.pbs"]
+)
+def test_names_that_would_end_a_comment_of_the_script_are_refused(
+    name: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["my ball.yaml", "--vary", "load.force=1N,2N", "-o", "out", "--array", name]
+    assert main(["run", *words]) == 2
+    assert "choose another name" in capsys.readouterr().err
+    assert not Path("out").exists()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from viscontact.units.visible import visible
+
 #: Path of a value: keys, and positions in lists from 0.
 KeyPath = tuple[str | int, ...]
 
@@ -14,7 +16,8 @@ class CaseError(ValueError):
     Parameters
     ----------
     *problems : str
-        Problems, a line each: place, key, reason and remedy.
+        Problems, a line each: place, key, reason and remedy. Control characters of the file are
+        shown as escapes, because a traceback prints the message as it is.
 
     Attributes
     ----------
@@ -28,8 +31,8 @@ class CaseError(ValueError):
     """
 
     def __init__(self, *problems: str) -> None:
-        super().__init__("\n".join(problems))
-        self.problems = problems
+        self.problems = tuple(map(visible, problems))
+        super().__init__("\n".join(self.problems))
 
 
 class SourceError(Exception):

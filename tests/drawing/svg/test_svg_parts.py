@@ -16,6 +16,10 @@ def test_text_of_an_element_is_escaped() -> None:
     assert found == '<p class="a">1 &lt; 2 <b>&lt;script&gt;</b></p>'
 
 
+def test_controls_in_attributes_are_shown_as_escapes() -> None:
+    assert written(element("img", alt="\x1b[b] \u202e <")) == '<img alt="\\x1b[b] \\u202e <">'
+
+
 def test_no_text_ends_a_script() -> None:
     assert as_script({"title": "</script>"}) == '{"title":"\\u003c/script>"}'
 

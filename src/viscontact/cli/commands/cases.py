@@ -102,7 +102,7 @@ def _example_text(name: str) -> str:
     if name not in examples:
         near = difflib.get_close_matches(name, examples, n=1)
         hint = f"; did you mean {near[0]}?" if near else "."
-        refuse(f"no example is called {name!r}{hint} There are {', '.join(examples)}")
+        refuse(f"no example is called '{name}'{hint} There are {', '.join(examples)}")
     return examples[name].read_text(encoding="utf-8")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import shlex
 import shutil
 import sys
@@ -19,6 +20,7 @@ from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.execution import before_the_first_step
 from viscontact.runs.processes.job import Job, RunStage
 from viscontact.studies.sweep.job_array import JobArray, pbs_script, slurm_script
+from viscontact.units.visible import visible
 
 #: Suffixes of scripts: their text, and the command that submits them.
 _SYSTEMS = {
@@ -38,6 +40,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
         refuse("--array: name a directory for the runs, with -o DIR")
     if request.common.overwrite:
         refuse("--array and --overwrite: its tasks would not resume; choose another -o DIR")
+    logs = _logs_beside(script)
     with before_the_first_step():
         sweep = checked_sweep(request, elsewhere=True)
         left = [n for n, job in enumerate(sweep.jobs) if job.standing is not RunStage.FINISHED]
@@ -50,7 +53,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
             left=left,
             memory=max(job.memory for job in sweep.jobs),
             seconds=_longest_duration([sweep.jobs[number] for number in left]),
-            logs=script.parent.resolve() / f"{script.stem}-logs",
+            logs=logs,
             threads=request.common.threads,
             at_once=request.jobs,
             program=_program(),
@@ -63,6 +66,20 @@ def write_array(request: ManyRequest, script: Path) -> None:
         _write(script, text, array.logs)
     with printing():
         put(f"{submit} {shlex.quote(str(script))}")
+
+
+def _logs_beside(script: Path) -> Path:
+    """Directory of the logs, whose name batch systems read from a comment of the script."""
+    logs = script.parent.resolve() / f"{script.stem}-logs"
+    # A line end in it would begin a command of the script, and quotes and blanks end the name.
+    refused = r'["\s:]' if script.suffix == ".pbs" else r'["\r\n\v\f]'
+    if re.search(refused, str(logs)) or visible(str(logs)) != str(logs):
+        signs = "quotes, blanks, colons" if script.suffix == ".pbs" else "quotes"
+        refuse(
+            f"--array {script}: batch systems take no {signs} or control characters in the name of"
+            f" the logs, {logs}; choose another name or directory of the script"
+        )
+    return logs
 
 
 def _longest_duration(jobs: list[Job]) -> float:

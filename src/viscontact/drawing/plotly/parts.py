@@ -40,7 +40,10 @@ def _literal_words(trace: Part) -> Part:
 
 def literal(found: Any) -> Any:
     """Text of a user, or several, as Plotly draws it unchanged: nothing in it is markup."""
-    return escape(visible(found)) if isinstance(found, str) else [*map(literal, found)]
+    if not isinstance(found, str):
+        return [*map(literal, found)]
+    # A notebook that has loaded MathJax would set what is between signs of dollars as a formula.
+    return escape(visible(found)).replace("$", "&#36;")
 
 
 def plain(figure: go.Figure) -> Part:

@@ -11,7 +11,7 @@ from viscontact.units.visible import visible
 
 def element(name: str, *content: str | Element | None, **attributes: str) -> Element:
     """Make an element of HTML."""
-    named = {key.rstrip("_").replace("_", "-"): value for key, value in attributes.items()}
+    named = {key.rstrip("_").replace("_", "-"): visible(text) for key, text in attributes.items()}
     made = Element(name, named)
     for part in content:
         if isinstance(part, Element):

@@ -8,6 +8,7 @@ user's own plots are not affected.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 from typing import Any, TypeVar
 
 import numpy as np
@@ -33,6 +34,8 @@ LINE_WIDTH = 1.4
 THIN_LINE = 0.6
 # Mean width of a letter of a legend, and width of the key before its text [inch].
 _LETTER, _KEY = 0.062, 0.5
+# Width beside a text: ticks and label of an axis, key of a legend [inch].
+_BESIDE = 1.5
 # Height of a row of a legend [inch], and number of rows for which figures have room.
 _ROW, _FEW_ROWS = 0.18, 3
 _Entry = TypeVar("_Entry")
@@ -69,6 +72,13 @@ def literal(text: str) -> str:
     return visible(text).replace("$", r"\$")
 
 
+def _in_lines(text: str, width: float) -> str:
+    """Text in lines of this width [inch]: a longer one would leave no room for axes."""
+    letters = max(20, int(width / _LETTER))
+    lines = literal(text).split("\n")
+    return "\n".join(line if len(line) <= letters else fill(line, letters) for line in lines)
+
+
 def add_legend(
     drawn: Axes | Figure, handles: Sequence[Artist], labels: Sequence[str], **how: Any
 ) -> None:
@@ -76,7 +86,9 @@ def add_legend(
     look: dict[str, Any] = {"frameon": False, "handlelength": 1.6, "labelcolor": INK}
     look |= {"fontsize": TICK_SIZE, "title_fontsize": TICK_SIZE}
     look |= how or {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
-    legend = drawn.legend(handles, list(map(literal, labels)), **look)
+    figure = drawn if isinstance(drawn, Figure) else figure_of(drawn)
+    width = figure.get_figwidth() - _BESIDE
+    legend = drawn.legend(handles, [_in_lines(label, width) for label in labels], **look)
     legend.get_title().set_color(INK)
 
 
@@ -114,7 +126,10 @@ def add_height_of_legend(figure: Figure, rows: int) -> None:
 def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
     """Add a heading above the left corner of a panel, or a note above its right one."""
     look: dict[str, Any] = {"fontsize": TICK_SIZE, "color": FAINT if aside else INK, "pad": 4}
-    axes.set_title(literal(text), loc="right" if aside else "left", **look)
+    place = axes.get_subplotspec()
+    columns = 1 if place is None else place.get_gridspec().ncols
+    written = _in_lines(text, figure_of(axes).get_figwidth() / columns)
+    axes.set_title(written, loc="right" if aside else "left", **look)
 
 
 def arrange_headings(figure: Figure) -> None:
