@@ -71,10 +71,25 @@ def test_a_power_law_with_one_wrong_constant_is_found_by_the_points(
 
 
 @pytest.mark.parametrize(
-    "copied", [copy.copy, copy.deepcopy, lambda entry: pickle.loads(pickle.dumps(entry))]
+    "copied", [copy.copy, copy.deepcopy, replace, lambda one: pickle.loads(pickle.dumps(one))]
 )
-def test_a_copy_of_an_entry_is_equal_to_it(copied: Callable[[library.Entry], object]) -> None:
-    assert copied(library.entry("pom-c-23c")) == library.entry("pom-c-23c")
+@pytest.mark.parametrize("name", NAMES)
+def test_copies_of_entries_points_and_materials_are_equal(
+    name: str, copied: Callable[[Any], object]
+) -> None:
+    entry = library.entry(name)
+    for one in (entry, entry.points[0], shipped_material(name)):
+        assert copied(one) == one
+        assert hash(copied(one)) == hash(one)
+
+
+def test_entries_and_points_that_differ_are_unequal() -> None:
+    entry = library.entry("pom-c-23c")
+    points = entry.points[0]
+    assert replace(entry, title="other") != entry
+    for name in ("at", "values"):
+        assert replace(points, **{name: getattr(points, name) * 1.1}) != points
+    assert replace(points, tolerance=0.5) != points
 
 
 def test_every_material_is_a_power_law_or_a_series() -> None:

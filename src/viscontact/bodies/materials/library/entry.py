@@ -18,7 +18,7 @@ from viscontact.units.parsing import parse_quantity
 _FIRST = ("pmma-paper", "pmma-kumar-2004")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Entry:
     """One material of the library with its sources.
 
@@ -65,8 +65,8 @@ class Entry:
     material: dict[str, Any]
     points: tuple[Points, ...]
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return entry, (self.name,)  # a copy is the entry itself, which is read once
+    def __hash__(self) -> int:
+        return hash(self.name)  # sections of files cannot be hashed
 
 
 @cache

@@ -43,6 +43,19 @@ class Points:
     values: Floats
     tolerance: float
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Points):
+            return NotImplemented
+        return self._content() == other._content()
+
+    def __hash__(self) -> int:
+        return hash(self._content())
+
+    def _content(self) -> tuple[object, ...]:
+        """All fields, arrays as tuples, which are compared as a whole."""
+        numbers = tuple(self.at.tolist()), tuple(self.values.tolist())
+        return self.quantity, self.what, *numbers, self.tolerance
+
     @property
     def over_time(self) -> bool:
         """True if `at` are times, False if they are angular frequencies."""
