@@ -175,7 +175,9 @@ def test_temperature_shifts_every_time_of_the_law(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.law(t), vc.Maxwell(1e9, 1e10)(t / factor), rtol=1e-12)
     assert found.measured_until == close_to(100 * factor, rel=1e-12)
     at_reference = read(tmp_path, {**material, "temperature": "298.15 K"}).material
-    assert at_reference == vc.Material(vc.Maxwell(1e9, 1e10), 0.3, measured_until=100.0)
+    rule = vc.WLF(298.15, 17.44, 51.6)
+    assert at_reference == vc.Material(vc.Maxwell(1e9, 1e10), 0.3, measured_until=100.0, shift=rule)
+    assert found.shift.factor(298.15) == close_to(1 / factor, rel=1e-12)
 
 
 def test_arrhenius_and_measured_factors_shift_too(tmp_path: Path) -> None:

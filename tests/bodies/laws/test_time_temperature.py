@@ -35,6 +35,20 @@ def test_arrhenius_halves_near_ten_kelvin_at_fifty_kilojoules():
 
 
 @given(warm, warm)
+def test_a_rule_with_another_reference_has_the_ratio_of_its_factors(other, asked):
+    """a(T; T') = a(T)/a(T') for every rule, and likewise b."""
+    table = TabulatedShift([250.0, 350.0, 460.0], [50.0, 1.0, 1e-6], [0.9, 1.0, 1.2])
+    for shift in (WLF(350.0, 8.86, 101.6), Arrhenius(350.0, 1e5), table):
+        moved = shift.referred_to(other)
+        assert type(moved) is type(shift)
+        assert moved.factor(other) == close_to(1.0, rel=1e-12)
+        ratio = shift.factor(asked) / shift.factor(other)
+        assert moved.factor(asked) == close_to(ratio, rel=1e-9)
+        raised = shift.vertical_factor(asked) / shift.vertical_factor(other)
+        assert moved.vertical_factor(asked) == close_to(raised, rel=1e-12)
+
+
+@given(warm, warm)
 def test_arrhenius_depends_on_the_two_temperatures_only(one, other):
     there, back = Arrhenius(one, 9e4).factor(other), Arrhenius(other, 9e4).factor(one)
     assert there * back == close_to(1.0)

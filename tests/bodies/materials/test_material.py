@@ -258,9 +258,13 @@ def test_material_at_a_temperature_has_the_law_slowed_by_the_factor(shift, law, 
     there = material.at(temperature)
     assert there.law(t) == law.slowed(factor)(t)
     assert there.measured_until == factor * 100.0
+    moved = shift.referred_to(temperature)
     assert there == dataclasses.replace(
-        material, law=there.law, measured_until=there.measured_until, shift=None
+        material, law=there.law, measured_until=there.measured_until, shift=moved
     )
+    # On to a second temperature as from the reference at once.
+    once, twice = material.at(310.0).law(t), there.at(310.0).law(t)
+    assert twice == close_to(once, rel=1e-9)
 
 
 @pytest.mark.parametrize("shift", SHIFTS, ids=lambda each: type(each).__name__)
@@ -269,7 +273,7 @@ def test_material_at_a_temperature_has_the_law_slowed_by_the_factor(shift, law, 
 def test_material_at_the_reference_temperature_has_its_own_law(shift, law, t):
     material = Material(law, 0.3, shift=shift)
     assert material.at(298.15).law(t) == law(t)
-    assert material.at(298.15) == Material(law, 0.3)
+    assert material.at(298.15) == material
 
 
 def test_material_without_a_shift_has_no_other_temperature():

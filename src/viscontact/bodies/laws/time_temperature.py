@@ -99,6 +99,26 @@ class Shift(Displayable, ABC):
         return float(factors) if T.ndim == 0 else factors
 
     @abstractmethod
+    def referred_to(self, temperature: float) -> Shift:
+        """Return the same rule with another reference temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature at which the factors of the new rule are 1 [K].
+
+        Returns
+        -------
+        Shift
+            Rule whose factors are a_T over the factor at this temperature, likewise b_T.
+
+        Raises
+        ------
+        ValueError
+            As in `factor`.
+        """
+
+    @abstractmethod
     def _log_factor(self, temperature: Floats) -> Floats:
         """Return ln a_T."""
 
@@ -150,6 +170,15 @@ class WLF(Shift):
     def __post_init__(self) -> None:
         check_fields(self, "reference_temperature", "c1", "c2")
 
+    def referred_to(self, temperature: float) -> WLF:
+        """Return the same rule with another reference temperature, see `Shift.referred_to`."""
+        self.factor(temperature)  # refuses what the rule does not hold for
+        if temperature == self.reference_temperature:
+            return self
+        # Ferry, Viscoelastic Properties of Polymers, 3rd ed., 1980, eq. 11-22 and 11-23.
+        c2 = self.c2 + temperature - self.reference_temperature
+        return WLF(float(temperature), self.c1 * self.c2 / c2, c2)
+
     def _log_factor(self, temperature: Floats) -> Floats:
         above = temperature - self.reference_temperature
         too_cold = ~(self.c2 + above > 0)
@@ -194,6 +223,11 @@ class Arrhenius(Shift):
 
     def __post_init__(self) -> None:
         check_fields(self, "reference_temperature", "activation_energy")
+
+    def referred_to(self, temperature: float) -> Arrhenius:
+        """Return the same rule with another reference temperature, see `Shift.referred_to`."""
+        self.factor(temperature)  # refuses what the rule does not hold for
+        return Arrhenius(float(temperature), self.activation_energy)
 
     def _log_factor(self, temperature: Floats) -> Floats:
         scale = self.activation_energy / GAS_CONSTANT
@@ -252,6 +286,12 @@ class TabulatedShift(Shift):
             )
         for i in range(1, len(temperatures)):
             self._require_order(i, temperatures, factors)
+
+    def referred_to(self, temperature: float) -> TabulatedShift:
+        """Return the same rule with another reference temperature, see `Shift.referred_to`."""
+        factor, raised = self.factor(temperature), self.vertical_factor(temperature)
+        vertical = None if self.vertical is None else [each / raised for each in self.vertical]
+        return TabulatedShift(self.temperatures, [each / factor for each in self.factors], vertical)
 
     def _require_order(
         self, i: int, temperatures: tuple[float, ...], factors: tuple[float, ...]

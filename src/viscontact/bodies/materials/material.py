@@ -111,8 +111,8 @@ class Material(Displayable):
         -------
         Material
             The material whose law and measured range have all their times multiplied by the
-            shift factor a_T, and whose law has all moduli multiplied by the vertical factor b_T. It
-            has no shift: its law no longer holds at the reference temperature.
+            shift factor a_T, and whose law has all moduli multiplied by the vertical factor b_T.
+            Its shift is the same rule with this temperature as reference.
 
         Raises
         ------
@@ -145,7 +145,7 @@ class Material(Displayable):
             self,
             law=law if raised == 1.0 else law.stiffened(raised),
             measured_until=None if until is None else factor * until,
-            shift=None,
+            shift=self.shift.referred_to(temperature),
             measured_range=None if tested is None else tested.at(temperature, factor),
         )
 
