@@ -20,7 +20,7 @@ GRID = Grid((6, 5), (2e-3, 1e-3))
 TIMES = np.arange(12) / 7.0
 SOME = [0.0, float(TIMES[4]), float(TIMES[5]), float(TIMES[11])]
 GIVEN = {"title": "µ", "tolerance": 1e-6}
-NAMES = tuple(scalars_of(moving=False))
+NAMES = tuple(scalars_of())
 NUMBERS = [name for name in NAMES if name not in ("outcome", "iterations", "cells_across")]
 
 

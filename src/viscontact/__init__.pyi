@@ -40,6 +40,7 @@ from .bodies.indenters import TwoRadiiCrown as TwoRadiiCrown
 from .bodies.indenters import Waviness as Waviness
 from .bodies.indenters import Wedge as Wedge
 from .bodies.laws import WLF as WLF
+from .bodies.laws import Ageing as Ageing
 from .bodies.laws import Arrhenius as Arrhenius
 from .bodies.laws import BesideSpring as BesideSpring
 from .bodies.laws import Burgers as Burgers
@@ -62,6 +63,7 @@ from .bodies.loads import LoadHistory as LoadHistory
 from .bodies.loads import LoadProgram as LoadProgram
 from .bodies.loads import MixedHistory as MixedHistory
 from .bodies.loads import Segment as Segment
+from .bodies.loads import TemperatureHistory as TemperatureHistory
 from .bodies.loads import Travel as Travel
 from .bodies.loads import harmonic as harmonic
 from .bodies.loads import ramp as ramp

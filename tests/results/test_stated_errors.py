@@ -348,7 +348,7 @@ def test_csv_of_an_older_result_has_no_empty_columns(
     vc.save(bare, tmp_path / "old.nc")
     assert main(["export", str(tmp_path / "old.nc")]) == 0
     header = capsys.readouterr().out.splitlines()[0].split(",")
-    assert len(header) == 1 + len(scalars_of(moving=False))
+    assert len(header) == 1 + len(scalars_of())
     assert header[-1] == "outcome"
 
 

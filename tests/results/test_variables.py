@@ -85,7 +85,7 @@ def test_table_has_every_scalar_of_a_state_and_of_a_dataset(ds: xr.Dataset) -> N
     fields = {field.name for field in dataclasses.fields(ContactState)}
     assert set(SCALARS) <= fields
     stored = [name for name in ds if ds[name].dims == ("time",) and name not in ("gap", "pressure")]
-    assert stored == list(scalars_of(moving=False))
+    assert stored == list(scalars_of())
 
 
 def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> None:
@@ -94,7 +94,9 @@ def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> N
     names = [name for name, variable in SCALARS.items() if variable.moving]
     moving = dataclasses.replace(standing, **dict.fromkeys(names, 0.5))
     path = tmp_path / "result.nc"
-    with ResultWriter(path, Contents(grid, np.zeros(1), NO_FIELDS, moving=True)) as writer:
+    with ResultWriter(
+        path, Contents(grid, np.zeros(1), NO_FIELDS, parts=frozenset({"motion"}))
+    ) as writer:
         writer.append(moving)
         writer.finish()
     stored = vc.open_results(path)

@@ -28,6 +28,12 @@ class Outcome(IntEnum):
     NOT_CONVERGED = 2
 
 
+#: Part of a state that only moving contacts have. Others are named by their scalar.
+MOTION = "motion"
+
+#: Scalars that only states under a temperature or with ageing have.
+OF_CLOCKS = ("temperature", "reduced_time", "reduced_time_indenter")
+
 #: Fields of a state over the cells.
 FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
 
@@ -108,6 +114,13 @@ class ContactState:
         Energy lost in them since the start [J].
     speed : float or None
         Speed of a body in steady motion [m/s]; None for a contact over time.
+    temperature : float or None
+        Temperature of the bodies [K]; None where it is not given.
+    reduced_time : float or None
+        Time at the reference temperature of the half-space's shift, and at its first age, in which
+        its law creeps as it did so far [s]; None without a shift under a temperature, and ageing.
+    reduced_time_indenter : float or None
+        The same of the indenter [s].
 
     Examples
     --------
@@ -155,6 +168,9 @@ class ContactState:
     dissipation: float | None = None
     heat: float | None = None
     speed: float | None = None
+    temperature: float | None = None
+    reduced_time: float | None = None
+    reduced_time_indenter: float | None = None
 
     @property
     def over(self) -> Literal["time", "speed"]:
@@ -165,6 +181,12 @@ class ContactState:
     def moving(self) -> bool:
         """True if a motion is prescribed."""
         return self.position_x is not None
+
+    @property
+    def parts(self) -> frozenset[str]:
+        """Parts of its scalars that only some states have."""
+        moving = {MOTION} if self.moving or self.speed is not None else set()
+        return frozenset(moving.union(n for n in OF_CLOCKS if getattr(self, n) is not None))
 
     def with_own_fields(self) -> ContactState:
         """Return the same state, whose fields are no parts of larger arrays of the run.

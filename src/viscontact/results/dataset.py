@@ -42,7 +42,7 @@ def to_dataset(
             np.array([getattr(state, name) for state in states], dtype=variable.kind),
             scalar_attributes(name, errors=errors is not None),
         )
-        for name, variable in scalars_of(moving=states[0].moving, over=over).items()
+        for name, variable in scalars_of(states[0].parts, over).items()
     }
     scalars |= {
         error_name(name): (over, bars, ERRORS[error_name(name)].attributes)

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.mechanics.state import Outcome
+from viscontact.mechanics.state import MOTION, Outcome
 
 
 class Place(Flag):
@@ -51,9 +51,14 @@ class Variable:
     has_error: bool = False  # estimated and stored with it
     places: Place = Place.NOWHERE
     rank: int = 0  # on pages, cards and figures; tables keep the order of `SCALARS`
-    moving: bool = False  # only results of moving contacts have it
+    of: str = ""  # part that only some results have, as in `ContactState.parts`
     flags: tuple[str, ...] = ()  # meanings of the values 0, 1, ... of an enumeration
     beyond: float = math.nan  # value of a field where a grid that was enlarged had no cells yet
+
+    @property
+    def moving(self) -> bool:
+        """True if only results of moving contacts have it."""
+        return self.of == MOTION
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -104,18 +109,16 @@ def _scalar(
     rank: int,
     places: Place = Place.NOWHERE,
     *,
-    moving: bool = False,
+    of: str = "",
 ) -> Variable:
     """A scalar that has an error bar."""
-    return Variable(
-        units, long_name, label=label, has_error=True, places=places, rank=rank, moving=moving
-    )
+    return Variable(units, long_name, label=label, has_error=True, places=places, rank=rank, of=of)
 
 
 def _position(axis: str, rank: int) -> Variable:
     """Position of a moving body along an axis, which is prescribed."""
     name, label = f"position of the body's axis along {axis}", f"Position along {axis}"
-    return Variable("m", name, label=label, places=Place.LOAD, rank=rank, moving=True)
+    return Variable("m", name, label=label, places=Place.LOAD, rank=rank, of=MOTION)
 
 
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
@@ -170,17 +173,17 @@ SCALARS = {
     "resistance_x": _scalar(
         *("N", "force of the half-space on the body against +x", "Resistance along x", 15),
         *(_RESISTANCE,),
-        moving=True,
+        of=MOTION,
     ),
     "resistance_y": _scalar(
         *("N", "force of the half-space on the body against +y", "Resistance along y", 16),
         *(_RESISTANCE,),
-        moving=True,
+        of=MOTION,
     ),
     "friction_coefficient": _scalar(
         *("1", "resistance against the motion over force", "Friction coefficient", 17),
         *(_RESISTANCE | Place.KEY | Place.FACTS | Place.LIVE,),
-        moving=True,
+        of=MOTION,
     ),
     "motion_work": _scalar(
         "J",
@@ -188,11 +191,31 @@ SCALARS = {
         "Motion work",
         18,
         _LOST,
-        moving=True,
+        of=MOTION,
     ),
-    "dissipation": _scalar("W", "power lost in the bodies", "Dissipation", 19, _LOST, moving=True),
-    "heat": _scalar(
-        "J", "energy lost in the bodies since the start", "Heat", 20, _LOST, moving=True
+    "dissipation": _scalar("W", "power lost in the bodies", "Dissipation", 19, _LOST, of=MOTION),
+    "heat": _scalar("J", "energy lost in the bodies since the start", "Heat", 20, _LOST, of=MOTION),
+    "temperature": Variable(
+        "K",
+        "temperature of the bodies",
+        label="Temperature",
+        places=Place.LOAD,
+        rank=23,
+        of="temperature",
+    ),
+    "reduced_time": Variable(
+        "s",
+        "reduced time of the half-space: time at the reference temperature and age",
+        label="Reduced time",
+        rank=24,
+        of="reduced_time",
+    ),
+    "reduced_time_indenter": Variable(
+        "s",
+        "reduced time of the indenter: time at the reference temperature and age",
+        label="Reduced time, indenter",
+        rank=25,
+        of="reduced_time_indenter",
     ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
@@ -211,13 +234,13 @@ NOT_STEADY = (
 )
 
 
-def scalars_of(*, moving: bool, over: str = "time") -> dict[str, Variable]:
-    """Scalars of a result over time or speed: those without motion, or all for a moving contact."""
+def scalars_of(parts: Container[str] = (), over: str = "time") -> dict[str, Variable]:
+    """Scalars of a result over time or speed: those that all have, and those of its parts."""
     left_out = NOT_STEADY if over == "speed" else ()
     return {
         name: each
         for name, each in SCALARS.items()
-        if name not in left_out and (moving or over == "speed" or not each.moving)
+        if name not in left_out and (not each.of or each.of in parts)
     }
 
 
@@ -249,8 +272,8 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
 
 
 def scalars_with_error(*, moving: bool = True, over: str = "time") -> list[str]:
-    """Names of the scalars whose error is estimated, of the results as in `scalars_of`."""
-    found = scalars_of(moving=moving, over=over)
+    """Names of the scalars whose error is estimated, of a standing or of a moving contact."""
+    found = scalars_of((MOTION,) if moving else (), over)
     return [name for name, variable in found.items() if variable.has_error]
 
 

@@ -30,7 +30,7 @@ def lines_of(path: Path) -> list[dict[str, Any]]:
 
 def entries(of: ContactState) -> dict[str, Any]:
     """What a line has to say of a state, read back."""
-    found = {name: getattr(of, name) for name in ("time", *scalars_of(moving=False))}
+    found = {name: getattr(of, name) for name in ("time", *scalars_of())}
     known = {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in found.items()}
     outcome = ("converged", "no_contact", "not_converged")[of.outcome]
     return {**known, "outcome": outcome, "warnings": list(of.warnings)}

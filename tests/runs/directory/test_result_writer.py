@@ -101,7 +101,7 @@ def test_result_describes_itself(path: Path) -> None:
     with vc.open_results(path) as ds:
         assert dict(ds.sizes) == {"time": ROWS, "x": 6, "y": 5, "field_time": len(SOME)}
         assert ds.encoding["unlimited_dims"] == {"time", "field_time"}
-        for name in (*scalars_of(moving=False), *FIELDS, *LINES, "time", "x", "y", "field_time"):
+        for name in (*scalars_of(), *FIELDS, *LINES, "time", "x", "y", "field_time"):
             assert ds[name].attrs["units"]
             assert ds[name].attrs["long_name"]
         assert ds["outcome"].attrs["flag_meanings"] == "converged no_contact not_converged"

@@ -1,5 +1,6 @@
 """Linear viscoelastic creep laws: compliance Phi(t) and shear modulus G(t)."""
 
+from viscontact.bodies.laws.ageing import Ageing
 from viscontact.bodies.laws.creep_table import TabulatedCreep
 from viscontact.bodies.laws.fractional_maxwell import FractionalMaxwell
 from viscontact.bodies.laws.fractional_zener import FractionalZener
@@ -14,6 +15,7 @@ from viscontact.bodies.laws.zener import Burgers, Zener
 
 __all__ = [
     "WLF",
+    "Ageing",
     "Arrhenius",
     "BesideSpring",
     "Burgers",

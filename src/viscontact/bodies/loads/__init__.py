@@ -8,6 +8,7 @@ from viscontact.bodies.loads.mixed import MixedHistory
 from viscontact.bodies.loads.program import Condition, LoadProgram, Segment
 from viscontact.bodies.loads.reciprocation import Reciprocation, reciprocating
 from viscontact.bodies.loads.standard import ramp, step, triangle
+from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.loads.travel import Travel
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "MixedHistory",
     "Reciprocation",
     "Segment",
+    "TemperatureHistory",
     "Travel",
     "harmonic",
     "ramp",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from viscontact.bodies.laws import Elastic, Law
@@ -129,6 +129,24 @@ def named_parts(body: Material | Layered) -> dict[str, Material]:
         return {"": body}
     names = [f"layer {number}" for number in range(1, len(body.layers) + 1)]
     return dict(zip([*names, "base"], body.materials, strict=False))
+
+
+def materials_of(body: Material | Layered) -> tuple[Material, ...]:
+    """Materials of a body, of layers from the surface down."""
+    return (body,) if isinstance(body, Material) else body.materials
+
+
+def at_temperature(body: Material | Layered, temperature: float) -> Material | Layered:
+    """Body at a constant temperature [K]; materials without a shift remain as they are."""
+    if isinstance(body, Material):
+        return _shifted(body, temperature)
+    layers = [replace(each, material=_shifted(each.material, temperature)) for each in body.layers]
+    base = body.base if isinstance(body.base, str) else _shifted(body.base, temperature)
+    return replace(body, layers=layers, base=base)
+
+
+def _shifted(material: Material, temperature: float) -> Material:
+    return material if material.shift is None else material.at(temperature)
 
 
 def creeping_laws(body: Material | Layered) -> dict[str, Law]:

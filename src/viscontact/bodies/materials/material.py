@@ -6,7 +6,9 @@ import math
 from dataclasses import KW_ONLY, dataclass, field, replace
 
 from viscontact.bodies.laws import (
+    Ageing,
     BesideSpring,
+    Elastic,
     Law,
     SeriesLaw,
     Shift,
@@ -15,6 +17,8 @@ from viscontact.bodies.laws import (
 )
 from viscontact.bodies.laws.interconversion.series import relaxation_from_creep
 from viscontact.bodies.laws.parameter_checks import compressibility
+from viscontact.bodies.loads.temperature import TemperatureHistory
+from viscontact.bodies.materials.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.materials.compliance import (
     ContactCompliance,
     LawCompliance,
@@ -50,16 +54,19 @@ class Material(Displayable):
     warning : str, optional
         Warning about the law, such as a fit that misses its data; each run issues it.
     shift : WLF, Arrhenius or TabulatedShift, optional
-        Time-temperature shift, for `at`. The law and its measured range are those at its reference
-        temperature; a run uses them unshifted.
+        Time-temperature shift, for `at` and for runs under a temperature. The law and its measured
+        range are those at its reference temperature; a run without a temperature uses them
+        unshifted.
+    ageing : Ageing, optional
+        Physical ageing since time 0 of a run; the law is that at this age.
     measured_range : MeasuredRange, optional
         Strain, stress, first time and temperatures of the tests; runs beyond them issue a warning.
 
     Raises
     ------
     ValueError
-        If the law or the shift is not one, not exactly one of ν and K is given, or a number is out
-        of range.
+        If the law, the shift or the ageing is not one, not exactly one of ν and K is given, or a
+        number is out of range.
 
     Examples
     --------
@@ -78,6 +85,7 @@ class Material(Displayable):
     notes: tuple[str, ...] = field(default=(), metadata={"recorded": "if given"})
     warning: str | None = field(default=None, metadata={"recorded": "if given"})
     shift: Shift | None = field(default=None, metadata={"recorded": "if given"})
+    ageing: Ageing | None = field(default=None, metadata={"recorded": "if given"})
     measured_range: MeasuredRange | None = field(default=None, metadata={"recorded": "if given"})
 
     def __post_init__(self) -> None:
@@ -93,7 +101,8 @@ class Material(Displayable):
             raise ValueError(
                 f"Material: shift must be WLF, Arrhenius or TabulatedShift, got {self.shift!r}"
             )
-
+        if not isinstance(self.ageing, Ageing | None):
+            raise ValueError(f"Material: ageing must be Ageing(age, exponent), got {self.ageing!r}")
         if not isinstance(self.measured_range, MeasuredRange | None):
             raise ValueError(
                 f"Material: measured_range must be a MeasuredRange, got {self.measured_range!r}"
@@ -148,6 +157,39 @@ class Material(Displayable):
             shift=self.shift.referred_to(temperature),
             measured_range=None if tested is None else tested.at(temperature, factor),
         )
+
+    def clock(self, temperature: TemperatureHistory | None) -> Clock:
+        """Return the clock of its creep under a temperature that varies, or none.
+
+        Parameters
+        ----------
+        temperature : TemperatureHistory or None
+            Temperature over the time of a run; None where it is that of the law.
+
+        Returns
+        -------
+        Clock
+            Reduced time over time; the time itself of an elastic material, which does not creep.
+
+        Raises
+        ------
+        ValueError
+            If it creeps and has no shift, or the shift does not hold at a temperature.
+        """
+        if isinstance(self.law, Elastic):
+            return TIME
+        if temperature is None:
+            return TIME if self.ageing is None else ReducedTime(ageing=self.ageing)
+        if self.shift is None:
+            raise ValueError(
+                "temperature: a material that creeps must have a shift, under a temperature that "
+                "varies, got none; write e.g. shift=WLF(298.15, 17.44, 51.6)"
+            )
+        try:
+            self.shift.factor(temperature.temperature)
+        except ValueError as error:
+            raise ValueError(f"temperature: {error}") from None
+        return ReducedTime(temperature, self.shift, self.ageing)
 
     @property
     def known_until(self) -> float:

@@ -62,7 +62,7 @@ def _open_checked(path: Path, open_file: Callable[[Path], _Result]) -> Iterator[
 def _require_history(path: Path, ds: Result) -> None:
     """Refuse a file that is not a result, and a result without rows."""
     axis = run_axis(ds)
-    required = [name for name in REQUIRED if name in scalars_of(moving=False, over=axis.name)]
+    required = [name for name in REQUIRED if name in scalars_of(over=axis.name)]
     missing = [name for name in (axis.name, *required) if name not in ds]
     if missing:
         refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")

@@ -18,15 +18,25 @@ from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.bodies.loads.largest_load import largest_load
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.loads.temperature import TemperatureHistory
+from viscontact.bodies.materials.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.materials.compliance import ContactCompliance
-from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.layers import Layered, at_temperature, materials_of
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface as MeasuredSurface
 from viscontact.bodies.surfaces import indenter_of
 from viscontact.bodies.surfaces.topographies import is_topography
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.problem.series_body import span_of
-from viscontact.mechanics.problem.surface import SurfaceTerms, follows_span, surface_of
+from viscontact.mechanics.problem.surface import (
+    SurfaceTerms,
+    clock_of,
+    follows_span,
+    on_clock,
+    surface_of,
+    together,
+)
+from viscontact.mechanics.state import MOTION, OF_CLOCKS
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, TimeStep, plan_steps
 from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
@@ -70,6 +80,7 @@ class Problem:
     kept: KeptFields = ALL_FIELDS
     step_ratio: float = 1.0  # longest step, relative to the longest one that the load allows [-]
     motion: Motion = STANDING
+    temperature: TemperatureHistory | None = None  # of all bodies; None: that of their laws
 
     def __post_init__(self) -> None:
         if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
@@ -82,6 +93,7 @@ class Problem:
             ("grid", (Grid, AutomaticGrid), True),
             ("indenter_material", (Material, Layered), True),
             ("motion", (Motion,), False),
+            ("temperature", (TemperatureHistory,), True),
         ):
             value = getattr(self, name)
             if not (isinstance(value, kinds) or (optional and value is None)):
@@ -99,26 +111,69 @@ class Problem:
         """Bound of the relative errors of scalars caused by the tolerance of the solver [-]."""
         return SOLVER_ERROR_FACTOR * self.tolerance
 
-    @property
+    @cached_property
     def bodies(self) -> tuple[Material | Layered, ...]:
-        """The bodies that deform."""
+        """The bodies that deform, at a constant temperature with the laws that they have there."""
         both = (self.material, self.indenter_material)
-        return tuple(body for body in both if body is not None)
+        given = tuple(body for body in both if body is not None)
+        if self.temperature is None or not self.temperature.is_constant:
+            return given
+        return tuple(at_temperature(body, self.temperature.range[0]) for body in given)
+
+    @cached_property
+    def clocks(self) -> tuple[Clock, ...]:
+        """Clock of the creep of each body."""
+        varies = self.temperature is not None and not self.temperature.is_constant
+        return tuple(clock_of(body, self.temperature if varies else None) for body in self.bodies)
 
     @property
     def materials(self) -> tuple[Material, ...]:
         """Materials of all bodies and of their layers."""
-        each = ((body,) if isinstance(body, Material) else body.materials for body in self.bodies)
-        return tuple(chain.from_iterable(each))
+        return tuple(chain.from_iterable(map(materials_of, self.bodies)))
+
+    @cached_property
+    def stated_clocks(self) -> tuple[Clock, ...]:
+        """Clock of each body that its states tell, also at a constant temperature."""
+        if self.temperature is None or not self.temperature.is_constant:
+            return self.clocks
+        given = (body for body in (self.material, self.indenter_material) if body is not None)
+        shifts = (next((m.shift for m in materials_of(body) if m.shift), None) for body in given)
+        return tuple(
+            clock if shift is None else ReducedTime(self.temperature, shift)
+            for clock, shift in zip(self.clocks, shifts, strict=True)
+        )
+
+    @property
+    def parts(self) -> frozenset[str]:
+        """Parts of the scalars of its states that only some problems have."""
+        moving = () if self.motion.stands else (MOTION,)
+        return frozenset([*moving, *self.clock_scalars(0.0)])
+
+    def clock_scalars(self, time: float) -> dict[str, float]:
+        """Temperature [K] and reduced times [s] at a time, by their names in the result."""
+        found = {}
+        if self.temperature is not None:
+            found["temperature"] = float(self.temperature.at(time))
+        for name, clock in zip(OF_CLOCKS[1:], self.stated_clocks, strict=False):
+            if clock is not TIME:
+                found[name] = float(clock.reduced(np.array(time)))
+        return found
 
     @cached_property
     def surface(self) -> SurfaceTerms:
         """Creep functions and frequency responses of both bodies together."""
         has_times = self.times is not None or self._steps_over_cells
         if not (has_times and any(map(follows_span, self.bodies))):
-            return surface_of(self.bodies)
-        first, *others = (material.contact_compliance() for material in self.materials)
-        return surface_of(self.bodies, span_of(self._instants(sum(others, start=first))))
+            return surface_of(self.bodies, clocks=self.clocks)
+        # The times of interest may follow from the law, and the law's series from these times.
+        functions = [
+            on_clock(part.contact_compliance(), clock)
+            for body, clock in zip(self.bodies, self.clocks, strict=True)
+            for part in materials_of(body)
+        ]
+        instants = self._instants(together(functions))
+        spans = [span_of(clock.reduced(instants)) for clock in self.clocks]
+        return surface_of(self.bodies, spans, self.clocks)
 
     @property
     def compliance(self) -> ContactCompliance:
@@ -188,7 +243,7 @@ class Problem:
     @cached_property
     def planned_steps(self) -> tuple[TimeStep, ...]:
         """Steps through the given times; not for adaptive steps."""
-        return plan_steps(self.instants, self.history, self.step_ratio)
+        return plan_steps(self.instants, self.history, self.step_ratio, self.surface.clocks)
 
     @property
     def step_count(self) -> float:
@@ -202,7 +257,8 @@ class Problem:
         if self.adaptive is None:
             return FixedSteps(self.planned_steps)
         creep, marks = self.surface.creep, self.motion.times_at_cells(cell_size)
-        return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks)
+        clocks = self.surface.clocks
+        return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks, clocks)
 
     @property
     def measured_until(self) -> float:
@@ -229,8 +285,11 @@ class Problem:
         if len(self.bodies) == 1:
             return "material"
         indenter = self.bodies[1]
-        own = (indenter,) if isinstance(indenter, Material) else indenter.materials
-        return "indenter material" if any(map(is_it, own)) else "half-space material"
+        return (
+            "indenter material"
+            if any(map(is_it, materials_of(indenter)))
+            else "half-space material"
+        )
 
     @property
     def thinnest_layer(self) -> float:

@@ -12,6 +12,7 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.loads.temperature import TemperatureHistory, as_temperature
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.kept_fields import KeptFields
@@ -31,11 +32,13 @@ class Arguments(TypedDict):
     tolerance: NotRequired[float]
     fields: NotRequired[str | Sequence[float]]
     motion: NotRequired[Motion | None]
+    temperature: NotRequired[TemperatureHistory | float | None]
 
 
 def contact_problem(**given: Unpack[Arguments]) -> Problem:
     """Return the contact problem of arguments; what is left out has its default."""
     named: dict[str, Any] = {**given, "load": as_history(given["load"])}
+    named["temperature"] = as_temperature(named.get("temperature"))
     named["kept"] = KeptFields(named.pop("fields", "all"))
     if named.get("motion") is None:
         named["motion"] = STANDING

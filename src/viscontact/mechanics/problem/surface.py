@@ -15,15 +15,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 
 import numpy as np
 
+from viscontact.bodies.loads.temperature import TemperatureHistory
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import (
+    ClockedCompliance,
     ContactCompliance,
     LawCompliance,
     SeriesCompliance,
 )
-from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.layers import Layered, materials_of
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.surface_response import (
@@ -75,20 +79,24 @@ class SurfaceTerms:
     @cached_property
     def compliance(self) -> ContactCompliance:
         """J(t) of short waves, which do not feel the layers [1/Pa]."""
-        local = [term.short_wave_compliance for term in self.terms if term.is_local]
-        return sum(local[1:], start=local[0])
+        return together([term.short_wave_compliance for term in self.terms if term.is_local])
 
     @cached_property
     def creep(self) -> ContactCompliance:
         """Sum of the creep functions of all terms, for times and rates of creep [1/Pa]."""
-        functions = [term.compliance for term in self.terms]
-        return sum(functions[1:], start=functions[0])
+        return together([term.compliance for term in self.terms])
 
     @cached_property
     def most_creeping(self) -> int:
         """Index of the term that creeps most over its instant compliance, the first of several."""
         growth = [_growth(term.compliance) for term in self.terms]
         return next(k for k, own in enumerate(growth) if own >= NEARLY_MOST * max(growth))
+
+    @cached_property
+    def clocks(self) -> tuple[Clock, ...]:
+        """Different clocks of the terms, besides the time."""
+        clocks = dict.fromkeys(term.compliance.clock for term in self.terms)
+        return tuple(clock for clock in clocks if clock is not TIME)
 
     @property
     def is_supported(self) -> bool:
@@ -105,31 +113,77 @@ class SurfaceTerms:
         return SummedResponse(parts, tuple(j / local for j in creep))
 
 
-def surface_of(bodies: Sequence[Material | Layered], span: Span = ANY_TIMES) -> SurfaceTerms:
-    """Terms of the bodies that deform; `span` is that of the times of interest [s]."""
+def surface_of(
+    bodies: Sequence[Material | Layered],
+    spans: Sequence[Span] = (),
+    clocks: Sequence[Clock] = (),
+) -> SurfaceTerms:
+    """Terms of the bodies that deform, with the clock of each.
+
+    `spans` are those of the reduced times of interest [s], one for each body.
+    """
     terms: list[SurfaceTerm] = []
-    for body in bodies:
+    error = 0.0
+    for body, span, clock in zip(
+        bodies, spans or repeat(ANY_TIMES), clocks or repeat(TIME), strict=False
+    ):
         for new in terms_of(body, span):
-            terms = _with_term(terms, new)
-    layered = [body for body in bodies if isinstance(body, Layered)]
-    separated = [separate(body, span) for body in layered if as_elastic(body) is None]
-    error = max((each.error for each in separated), default=0.0)
+            clocked = SurfaceTerm(on_clock(new.compliance, clock), new.response)
+            terms = _with_term(terms, clocked)
+        if isinstance(body, Layered) and as_elastic(body) is None:
+            error = max(error, separate(body, span).error)
     return SurfaceTerms(tuple(terms), error)
+
+
+def clock_of(body: Material | Layered, temperature: TemperatureHistory | None) -> Clock:
+    """Clock of all creep of a body; ValueError for layers with different ones."""
+    if isinstance(body, Material):
+        return body.clock(temperature)
+    clocks = dict.fromkeys(part.clock(temperature) for part in body.materials if creeps(part))
+    if len(clocks) > 1:
+        raise ValueError(
+            "temperature: the materials of a body of layers that creep must have the same shift "
+            "and ageing, as their responses to waves of pressure mix; give them one shift, or let "
+            "only one of them creep"
+        )
+    return next(iter(clocks), TIME)
+
+
+def on_clock(compliance: ContactCompliance, clock: Clock) -> ContactCompliance:
+    """Creep function over the reduced time of a clock; as it is if elastic."""
+    if clock is TIME or compliance.is_elastic:
+        return compliance
+    return ClockedCompliance(compliance, clock)
+
+
+def together(functions: list[ContactCompliance]) -> ContactCompliance:
+    """Sum of creep functions; with different clocks, that on the one that is ahead at last."""
+    clocks = {each.clock for each in functions if not each.is_elastic}
+    laws = [each.over_reduced_time for each in functions]
+    total = sum(laws[1:], start=laws[0])
+    clock = max(clocks, key=lambda each: float(each.reduced(np.array(LATE))), default=TIME)
+    return total if clock is TIME else ClockedCompliance(total, clock)
 
 
 def _with_term(terms: list[SurfaceTerm], new: SurfaceTerm) -> list[SurfaceTerm]:
     """Terms with another one, added to one of its response or of a proportional creep function."""
     for index, known in enumerate(terms):
-        if known.response == new.response:
-            added = SurfaceTerm(known.compliance + new.compliance, known.response)
+        if known.response == new.response and _same_clock(known, new):
+            added = SurfaceTerm(together([known.compliance, new.compliance]), known.response)
             return [*terms[:index], added, *terms[index + 1 :]]
         factor = proportion(new.compliance, known.compliance)
         if factor is not None:
             shares = 1 / (1 + factor), factor / (1 + factor)
             both = SummedResponse((known.response, new.response), shares)
-            joined = SurfaceTerm(known.compliance + new.compliance, both)
+            joined = SurfaceTerm(together([known.compliance, new.compliance]), both)
             return [*terms[:index], joined, *terms[index + 1 :]]
     return [*terms, new]
+
+
+def _same_clock(one: SurfaceTerm, other: SurfaceTerm) -> bool:
+    """True for two of one clock, or with an elastic one."""
+    both = one.compliance, other.compliance
+    return both[0].clock == both[1].clock or any(each.is_elastic for each in both)
 
 
 def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTerm]:
@@ -190,8 +244,7 @@ def creeps(body: Material | Layered) -> bool:
     >>> creeps(Material(Maxwell(1e6, 1e6), poisson_ratio=0.5))
     True
     """
-    parts = (body,) if isinstance(body, Material) else body.materials
-    return not all(part.contact_compliance().is_elastic for part in parts)
+    return not all(part.contact_compliance().is_elastic for part in materials_of(body))
 
 
 def contact_creep(material: Material) -> ContactCompliance | None:
@@ -230,6 +283,9 @@ def proportion(one: ContactCompliance, other: ContactCompliance) -> float | None
     >>> proportion(SeriesCompliance(3.0, [6.0], [1.0]), SeriesCompliance(1.0, [2.0], [1.0]))
     3.0
     """
+    if one.clock != other.clock:
+        return None
+    one, other = one.over_reduced_time, other.over_reduced_time
     if isinstance(one, LawCompliance) and isinstance(other, LawCompliance):
         return one.factor / other.factor if one.law == other.law else None
     if not (isinstance(one, SeriesCompliance) and isinstance(other, SeriesCompliance)):

@@ -10,6 +10,7 @@ times, end a step; the first one after a kink has a duration of its own.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -17,6 +18,7 @@ import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.clock import Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep, snap_to_kink
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
@@ -56,7 +58,9 @@ def estimated_steps(
         if creeps
         else ELASTIC_STEPS_PER_INTERVAL
     )
-    return stretches * each + min(request.end, float(load.kinks[-1])) / load.longest_step
+    divided = compliance.clock.divisions(0.0, request.end).size
+    cycles = min(request.end, float(load.kinks[-1])) / load.longest_step
+    return stretches * each + divided + cycles
 
 
 class AdaptiveSteps:
@@ -64,6 +68,7 @@ class AdaptiveSteps:
 
     # `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
     # which longer steps end, increasing: those at which a moving body has passed whole cells [s].
+    # Over a step the rates of the clocks change little.
 
     def __init__(
         self,
@@ -72,15 +77,19 @@ class AdaptiveSteps:
         load: LoadHistory,
         compliance: ContactCompliance,
         marks: Floats | None = None,
+        clocks: Sequence[Clock] = (),
     ) -> None:
         self._marks = np.empty(0) if marks is None else marks
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
         self._load, self._compliance = load, compliance
         self._touches = set(load.touches.tolist())
-        self._kinks = {*load.kinks.tolist(), *self._touches}
+        self._clocks = clocks
+        turns = {jump for clock in clocks for jump in clock.jumps.tolist()}
+        self._kinks = {*load.kinks.tolist(), *self._touches, *turns}
+        stopping = np.unique(np.concatenate([load.stops, *(each.kinks for each in clocks)]))
         self._jumps = set(load.jumps.tolist())
-        requested = {snap_to_kink(stop, load.stops) for stop in [*stops.tolist(), request.end]}
-        inner = {stop for stop in load.stops.tolist() if stop < self._end}
+        requested = {snap_to_kink(stop, stopping) for stop in [*stops.tolist(), request.end]}
+        inner = {stop for stop in stopping.tolist() if stop < self._end}
         self._stops = sorted((requested | inner) - {0.0})
         self._end = max(self._stops)
         self._time, self._duration = 0.0, 0.0
@@ -164,6 +173,9 @@ class AdaptiveSteps:
         duration = self._duration
         if self._time < self._load.curved_until:
             duration = min(duration, self._load.longest_step)
+        for clock in self._clocks:
+            changes = clock.divisions(self._time, self._time + min(duration, way))
+            duration = min(duration, *(changes[:1] - self._time).tolist(), math.inf)
         # The last two steps before a stop are of equal length, so that none is very short.
         parts = math.ceil(way / duration * (1 - 1e-9))
         duration = way if parts <= 1 else way / 2 if parts == 2 else duration
@@ -183,7 +195,12 @@ class AdaptiveSteps:
         way = next(stop for stop in (*sorted(self._kinks), self._end) if stop > self._time)
         shortest = MIN_STEP_FRACTION * self._end
         way = max(FIRST_STEP_FRACTION * (way - self._time), shortest)
-        instant = self._compliance.instant or self._compliance(way)
+        clock, law = self._compliance.clock, self._compliance.over_reduced_time
+
+        def crept(age: float) -> float:
+            return float(law(clock.passed(self._time + age, age)))
+
+        instant = law.instant or crept(way)
         part = 0.5 * (12 * self._allowed) ** (1 / ERROR_ORDER)
         if self._load.level_at(self._time) <= 0:
             # A first touch, after which pressure and contact grow with roots of time.
@@ -191,8 +208,7 @@ class AdaptiveSteps:
         limit = part * instant + self._compliance.instant
 
         def excess(logarithm: float) -> float:
-            crept: float = self._compliance(way * math.exp(logarithm)) - limit
-            return crept
+            return float(crept(way * math.exp(logarithm)) - limit)
 
         # Over the way, so that the unit of time changes nothing.
         least = math.log(shortest / way)

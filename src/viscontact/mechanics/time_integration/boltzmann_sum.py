@@ -13,6 +13,7 @@ from math import isclose
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryIntegral,
@@ -20,7 +21,13 @@ from viscontact.mechanics.time_integration.hereditary_integral import (
     is_resolved,
 )
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.mechanics.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
+from viscontact.mechanics.time_integration.step_shape import (
+    Companions,
+    FieldMap,
+    StepShape,
+    Trend,
+    step_shape,
+)
 
 #: Steps ahead for which the sum over the past is computed at once, as one matrix product.
 BLOCK_STEPS = 16
@@ -32,8 +39,9 @@ BLOCK_CELLS = 2048
 class BoltzmannSum(HereditaryIntegral):
     """Running hereditary integral of one field under any law, by superposition of increments.
 
-    `instants` are planned ends of steps, a jump's twice [s]: sums are computed for several of them
-    at once, singly for others. Memory for `steps` increments is reserved, and grows beyond them.
+    `instants` are planned ends of steps on the `clock`, a jump's twice [s]: sums are computed for
+    several of them at once, singly for others. Memory for `steps` increments is reserved, and grows
+    beyond them.
     """
 
     def __init__(
@@ -43,8 +51,10 @@ class BoltzmannSum(HereditaryIntegral):
         instants: Floats | None = None,
         steps: int = BLOCK_STEPS,
         others: tuple[ContactCompliance, ...] = (),
+        clock: Clock = TIME,
     ) -> None:
-        self._compliance, self._shape, self._others = compliance, shape, others
+        self._compliance, self._shape = compliance, shape
+        self.others, self.clock = others, clock
         self._planned = np.zeros(0) if instants is None else instants
         rows = max(len(self._planned), steps)
         # A row for each linear part of a step: increment of the field, and start and end.
@@ -68,7 +78,9 @@ class BoltzmannSum(HereditaryIntegral):
         history = past - compliance * self._value
         return HereditaryResponse(lambda: history, compliance, resolved=True)
 
-    def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
+    def ramp(
+        self, duration: float, *, smooth: bool = False, others: Companions = ()
+    ) -> HereditaryResponse:
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         self._next_jumps, self._next_smooth = False, smooth
         trend = self._trend if smooth else None
@@ -77,7 +89,7 @@ class BoltzmannSum(HereditaryIntegral):
             duration,
             after_jump=self._jumped,
             trend=trend,
-            others=self._others,
+            others=others,
         )
         history = self._history_at(self._time + duration, step)
         # Weights of the changes over both parts of the step.

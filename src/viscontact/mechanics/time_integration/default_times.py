@@ -14,6 +14,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.clock import TIME
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE
@@ -69,7 +70,8 @@ def _distinct_times(times: Floats, others: Floats) -> Floats:
 
 def default_end(load: LoadHistory, compliance: ContactCompliance) -> float:
     """End of the load, or of the creep under a load that is held at last [s]."""
-    end = float(load.kinks[-1])
+    # The last change of the temperature counts as one of the load.
+    end = float(max(load.kinks[-1], *compliance.clock.kinks, 0.0))
     if load.level_at(end) <= 0:
         return end
     settled = compliance.settled_after
@@ -78,8 +80,11 @@ def default_end(load: LoadHistory, compliance: ContactCompliance) -> float:
             "times: the law does not say when its creep is over; say when the run ends, e.g. "
             "times=log_times(first, end, n)"
         )
-    is_measured = math.isfinite(compliance.measured_until)
-    return max(end, settled) if is_measured else end + settled
+    clock, law = compliance.clock, compliance.over_reduced_time
+    if math.isfinite(law.measured_until):
+        return max(end, settled)
+    passed = float(clock.reduced(np.array(end)))
+    return clock.time_at(passed + law.settled_after) if clock is not TIME else end + settled
 
 
 def steps_of_one_cell(load: LoadHistory, compliance: ContactCompliance, end: float) -> Floats:
@@ -87,9 +92,13 @@ def steps_of_one_cell(load: LoadHistory, compliance: ContactCompliance, end: flo
     ages = np.append(0.0, np.geomspace(1e-9 * end, end, 100))
     plan = plan_hereditary_integral(compliance, ages, 2)
     request = AdaptiveTimes(end, DEFAULT_TIME_ERROR)
-    steps, errors = AdaptiveSteps(request, np.zeros(0), load, compliance), TimeErrors(plan, load)
-    series = plan.prony_approximation
-    memory, force_memory = InternalVariables(series, (2, 1)), InternalVariables(series, (1,))
+    series, clock = plan.prony_approximation, plan.clock
+    clocks = () if clock is TIME else (clock,)
+    steps = AdaptiveSteps(request, np.zeros(0), load, compliance, clocks=clocks)
+    errors = TimeErrors(plan, load)
+    memory, force_memory = (
+        InternalVariables(series, shape, clock=clock) for shape in ((2, 1), (1,))
+    )
     times = [0.0]
     while (step := steps.next_step()) is not None:
         point = load.at(step.time, side=step.side)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.clock import Clock
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
@@ -45,15 +46,27 @@ class TimeStep:
         return "left" if self.before_jump else "right"
 
 
-def plan_steps(times: Floats, load: LoadHistory, step_ratio: float = 1.0) -> tuple[TimeStep, ...]:
+def plan_steps(
+    times: Floats,
+    load: LoadHistory,
+    step_ratio: float = 1.0,
+    clocks: Sequence[Clock] = (),
+) -> tuple[TimeStep, ...]:
     """Plan steps to requested times [s] and, before the last, to kinks, jumps and touches.
 
     A time that differs from a kink by rounding is taken as the kink. Steps longer than `step_ratio`
-    times what the load allows are divided.
+    times what the load and the clocks of the materials allow are divided.
     """
-    wanted = _requested_ends(times, load, step_ratio * load.longest_step)
+    stops = np.unique(np.concatenate([load.stops, *(clock.kinks for clock in clocks)]))
+    wanted = _requested_ends(times, stops)
+    for divided in [
+        *_divisions(sorted({0.0, *wanted}), load, step_ratio * load.longest_step),
+        *_divisions_on(clocks, sorted({0.0, *wanted}), step_ratio),
+    ]:
+        wanted[divided] = None
+    wanted = dict(sorted(wanted.items()))
     _refuse_endless_span(list(wanted))
-    return tuple(_steps(wanted, load))
+    return tuple(_steps(wanted, load, {jump for each in clocks for jump in each.jumps.tolist()}))
 
 
 def step_ends(steps: Iterable[TimeStep]) -> Floats:
@@ -95,20 +108,24 @@ class FixedSteps:
         self._taken = restart_data["taken"]
 
 
-def _requested_ends(
-    times: Floats, load: LoadHistory, longest_step: float
-) -> dict[float, float | None]:
-    """Ends of steps in order, each with the requested time there, or None."""
-    stops = load.stops
+def _requested_ends(times: Floats, stops: Floats) -> dict[float, float | None]:
+    """Ends of steps, also at the stops, each with the requested time there, or None."""
     wanted: dict[float, float | None] = {}
     for time, stop in zip(times.tolist(), _snapped_to_kinks(times, stops).tolist(), strict=True):
         wanted[time if stop in wanted else stop] = time
     last = max(wanted)
     for stop in stops[stops <= last].tolist():
         wanted.setdefault(stop, None)
-    for divided in _divisions(sorted({0.0, *wanted}), load, longest_step):
-        wanted[divided] = None
-    return dict(sorted(wanted.items()))
+    return wanted
+
+
+def _divisions_on(
+    clocks: Sequence[Clock], instants: list[float], step_ratio: float
+) -> Iterator[float]:
+    """Times that divide intervals over which the rate of a clock changes much."""
+    for clock in clocks:
+        for begin, end in itertools.pairwise(instants):
+            yield from clock.divisions(begin, end, step_ratio).tolist()
 
 
 def _refuse_endless_span(instants: list[float]) -> None:
@@ -141,10 +158,12 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
         yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()
 
 
-def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[TimeStep]:
+def _steps(
+    wanted: dict[float, float | None], load: LoadHistory, turns: set[float]
+) -> Iterator[TimeStep]:
     """Steps to these times, the first a jump at time 0, of size zero under a gradual start."""
-    # Where bodies come to touch, the pressure has a kink.
-    kinks, jumps = {*load.kinks.tolist(), *load.touches.tolist()}, set(load.jumps.tolist())
+    # Where bodies come to touch, the pressure has a kink; where a clock jumps, its rate.
+    kinks, jumps = {*load.kinks.tolist(), *load.touches.tolist()} | turns, set(load.jumps.tolist())
     begin = 0.0
     yield TimeStep(0.0, 0.0, wanted.get(0.0), smooth=False)
     for instant, requested in wanted.items():

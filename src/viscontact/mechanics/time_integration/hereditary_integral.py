@@ -5,14 +5,17 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
+from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.mechanics.time_integration.step_shape import FieldMap
+from viscontact.mechanics.time_integration.step_shape import Companions, FieldMap
 
 #: Creep within a step, over J(0), beyond which the step is long against the law. At this value a
 #: single step after a jump has an error below 2 % of the pressure after the jump, for a Maxwell and
@@ -56,13 +59,21 @@ class HereditaryIntegral(ABC):
     step with the new value. Only these objects keep a history.
     """
 
+    #: Clock of its creep, and further creep functions that act on the same field.
+    clock: Clock = TIME
+    others: tuple[ContactCompliance, ...] = ()
+
     @abstractmethod
     def jump(self) -> HereditaryResponse:
         """Response to a jump: nothing creeps, so the new value acts by J(0) only."""
 
     @abstractmethod
-    def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
-        """Response to a step of a duration > 0 [s], `smooth` without kink at its beginning."""
+    def ramp(
+        self, duration: float, *, smooth: bool = False, others: Companions = ()
+    ) -> HereditaryResponse:
+        """Response to a step of a reduced duration > 0 [s], `smooth` without kink at its begin."""
+        # `others` act on the same field, which has one shape in the step, each over its own
+        # duration.
         # The field rises linearly: over the whole step, with an error of second order, wherever the
         # step is short enough for the law. Over a step long against the relaxation times that would
         # make the field oscillate about its true value from step to step; there it rises over the
@@ -87,7 +98,16 @@ class HereditaryIntegral(ABC):
 
 def response_to(step: TimeStep, memory: HereditaryIntegral) -> HereditaryResponse:
     """Response of a hereditary integral to a jump or to a step in time."""
-    return memory.jump() if step.is_jump else memory.ramp(step.duration, smooth=step.smooth)
+    if step.is_jump:
+        return memory.jump()
+    passed = partial(reduced_duration, step)
+    others = tuple((each.over_reduced_time, passed(each.clock)) for each in memory.others)
+    return memory.ramp(passed(memory.clock), smooth=step.smooth, others=others)
+
+
+def reduced_duration(step: TimeStep, clock: Clock) -> float:
+    """Duration of a step on a clock [s]."""
+    return clock.passed(step.time, step.duration)
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:

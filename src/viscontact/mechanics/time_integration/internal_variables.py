@@ -16,6 +16,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.mechanics.time_integration.hereditary_integral import (
@@ -24,7 +25,13 @@ from viscontact.mechanics.time_integration.hereditary_integral import (
     is_resolved,
 )
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.mechanics.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
+from viscontact.mechanics.time_integration.step_shape import (
+    Companions,
+    FieldMap,
+    StepShape,
+    Trend,
+    step_shape,
+)
 
 
 class InternalVariables(HereditaryIntegral):
@@ -34,7 +41,7 @@ class InternalVariables(HereditaryIntegral):
     - d, integrated exactly for q linear over the rise of a step (Taylor, Pister & Goudreau 1970,
     Int. J. Numer. Meth. Eng. 2, 45, for relaxation; Simo & Hughes, Computational Inelasticity,
     1998, section 10.3). `others` are further creep functions on the same field, for the shape of
-    its steps; the threads of a `team` share the field out.
+    its steps; the threads of a `team` share the field out. Steps have the durations of the `clock`.
     """
 
     def __init__(
@@ -43,8 +50,9 @@ class InternalVariables(HereditaryIntegral):
         shape: tuple[int, ...],
         others: tuple[ContactCompliance, ...] = (),
         team: Team | None = None,
+        clock: Clock = TIME,
     ) -> None:
-        self._compliance, self._others = compliance, others
+        self._compliance, self.others, self.clock = compliance, others, clock
         self._team = team or Team()
         self._fields = np.zeros((compliance.term_count, *shape))
         self._value = np.zeros(shape)
@@ -60,7 +68,9 @@ class InternalVariables(HereditaryIntegral):
         self._next, self._shape = _jump(self._compliance), StepShape(0.0, 0.0)
         return self._response()
 
-    def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
+    def ramp(
+        self, duration: float, *, smooth: bool = False, others: Companions = ()
+    ) -> HereditaryResponse:
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         self._next_jumps, self._next_smooth = False, smooth
         trend = self._trend if smooth else None
@@ -69,7 +79,7 @@ class InternalVariables(HereditaryIntegral):
             duration,
             after_jump=self._jumped,
             trend=trend,
-            others=self._others,
+            others=others,
         )
         self._next = ramp_weights(self._compliance, self._shape)
         return self._response()
@@ -93,7 +103,10 @@ class InternalVariables(HereditaryIntegral):
         self._value = value
 
     def loss(self, value: Floats) -> tuple[float, float]:
-        """Heat of the step to a new value, and power lost at its end, per area [J/m², W/m²]."""
+        """Heat of the step to a new value, and power lost at its end, per area [J/m², W/m²].
+
+        The power is that per reduced time.
+        """
         # The field is a pair of pressure and unit displacement. To be called before `accept`.
         shape, turned = self._shape, value
         if self._trend is not None and not shape.is_level:

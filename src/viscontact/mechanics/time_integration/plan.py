@@ -9,7 +9,12 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
-from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
+from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.materials.compliance import (
+    ClockedCompliance,
+    ContactCompliance,
+    SeriesCompliance,
+)
 from viscontact.mechanics.time_integration.boltzmann_sum import BoltzmannSum
 from viscontact.mechanics.time_integration.hereditary_integral import HereditaryIntegral
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
@@ -31,12 +36,19 @@ MAX_SUMMED_STEPS = 2000
 class HereditaryPlan:
     """Method by which the hereditary integral of a run is evaluated."""
 
-    compliance: ContactCompliance  # J(t) as it is used
-    instants: Floats  # planned ends of the steps [s], empty for adaptive steps
+    compliance: ContactCompliance  # J(t) as it is used, over the reduced time of its clock
+    instants: Floats  # planned ends of the steps on its clock [s], empty for adaptive steps
     rows: int  # expected number of increments, one for each linear part of a step
     method: str  # description for users
     error: float  # largest relative deviation of the J that is used from the material's [-]
     prony_approximation: SeriesCompliance  # J(t) as a Prony series, for estimates and predictions
+    clock: Clock = TIME
+
+    @property
+    def clocked_compliance(self) -> ContactCompliance:
+        """J as it is used, on its clock."""
+        used = self.compliance
+        return used if self.clock is TIME else ClockedCompliance(used, self.clock)
 
     @property
     def fields_kept(self) -> int:
@@ -53,10 +65,10 @@ class HereditaryPlan:
     ) -> HereditaryIntegral:
         """Hereditary integral of a field of this shape; `others` act on it as well."""
         if isinstance(self.compliance, SeriesCompliance):
-            return InternalVariables(self.compliance, shape, others, team)
+            return InternalVariables(self.compliance, shape, others, team, self.clock)
         is_adaptive = not self.instants.size
         room = STEP_RESERVE * self.rows if is_adaptive else self.rows
-        return BoltzmannSum(self.compliance, shape, self.instants, room, others)
+        return BoltzmannSum(self.compliance, shape, self.instants, room, others, self.clock)
 
 
 def plan_hereditary_integral(
@@ -67,9 +79,11 @@ def plan_hereditary_integral(
     # steps, as long as they fit into 256 MiB and are at most 2000; else a Prony series, whose
     # deviation from the law is part of the plan. `instants` are the ends of the steps in order, a
     # jump's twice [s]; `numbers` are to be stored at each step.
+    clock, compliance = compliance.clock, compliance.over_reduced_time
+    instants = clock.reduced(instants)
     if isinstance(compliance, SeriesCompliance):
         exact = "recursion, exact for a series law"
-        return HereditaryPlan(compliance, instants, len(instants), exact, 0.0, compliance)
+        return HereditaryPlan(compliance, instants, len(instants), exact, 0.0, compliance, clock)
     durations = np.diff(instants)
     first = float(durations.min(initial=np.inf, where=durations > 0))
     if math.isinf(first):
@@ -79,12 +93,12 @@ def plan_hereditary_integral(
     rows = len(instants) + _long_steps(compliance, durations)
     if len(instants) <= MAX_SUMMED_STEPS and 8.0 * rows * numbers <= MAX_HISTORY_BYTES:
         method = "direct sum over all earlier steps, with the given law"
-        return HereditaryPlan(compliance, instants, rows, method, 0.0, series)
+        return HereditaryPlan(compliance, instants, rows, method, 0.0, series, clock)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
         f"compliance from {format_quantity(first, 's', 3)} to {format_quantity(last, 's', 3)}"
     )
-    return HereditaryPlan(series, instants, rows, method, error, series)
+    return HereditaryPlan(series, instants, rows, method, error, series, clock)
 
 
 def _long_steps(compliance: ContactCompliance, durations: Floats) -> int:

@@ -13,15 +13,19 @@ resolved them all would be as many as the cells, and the other cells would hardl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.loads import LoadHistory, LoadPoint
+from viscontact.bodies.materials.clock import TIME
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
-from viscontact.mechanics.time_integration.hereditary_integral import HereditaryResponse
+from viscontact.mechanics.time_integration.hereditary_integral import (
+    HereditaryResponse,
+    reduced_duration,
+)
 from viscontact.mechanics.time_integration.internal_variables import ramp_weights
 from viscontact.mechanics.time_integration.plan import HereditaryPlan
 from viscontact.mechanics.time_integration.restart_data import RestartData
@@ -68,7 +72,7 @@ class StepError:
 
 
 class TimeErrors:
-    """Accumulated relative error of the pressure from the time steps of a run."""
+    """Accumulated relative error of the pressure from the time steps of a run, on its clock."""
 
     # A first touch is alike at every scale, so its error relative to the current pressure would
     # never be small. A step is therefore measured against the pressure still to come under the
@@ -78,7 +82,7 @@ class TimeErrors:
     def __init__(self, plan: HereditaryPlan, load: LoadHistory, team: Team | None = None) -> None:
         self._load, self._team = load, team or Team()
         self._level = 0.0
-        self._compliance = plan.prony_approximation
+        self._compliance, self._clock = plan.prony_approximation, plan.clock
         #: Displacement error of each term of J, from interpolation and from the pressure error [m].
         self._term_errors = np.zeros(plan.prony_approximation.term_count)
         self._pressure_error, self._jumped = 0.0, True
@@ -101,6 +105,7 @@ class TimeErrors:
         `values` are pressure p [Pa] and unit displacement K p [Pa m] at its end. For the first step
         after a kink it is estimated from the change over it.
         """
+        step = self._on_clock(step)
         contact = values[0] > 0
         if self._values is not None:
             contact |= self._values[0] > 0
@@ -122,6 +127,7 @@ class TimeErrors:
 
     def after(self, step: TimeStep, values: Floats, error: StepError) -> float:
         """Accept a step, and return the error of pressure after it over the largest [-]."""
+        step = self._on_clock(step)
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
             self._add_first_step(alone=True)
@@ -171,6 +177,12 @@ class TimeErrors:
         """Continue with larger fields, mapped by `grown`; the rate is that of the smaller ones."""
         self._values = None if self._values is None else grown(self._values)
         self._rate = None if self._rate is None else embedded(self._rate)
+
+    def _on_clock(self, step: TimeStep) -> TimeStep:
+        """The step with its reduced duration."""
+        if self._clock is TIME or step.is_jump:
+            return step
+        return replace(step, duration=reduced_duration(step, self._clock))
 
     def _growth_to_come(self, level: float) -> float:
         """Least factor by which the pressure still grows with the load."""

@@ -21,6 +21,9 @@ from viscontact.bodies.materials.compliance import ContactCompliance
 #: Maps fields to a larger grid.
 FieldMap = Callable[[Floats], Floats]
 
+#: Further creep functions that act on the same field, each with its own duration of a step [s].
+Companions = tuple[tuple[ContactCompliance, float], ...]
+
 #: Largest weight of the old value in the first step after a jump, over J(0). A single step of any
 #: length then follows the relaxation of a Maxwell body within 0.07 of its initial value; at 1 it
 #: would be within 0.14, and zero beyond two relaxation times.
@@ -89,13 +92,15 @@ def step_shape(
     *,
     after_jump: bool = False,
     trend: Trend | None = None,
-    others: tuple[ContactCompliance, ...] = (),
+    others: Companions = (),
 ) -> StepShape:
     """Shape of a step of a duration [s] for a law and `others`, continued from a recent trend."""
-    laws = (compliance, *others)
-    rise = min(longest_smooth_rise(law, duration, after_jump=after_jump) for law in laws)
+    laws = ((compliance, duration), *others)
+    rise = min(
+        longest_smooth_rise(law, own, after_jump=after_jump) * (duration / own) for law, own in laws
+    )
     # Without instantaneous compliance the rise damps errors too little for a trend.
-    if trend is None or any(law.instant == 0 for law in laws):
+    if trend is None or any(law.instant == 0 for law, _ in laws):
         return StepShape(duration, rise)
     if not 0 < duration - rise <= MAX_TREND_GROWTH * 2 * trend.age:
         return StepShape(duration, rise)

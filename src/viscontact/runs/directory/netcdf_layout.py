@@ -14,7 +14,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import MOTION, ContactState
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.stored_result import keep_little
 from viscontact.results.variables import (
@@ -55,13 +55,13 @@ class Layout:
     axis: str | None  # dimension of the fields, ``time`` or ``field_time``; None without fields
     errors: bool = False  # True with room for the errors of scalars, NaN until they are known
     kind: str = "f8"  # NumPy's name of the type of the fields
-    moving: bool = False  # True with the scalars of a moving contact
+    parts: frozenset[str] = frozenset()  # of scalars that only some results have
     over: str = "time"  # dimension of the scalars: "time", or "speed" in steady motion
 
     @property
     def scalars(self) -> dict[str, Variable]:
         """Scalars of each row."""
-        return scalars_of(moving=self.moving, over=self.over)
+        return scalars_of(self.parts, self.over)
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
@@ -69,7 +69,7 @@ class Layout:
         columns = {name: ((AXES | COORDINATES)[name], (name,)) for name in (self.over, "x", "y")}
         columns |= {name: (variable, (self.over,)) for name, variable in self.scalars.items()}
         if self.errors:
-            names = map(error_name, scalars_with_error(moving=self.moving, over=self.over))
+            names = map(error_name, scalars_with_error(moving=MOTION in self.parts, over=self.over))
             columns |= {name: (ERRORS[name], (self.over,)) for name in names}
         found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
         if self.axis is None:
@@ -102,7 +102,7 @@ class Contents:
     attributes: Mapping[str, Any] = field(default_factory=dict)  # global ones
     errors: bool = False  # True if errors of the scalars will be added
     tolerance: float = 0.0  # relative error of the pressure, for the precision of the fields
-    moving: bool = False  # True with the scalars of a moving contact
+    parts: frozenset[str] = frozenset()  # of scalars that only some results have
     over: str = "time"  # "time", or "speed" in steady motion
 
     @property
@@ -114,7 +114,7 @@ class Contents:
         """Return the layout of the result's file for some grid of the fields."""
         axis = self.fields.axis(self.over) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
-        return Layout(grid, axis, self.errors, kind, self.moving, self.over)
+        return Layout(grid, axis, self.errors, kind, self.parts, self.over)
 
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
@@ -165,7 +165,7 @@ def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState
     if not states:
         return
     over = states[0].over
-    scalars = scalars_of(moving=states[0].moving, over=over)
+    scalars = scalars_of(states[0].parts, over)
     for name, variable in {over: AXES[over], **scalars}.items():
         values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values

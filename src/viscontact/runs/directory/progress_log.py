@@ -161,7 +161,7 @@ def reached_in(entries: Mapping[str, Any]) -> float:
 
 def _entries(state: ContactState) -> dict[str, Any]:
     entries: dict[str, Any] = {state.over: float(getattr(state, state.over))}
-    for name, variable in scalars_of(moving=state.moving, over=state.over).items():
+    for name, variable in scalars_of(state.parts, state.over).items():
         number = float(getattr(state, name))
         whole = variable.kind.startswith("i")
         # JSON has no NaN.

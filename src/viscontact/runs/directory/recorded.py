@@ -57,7 +57,7 @@ class Recorded:
             {"title": self.title, **self.filed, **run.attributes, **about},
             run.errors,
             run.contact.tolerance if fits_single else 0.0,
-            moving=not run.contact.motion.stands,
+            parts=run.contact.parts,
             over=run.axis.name,
         )
 

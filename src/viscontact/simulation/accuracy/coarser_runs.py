@@ -86,8 +86,8 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     # Two are coarser in cells and in steps. Where the time error is not known to be small, a third
     # one divides the steps that these two take like the run: the first ones behind kinks and jumps
     # of the load, and all of a run of few steps.
-    times, load = history["time"], run.problem.history
-    own = step_ends(plan_steps(times, load))
+    times, load, clocks = history["time"], run.problem.history, run.problem.surface.clocks
+    own = step_ends(plan_steps(times, load, clocks=clocks))
     creeping = creeps(run.problem.surface.creep, times)
     few = len(own) < FEW_STEPS or _creeps_behind_jumps(run, own)
     divides = creeping and (few or not _has_small_time_error(run, history))
@@ -106,7 +106,7 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
         yield _coarser_run(run, *spacing, step_ratio, left)
     if divides:
         spacing, step_ratio, left = levels[-1]
-        parts = parts_of_shared_steps(own, step_ends(plan_steps(left, load, step_ratio)))
+        parts = parts_of_shared_steps(own, step_ends(plan_steps(left, load, step_ratio, clocks)))
         if not run.problem.motion.stands:
             parts = np.union1d(parts, parts_of_first_steps(own, load.jumps))
         divided = _coarser_run(run, *spacing, step_ratio, np.union1d(left, parts))

@@ -103,10 +103,9 @@ def _compliance_at_largest_load(
     # A jump is as old as its time; a rise between two times is weighted by the mean of J over its
     # ages.
     jumps = np.append(levels[0, 1], np.diff(levels, axis=1)[1:, 0])
-    ages = peak_time - instants
     rises = levels[1:, 0] - levels[:-1, 1]
-    creep = float(jumps @ np.asarray(compliance(ages)))
-    creep += float(rises @ np.asarray(compliance.mean(ages[1:], ages[:-1])))
+    creep = float(jumps @ compliance.since(instants, peak_time))
+    creep += float(rises @ compliance.mean_since(instants[:-1], instants[1:], peak_time))
     return creep / float(levels[-1, 1])
 
 
@@ -158,11 +157,12 @@ def largest_compliance(compliance: ContactCompliance, end: float | None) -> floa
     if end is not None:
         return float(compliance(end))
     latest = compliance.settled_after
-    if math.isinf(latest) or (isinstance(compliance, SeriesCompliance) and compliance.fluidity > 0):
+    law = compliance.over_reduced_time
+    if math.isinf(latest) or (isinstance(law, SeriesCompliance) and law.fluidity > 0):
         raise ValueError(
             "end: the law does not say when its creep is over (or flows without end); give end=, "
             "when the run ends, in s"
         )
-    if isinstance(compliance, SeriesCompliance):
-        return compliance.instant + float(np.sum(compliance.amplitudes))
+    if isinstance(law, SeriesCompliance):
+        return law.instant + float(np.sum(law.amplitudes))
     return float(compliance(latest))

@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.default_times import (
     MAX_LOAD_STEPS,
@@ -70,6 +71,7 @@ class ContactGrowth:
     load: LoadHistory
     steps: tuple[TimeStep, ...]
     compliance: SeriesCompliance  # J(t) [1/Pa]
+    clock: Clock
     largest: float  # reference of the largest contact
     extents: tuple[float, float]  # exponents of the extents along x and y [-]
     peak: float  # exponent of the peak pressure [-]
@@ -95,7 +97,8 @@ class ContactGrowth:
         edges = np.linspace(0.0, 1.0, EXACT_STRIPS + 1)
         firsts = 1 + np.cumsum([0, EXACT_STRIPS, *counts[:-1]])
         # The first number is the force, whose integral is the reference.
-        memory = InternalVariables(self.compliance, (1 + EXACT_STRIPS + int(counts.sum()),))
+        numbers = 1 + EXACT_STRIPS + int(counts.sum())
+        memory = InternalVariables(self.compliance, (numbers,), clock=self.clock)
         widths, largest = np.zeros(len(self.steps)), np.zeros((len(self.steps), len(firsts)))
         for index, step in enumerate(self.steps):
             response = response_to(step, memory)
@@ -145,12 +148,15 @@ def contact_growth(
     times = steps_of_one_cell(load, compliance, last)
     divisions = min(max(DIVIDED_STEPS // len(times), 1), DIVISIONS)
     parts = [times[:-1] + part / divisions * np.diff(times) for part in range(divisions)]
-    steps = plan_steps(np.unique(np.concatenate([*parts, times[-1:]])), load)
+    instants = np.unique(np.concatenate([*parts, times[-1:]]))
+    clocks = () if compliance.clock is TIME else (compliance.clock,)
+    steps = plan_steps(instants, load, clocks=clocks)
     plan = plan_hereditary_integral(compliance, step_ends(steps), 2)
     by_force = load.control == "force"
     reference = largest.point.level * (largest.compliance if by_force else 1.0)
     extents, peak = _exponents(indenter, largest)
-    return ContactGrowth(load, steps, plan.prony_approximation, reference, extents, peak)
+    series, clock = plan.prony_approximation, plan.clock
+    return ContactGrowth(load, steps, series, clock, reference, extents, peak)
 
 
 def _last_time(load: LoadHistory, compliance: ContactCompliance, end: float | None) -> float:

@@ -143,7 +143,8 @@ class EventSearch:
         """Steps that their error determines, after the last one."""
         request = AdaptiveTimes(end, self._tolerance)
         stops = self._stops[self._stops < end]
-        steps = AdaptiveSteps(request, stops, history, self._run.problem.surface.creep)
+        surface = self._run.problem.surface
+        steps = AdaptiveSteps(request, stops, history, surface.creep, clocks=surface.clocks)
         last = self._last
         begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}
         steps.restore({**begun, "step": asdict(last)})

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from viscontact.bodies.materials.clock import Clock
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.mechanics.contact.resistance import (
     is_even,
@@ -14,6 +15,7 @@ from viscontact.mechanics.contact.resistance import (
     resistance_by_slope,
 )
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
+from viscontact.mechanics.time_integration.plan import HereditaryPlan
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.motion import (
     edge_warnings,
@@ -67,8 +69,9 @@ class MovingContact:
         #: Along x and y: the contact has reached an end of the body, with a force that is unknown.
         self._ends_reached = np.zeros(2, dtype=bool)
         #: Half extent of the largest contact; of the longest steps under at least half of it way
-        #: and half extent [m], duration [s] and angular frequency [1/s].
+        #: and half extent [m], reduced duration [s] and angular frequency [1/s].
         self._extent, self._way, self._rate = 0.0, (0.0, 1.0), (0.0, 0.0)
+        self._pace_of_clock = 1.0  # reduced time per time
 
     def continue_on(self, run: RunSetup) -> None:
         """Continue the same run on a larger grid."""
@@ -79,6 +82,7 @@ class MovingContact:
         motion = self._run.problem.motion
         position = np.array(self._run.position_at(step.time))
         way = position - self._position
+        self._pace_of_clock = self._clock.rate(step.time)
         resistance = np.array(self._resistance_at(step, solution))
         self._pace(step, solution, float(np.hypot(*way)))
         self.added = float(((self._resistance + resistance) * way)[way != 0].sum()) / 2
@@ -135,16 +139,25 @@ class MovingContact:
         motion, law = self._run.problem.motion, self._law
         if half_extent == 0:
             return 0.0
-        shares = loss_shares(law, motion.top_speed / half_extent)
+        speed = motion.top_speed / self._pace_of_clock  # [m per reduced time]
+        shares = loss_shares(law, speed / half_extent)
         if not shares.sum() > 0:
             return math.inf
-        return motion.top_speed * float(shares @ law.times) / float(shares.sum())
+        return speed * float(shares @ law.times) / float(shares.sum())
 
     @property
     def _law(self) -> SeriesCompliance:
         """Creep function of the term that creeps most, as a Prony series."""
-        most = self._run.problem.surface.most_creeping
-        return self._run.plans[most].prony_approximation
+        return self._plan.prony_approximation
+
+    @property
+    def _clock(self) -> Clock:
+        """Clock of that term."""
+        return self._plan.clock
+
+    @property
+    def _plan(self) -> HereditaryPlan:
+        return self._run.plans[self._run.problem.surface.most_creeping]
 
     def _pace(self, step: TimeStep, solution: StepSolution, way: float) -> None:
         """Keep way and duration of a step of the moving body that counts for the accuracy."""
@@ -154,7 +167,8 @@ class MovingContact:
                 self._way, self._rate = (0.0, 1.0), (0.0, 0.0)
             self._extent = max(self._extent, extent)
             self._way = max(self._way, (way, extent), key=lambda each: each[0] / each[1])
-            self._rate = max(self._rate, (step.duration, way / step.duration / extent))
+            passed = step.duration * self._pace_of_clock
+            self._rate = max(self._rate, (passed, way / passed / extent))
 
     def warnings(self) -> dict[str, str]:
         """Warnings, by kind, about the steps so far."""

@@ -100,6 +100,7 @@ class Observer:
         has_datum = self._run.problem.has_datum(rim.grid)
         self._work += self._work_of(point, solution) if has_datum else math.nan
         moved: dict[str, Any] = self._motion.evaluate(step, solution)
+        moved |= self._run.problem.clock_scalars(step.time)
         # The surface takes up the work of the load and that of the motion.
         self._work -= 0.0 if self._held else self._motion.added
         self._cycles.record_work(step, self._work + self._motion.work)

@@ -62,6 +62,7 @@ def event_attributes(
 
 def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
     """Describe a contact problem, solved on a grid, as plain data."""
+    heat = {} if problem.temperature is None else {"temperature": describe(problem.temperature)}
     motion = {} if problem.motion.stands else {"motion": describe(problem.motion)}
     return {
         "indenter": describe(problem.indenter),
@@ -69,6 +70,7 @@ def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
         "indenter_material": describe(problem.indenter_material),
         "load": describe(problem.load),
         **motion,
+        **heat,
         "grid": describe(grid),
         "automatic": describe(problem.automatic_grid),
         "times": describe(problem.instants),

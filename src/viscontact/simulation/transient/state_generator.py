@@ -13,6 +13,7 @@ from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
@@ -41,6 +42,7 @@ def march(  # noqa: PLR0913
     threads: int = 1,
     progress: Progress | bool | None = None,
     motion: Motion | None = None,
+    temperature: TemperatureHistory | float | None = None,
 ) -> Iterator[ContactState]:
     """Simulate an indenter pressed on a creeping half-space, and yield its state at each instant.
 
@@ -75,6 +77,10 @@ def march(  # noqa: PLR0913
     motion : Travel or Reciprocation, optional
         Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
         out. The grid is fixed to the surface; an automatic one covers the whole path.
+    temperature : TemperatureHistory or float, optional
+        Temperature of the bodies over time, or a constant one [K]. Laws hold at the reference
+        temperatures of the shifts of their materials, and creep on the clocks that these make of
+        the time; when left out, laws are used as they are.
 
     Returns
     -------
@@ -122,6 +128,7 @@ def march(  # noqa: PLR0913
         tolerance=tolerance,
         fields=fields,
         motion=motion,
+        temperature=temperature,
     )
     run = prepare_run(carried_out(problem, threads), threads)
     return march_run(run, report)

@@ -83,7 +83,8 @@ class Stepper:
         self._run, self._domain = run, domain
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
         self._history = SurfaceHistory(run, domain)
-        self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
+        first = run.hereditary
+        self._force_memory = InternalVariables(first.prony_approximation, (1,), clock=first.clock)
         self._creeping = run.problem.surface.most_creeping  # term whose time error is estimated
         self._errors = TimeErrors(run.plans[self._creeping], run.problem.load, domain.team)
         self._scale = 1e-12 * max(run.grid.cell_size)

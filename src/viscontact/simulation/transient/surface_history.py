@@ -74,8 +74,11 @@ class SurfaceHistory:
     def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
         self._domain = domain
         self._responses = tuple(term.response for term in run.problem.surface.terms)
+        # Half-spaces of two clocks have the same one.
+        self._alike = all(each == self._responses[0] for each in self._responses)
+        self._end = 0.0
         # All of one field, the pressure, so that its steps have one shape.
-        laws = tuple(plan.compliance for plan in run.plans) if run.other_terms else ()
+        laws = tuple(plan.clocked_compliance for plan in run.plans) if run.other_terms else ()
         self._integrals: list[HereditaryIntegral] = [
             plan.integral((2, *domain.shape), laws, domain.team) for plan in run.plans
         ]
@@ -87,14 +90,15 @@ class SurfaceHistory:
             if not isinstance(integral, InternalVariables):
                 return None
             lost = integral.loss(pair)
-            heat, power = heat + lost[0], power + lost[1]
+            heat, power = heat + lost[0], power + lost[1] * integral.clock.rate(self._end)
         return heat, power
 
     def respond(self, step: TimeStep) -> SurfaceStep:
         """Response to a step; sets that of the domain's surface."""
+        self._end = step.time
         short_waves = tuple(response.short_waves for response in self._responses)
         found = SurfaceStep(tuple(response_to(step, each) for each in self._integrals), short_waves)
-        if len(self._responses) > 1:
+        if not self._alike:
             shares = tuple(weight / found.compliance for weight in found.weights)
             self._domain.set_response(self._responses, shares)
         return found
@@ -102,7 +106,7 @@ class SurfaceHistory:
     def pairs(self, step: SurfaceStep, values: Floats) -> tuple[Floats, ...]:
         """Pair of each term, of pressure [Pa] and unit displacement [Pa m] of the whole surface."""
         values.flags.writeable = False  # the hereditary integrals keep it without a copy
-        if len(self._responses) == 1 or not values.any():  # without pressure all are zero
+        if self._alike or not values.any():  # without pressure all are zero
             return (values,) * len(self._responses)
         pressure, unit_displacement = values[0], self._domain.unit_displacement
         others = [unit_displacement(pressure, each) for each in self._responses[1:]]

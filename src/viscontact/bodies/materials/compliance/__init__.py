@@ -2,7 +2,14 @@
 
 from viscontact.bodies.materials.compliance.base import ContactCompliance
 from viscontact.bodies.materials.compliance.of_law import LawCompliance
+from viscontact.bodies.materials.compliance.on_clock import ClockedCompliance
 from viscontact.bodies.materials.compliance.series import SeriesCompliance
 from viscontact.bodies.materials.compliance.sum import SummedCompliance
 
-__all__ = ["ContactCompliance", "LawCompliance", "SeriesCompliance", "SummedCompliance"]
+__all__ = [
+    "ClockedCompliance",
+    "ContactCompliance",
+    "LawCompliance",
+    "SeriesCompliance",
+    "SummedCompliance",
+]

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
+import numpy as np
+
+from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws.creep_function import CreepFunction
+from viscontact.bodies.materials.clock import TIME, Clock
 
 
 class ContactCompliance(CreepFunction):
@@ -19,6 +23,28 @@ class ContactCompliance(CreepFunction):
     """
 
     instant: float
+
+    @property
+    def clock(self) -> Clock:
+        """Clock of the creep, TIME without a temperature history or ageing."""
+        return TIME
+
+    @property
+    def over_reduced_time(self) -> ContactCompliance:
+        """J over the reduced time of its clock."""
+        return self
+
+    def since(self, applied: Floats, time: float) -> Floats:
+        """J at a time of loads that were applied earlier [s]."""
+        return np.asarray(self.over_reduced_time(self._ages(applied, time)))
+
+    def mean_since(self, begun: Floats, ended: Floats, time: float) -> Floats:
+        """J at a time of loads that rose between earlier times [s], linear in reduced time."""
+        ages = self._ages(ended, time), self._ages(begun, time)
+        return np.asarray(self.over_reduced_time.mean(*ages))
+
+    def _ages(self, applied: Floats, time: float) -> Floats:
+        return self.clock.reduced(np.array(time)) - self.clock.reduced(applied)
 
     # The mean under its older name.
     mean = CreepFunction.mean_creep

@@ -1,0 +1,188 @@
+"""Clocks of materials: the reduced time that temperature and ageing make of the time.
+
+A thermorheologically simple body at the temperature T(t) that ages creeps as it does at the
+reference temperature, without ageing, over the reduced time
+
+    ξ(t) = ∫ dt'/(a_T(T(t')) a_e(t'))
+
+(Morland & Lee 1960, Trans. Soc. Rheol. 4, 233; Struik 1978): u(t) = ∫ J(ξ(t) - ξ(t')) dq(t').
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.laws import Shift
+from viscontact.bodies.laws.ageing import Ageing
+from viscontact.bodies.loads.temperature import TemperatureHistory
+
+#: Largest change of ln(1/a) within a piece over which the rate is integrated by Gauss's rule, which
+#: is exact to rounding then.
+PIECE_CHANGE = 0.25
+
+#: Largest change of ln(1/a) over a step: a factor of two in the rate.
+STEP_CHANGE = math.log(2.0)
+
+#: End of the times that a clock is made for [s].
+END = 1e30
+
+_NODES, _WEIGHTS = leggauss(8)
+
+
+class Clock:
+    """The time itself: the clock of a body at a constant temperature that does not age."""
+
+    #: Instants of kinks and jumps of the rate, and of its jumps alone [s].
+    kinks: Floats = np.zeros(0)
+    jumps: Floats = np.zeros(0)
+
+    def reduced(self, times: Floats) -> Floats:
+        """Reduced times since time 0 [s]."""
+        return np.asarray(times, dtype=float)
+
+    def passed(self, end: float, duration: float) -> float:
+        """Reduced duration of a step that ends at a time [s]."""
+        del end
+        return duration
+
+    def rate(self, time: float) -> float:
+        """Reduced time that passes in a unit of time just before a time [-]."""
+        del time
+        return 1.0
+
+    def time_at(self, reduced: float) -> float:
+        """Time at which a reduced time is reached [s]."""
+        return reduced
+
+    def divisions(self, begin: float, end: float, step_ratio: float = 1.0) -> Floats:
+        """Times between two, over whose steps the rate changes little; `step_ratio` times more."""
+        del begin, end, step_ratio
+        return np.zeros(0)
+
+
+TIME = Clock()
+
+
+class _Pieces(NamedTuple):
+    """Ends of the pieces of time over which the rate is smooth, and reduced times there [s]."""
+
+    ends: Floats
+    reduced: Floats
+
+
+@dataclass(frozen=True)
+class ReducedTime(Clock):
+    """Clock of a material under a temperature history, or one that ages, or both."""
+
+    temperature: TemperatureHistory | None = None
+    shift: Shift | None = None
+    ageing: Ageing | None = None
+
+    @property
+    def kinks(self) -> Floats:  # type: ignore[override]
+        """Instants of kinks and jumps of the rate [s]."""
+        return np.zeros(0) if self.temperature is None else self.temperature.kinks
+
+    @property
+    def jumps(self) -> Floats:  # type: ignore[override]
+        """Instants of jumps of the rate [s]."""
+        return np.zeros(0) if self.temperature is None else self.temperature.jumps
+
+    def reduced(self, times: Floats) -> Floats:
+        """Reduced times since time 0 [s]."""
+        instants = np.minimum(times, END)
+        ends, reduced = self._pieces
+        piece = np.clip(np.searchsorted(ends, instants, side="right") - 1, 0, ends.size - 2)
+        return np.asarray(reduced[piece] + self._within(ends[piece], instants))
+
+    def passed(self, end: float, duration: float) -> float:
+        """Reduced duration of a step that ends at a time [s]."""
+        # Not the difference of two reduced times, which cancels.
+        begin = end - duration
+        ends = self._pieces.ends
+        first, last = np.searchsorted(ends, [begin, end], side="right")
+        inner = ends[first:last]
+        marks = np.concatenate([[begin], inner[(inner > begin) & (inner < end)], [end]])
+        return float(self._within(marks[:-1], marks[1:]).sum())
+
+    def rate(self, time: float) -> float:
+        """Reduced time that passes in a unit of time just before a time [-]."""
+        return float(np.exp(self._log_rate(np.array([time]), "left")[0]))
+
+    def time_at(self, reduced: float) -> float:
+        """Time at which a reduced time is reached [s]; inf if it never is."""
+        ends, passed = self._pieces
+        piece = int(np.searchsorted(passed, reduced, side="right")) - 1
+        if piece >= ends.size - 1:
+            return math.inf
+        low, high = float(ends[piece]), float(ends[piece + 1])
+        for _ in range(200):  # bisection, at last of neighbouring numbers
+            middle = (low + high) / 2
+            if not low < middle < high:
+                break
+            if float(passed[piece] + self._within(ends[piece], np.array(middle))) < reduced:
+                low = middle
+            else:
+                high = middle
+        return high
+
+    def divisions(self, begin: float, end: float, step_ratio: float = 1.0) -> Floats:
+        """Times between two, over whose steps the rate changes little; `step_ratio` times more."""
+        # Ends of pieces, which end where the rate has changed by a part of what a step may.
+        ends = self._pieces.ends
+        inner = ends[(ends > begin) & (ends < end)]
+        marks = np.concatenate([[begin], inner, [end]])
+        left, right = self._log_rate(marks[1:], "left"), self._log_rate(marks[:-1], "right")
+        changed = np.cumsum(np.abs(left - right))
+        parts = math.ceil(float(changed[-1]) / (STEP_CHANGE * step_ratio) * (1 - 1e-9))
+        if parts <= 1:
+            return np.zeros(0)
+        wanted = float(changed[-1]) * np.arange(1, parts) / parts
+        return np.asarray(np.interp(wanted, np.append(0.0, changed), marks))
+
+    @cached_property
+    def _pieces(self) -> _Pieces:
+        ends = np.unique(np.concatenate([[0.0, END], self.kinks, self._ends_of_ageing()]))
+        if self.temperature is not None:
+            ends = self._divided(ends)
+        passed = self._within(ends[:-1], ends[1:])
+        return _Pieces(ends, np.append(0.0, np.cumsum(passed)))
+
+    def _ends_of_ageing(self) -> Floats:
+        if self.ageing is None:
+            return np.zeros(0)
+        age, each = self.ageing.age, PIECE_CHANGE / max(self.ageing.exponent, PIECE_CHANGE)
+        count = math.ceil(math.log1p(END / age) / each)
+        return np.asarray(age * np.expm1(each * np.arange(1, count)))
+
+    def _divided(self, ends: Floats) -> Floats:
+        """Ends of pieces with further ones, until the shift changes little over each."""
+        held = float(self.kinks[-1])
+        while True:
+            left, right = self._log_shift(ends[1:], "left"), self._log_shift(ends[:-1], "right")
+            long = (np.abs(left - right) > PIECE_CHANGE) & (ends[1:] <= held)
+            if not long.any():
+                return ends
+            ends = np.sort(np.concatenate([ends, (ends[1:] + ends[:-1])[long] / 2]))
+
+    def _within(self, begin: Floats, end: Floats) -> Floats:
+        """Reduced durations between times of one piece, by Gauss's rule with eight points."""
+        half = (np.asarray(end) - begin) / 2
+        nodes = np.asarray(begin)[..., None] + half[..., None] * (1 + _NODES)
+        return np.asarray(half * (np.exp(self._log_rate(nodes, "right")) @ _WEIGHTS))
+
+    def _log_rate(self, times: Floats, side: str) -> Floats:
+        rate = -self._log_shift(times, side)
+        return rate if self.ageing is None else rate - self.ageing.log_factor(times)
+
+    def _log_shift(self, times: Floats, side: str) -> Floats:
+        if self.temperature is None or self.shift is None:
+            return np.zeros(np.shape(times))
+        return np.asarray(np.log(self.shift.factor(self.temperature.at(times, side=side))))
