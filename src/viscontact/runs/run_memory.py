@@ -29,7 +29,7 @@ FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 
 #: Arrays of the whole grid for the trends of gap and pressure on a creeping body: two of numbers
-#: and two of marks.
+#: and two of marks. With symmetry planes, those after a step count besides those before it.
 ARRAYS_OF_TRENDS = 2.25
 
 #: Fields that take as much memory as the tables and operators of a further term of layers.
@@ -50,7 +50,8 @@ def run_memory(run: RunSetup) -> float:
             fields += min(plan.rows, BLOCK_STEPS)
             further += ARRAYS_OF_SUM
     fields += FIELDS_OF_TERM * len(run.other_terms)
-    whole = 0.0 if run.problem.surface.creep.is_elastic else ARRAYS_OF_TRENDS
+    creeps = not run.problem.surface.creep.is_elastic
+    whole = ARRAYS_OF_TRENDS * creeps * (1 + any(run.mirrored))
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
 
 

@@ -14,7 +14,7 @@ OPEN = [False] * 4
 def trend_after(*steps: tuple[list[float], list[bool]], error: float = 0.0) -> ContactTrend:
     trend = ContactTrend.at_first(GRID)
     for gap, in_contact in steps:
-        trend.follow(np.array([gap]), np.zeros((1, 4)), np.array([in_contact]), error)
+        trend = trend.after(np.array([gap]), np.zeros((1, 4)), np.array([in_contact]), error)
     return trend
 
 
@@ -52,7 +52,7 @@ def test_gaps_of_cells_in_contact_are_zero_whatever_the_solver_leaves_of_them() 
 def test_a_contact_recedes_where_its_pressure_falls_as_well() -> None:
     trend, gap = ContactTrend.at_first(GRID), np.ones((1, 4))
     for pressure in ([1.0, 1.0, 1.0, 0.0], [2.0, 0.5, 1.0, 0.0]):
-        trend.follow(gap, np.array([pressure]), np.zeros((1, 4), bool), 0.0)
+        trend = trend.after(gap, np.array([pressure]), np.zeros((1, 4), bool), 0.0)
     found = trend.recession(np.array([pressure]))
     np.testing.assert_array_equal(found.falls[0], [False, True, False, False])
 

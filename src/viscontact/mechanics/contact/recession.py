@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,15 +23,19 @@ class Trend:
     extreme: Floats  # largest while they rise, least while they fall
     rises: Bools
 
-    def follow(self, rows: slice, values: Floats, error: float) -> None:
-        """Take in the values of another step in some rows, in place, with the error of values."""
-        extreme, rises = self.extreme[rows], self.rises[rows]
-        further = np.where(rises, values > extreme, values < extreme)
-        less = (1 + TURNS) * values + error < extreme
-        more = (1 + TURNS) * extreme + error < values
-        turned = np.where(rises, less, more)
-        np.copyto(extreme, values, where=turned | further)
-        rises ^= turned
+    def after(self, values: Callable[[slice], Floats], error: float) -> Trend:
+        """Trend after another step, by its values in some rows, with their error."""
+        later = Trend(np.empty_like(self.extreme), np.empty_like(self.rises))
+        # Rows of a block at once, without temporary arrays of the whole grid.
+        for rows in blocks_of(len(self.extreme), self.extreme[0].nbytes):
+            extreme, rises, given = self.extreme[rows], self.rises[rows], values(rows)
+            further = np.where(rises, given > extreme, given < extreme)
+            less = (1 + TURNS) * given + error < extreme
+            more = (1 + TURNS) * extreme + error < given
+            turned = np.where(rises, less, more)
+            later.extreme[rows] = np.where(turned | further, given, extreme)
+            later.rises[rows] = rises ^ turned
+        return later
 
     def on(self, small: Grid, large: Grid, beyond: float) -> Trend:
         """The same trend on a larger grid, with a value beyond the smaller one."""
@@ -51,12 +56,16 @@ class ContactTrend:
         gap = Trend(np.full(grid.shape, np.inf), np.zeros(grid.shape, dtype=bool))
         return cls(gap, Trend(np.zeros(grid.shape), np.ones(grid.shape, dtype=bool)))
 
-    def follow(self, gap: Floats, pressure: Floats, in_contact: Bools, error: float) -> None:
-        """Take in another step, in place, with the solver's error of gaps [m]."""
-        for rows in blocks_of(len(gap), gap[0].nbytes):
-            closed = np.where(in_contact[rows], 0.0, np.maximum(gap[rows], 0.0))
-            self.gap.follow(rows, closed, error)
-            self.pressure.follow(rows, pressure[rows], 0.0)
+    def after(self, gap: Floats, pressure: Floats, in_contact: Bools, error: float) -> ContactTrend:
+        """Trend after another step, with the solver's error of gaps [m]."""
+
+        def closed(rows: slice) -> Floats:
+            return np.where(in_contact[rows], 0.0, np.maximum(gap[rows], 0.0))
+
+        def pressed(rows: slice) -> Floats:
+            return pressure[rows]
+
+        return ContactTrend(self.gap.after(closed, error), self.pressure.after(pressed, 0.0))
 
     def on(self, small: Grid, large: Grid) -> ContactTrend:
         """The same trends on a larger grid."""

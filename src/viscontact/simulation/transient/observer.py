@@ -125,7 +125,7 @@ class Observer:
         recession = None
         if self._trend is not None:
             error = self._run.problem.solver_error * float(np.abs(solution.displacement).max())
-            self._trend.follow(gap, solution.pressure, in_contact, error)
+            self._trend = self._trend.after(gap, solution.pressure, in_contact, error)
             recession = self._trend.recession(solution.pressure)
         return trace_rim(self._run.grid, in_contact, gap, self._outline, recession)
 
