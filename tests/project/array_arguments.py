@@ -98,6 +98,7 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "TabulatedShift": (
         {"temperatures": [290.0, 300.0], "factors": [3.0, 1.0], "vertical": [0.9, 1.0]},
     ),
+    "TemperatureHistory": ({"times": [0.0, 1.0, 2.0], "temperature": [290.0, 300.0, 310.0]},),
     "Travel": ({"times": [0.0, 1.0, 2.0], "x": LINE, "y": LINE},),
     "clustered_times": ({"corners": [0.0, 1.0], "count": 4},),
     "cropped": (
@@ -168,7 +169,9 @@ OBJECTS: tuple[Any, ...] = (
     *(vc.CylindricalProfile(), vc.FullCrown(1.0), vc.PartialCrown(1.0), vc.Chamfer(1e-4, 0.5)),
     *(vc.TwoRadiiCrown(1.0, 1e-3, 0.5), vc.TabulatedProfile(LINE, DROPS)),
     *(vc.LogarithmicProfile(1e-6), vc.Elastic(1e6), vc.PowerLaw(1e-9, 0.5, 1.0)),
-    *(vc.WLF(290.0, 17.0, 51.0), vc.ForceHistory(**FORCES), vc.ApproachHistory(**APPROACHES)),
+    *(vc.WLF(290.0, 17.0, 51.0), vc.Ageing(1.0, 0.8)),
+    *(vc.TemperatureHistory(**CALLS["TemperatureHistory"][0]),),
+    *(vc.ForceHistory(**FORCES), vc.ApproachHistory(**APPROACHES)),
     *(vc.harmonic(2.0, 1.0, 1.0, 3), loads.MixedHistory(**CALLS["MixedHistory"][0])),
     *(vc.Travel(**CALLS["Travel"][0]), vc.reciprocating(1e-3, 1.0, 2)),
     *(surfaces.Surface(MAP, 1e-3), vc.IndentationRecord(**CALLS["IndentationRecord"][0])),

@@ -38,6 +38,8 @@ def roller() -> vc.Roller:
     return vc.Roller(4e-3, 0.8e-3, 0.01)
 
 
+WARMED = vc.Arrhenius(293.15, 80e3)
+
 RUNS = {
     "series law, up, jump, away and back": lambda: prepare_run(
         Problem(vc.Sphere(0.01), ZENER, UP_AND_DOWN, GRID, vc.uniform_times(5.0, 9))
@@ -91,6 +93,17 @@ RUNS = {
             vc.ForceHistory(np.arange(7.0), [0, 0.1, 0, 0.1, 0, 0.1, 0]),
             GRID,
             vc.uniform_times(6.0, 18),
+        )
+    ),
+    "warmed, with two clocks": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            vc.Material(ZENER.law, 0.5, shift=vc.WLF(293.15, 8.86, 101.6)),
+            vc.ramp(0.02, 1.0),
+            GRID,
+            vc.uniform_times(5.0, 9),
+            vc.Material(POWER.law, 0.4, ageing=vc.Ageing(2.0, 0.8), shift=WARMED),
+            temperature=vc.TemperatureHistory([0.0, 3.0, 5.0], [293.15, 313.15, 303.15]),
         )
     ),
     "moving punch that is lifted": lambda: prepare_run(

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.units.display import Displayable
-from viscontact.units.numbers import check_fields
+from viscontact.units.numbers import check_fields, real_array
 
 
 @dataclass(frozen=True)
@@ -58,9 +59,20 @@ class Ageing(Displayable):
                 "shift rates of glassy polymers are 0.7 to 1"
             )
 
-    def factor(self, times: float | Floats) -> Floats:
-        """Return the factor a_e of all times of the law at times of a run [s]."""
-        return np.asarray(np.exp(self.log_factor(np.asarray(times, dtype=float))))
+    def factor(self, times: ArrayLike) -> Floats:
+        """Return the factor a_e of all times of the law at times of a run.
+
+        Parameters
+        ----------
+        times : array_like
+            Times since the start of the run [s].
+
+        Returns
+        -------
+        ndarray
+            Factors, 1 at time 0, of the shape of `times` [-].
+        """
+        return np.asarray(np.exp(self.log_factor(real_array("times", times, "s"))))
 
     def log_factor(self, times: Floats) -> Floats:
         """Return ln a_e at times of a run [s]."""
