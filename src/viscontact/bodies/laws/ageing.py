@@ -72,11 +72,8 @@ class Ageing(Displayable):
         ndarray
             Factors, 1 at time 0, of the shape of `times` [-].
         """
-        return np.asarray(np.exp(self.log_factor(real_array("times", times, "s"))))
-
-    def log_factor(self, times: Floats) -> Floats:
-        """Return ln a_e at times of a run [s]."""
-        return np.asarray(self.exponent * np.log1p(times / self.age))
+        passed = real_array("times", times, "s")
+        return np.asarray((1 + passed / self.age) ** self.exponent)
 
 
 #: Largest exponent that is taken: measured ones do not exceed 1.2.

@@ -180,7 +180,7 @@ class ReducedTime(Clock):
 
     def _log_rate(self, times: Floats, side: str) -> Floats:
         rate = -self._log_shift(times, side)
-        return rate if self.ageing is None else rate - self.ageing.log_factor(times)
+        return rate if self.ageing is None else rate - np.log(self.ageing.factor(times))
 
     def _log_shift(self, times: Floats, side: str) -> Floats:
         if self.temperature is None or self.shift is None:
