@@ -99,6 +99,34 @@ def build(args: list[str]) -> int:
     return status or run(["-m", "twine", "check", "--strict", *built])
 
 
+def compatibility(args: list[str]) -> int:
+    """Run most default tests with the lowest or the newest versions: compatibility lowest."""
+    kind = args[0] if args else ""
+    if kind not in VERSIONS:
+        raise TaskError(f"compatibility: name the versions, {' or '.join(VERSIONS)}")
+    folder = ROOT / "build" / f"compatibility-{kind}"
+    python = folder / PYTHON.relative_to(VENV)
+    shutil.rmtree(folder, ignore_errors=True)
+    uv, wheels = ["-m", "uv", "pip"], ["--only-binary", ":all:"]
+    chosen = ["--extra", "all", "--extra", "test", "--generate-hashes", *VERSIONS[kind].split()]
+    needs, into = folder / "requirements.txt", ["--python", str(python)]
+    steps = [
+        ["-m", "uv", "venv", "--quiet", "--python", str(PYTHON), str(folder)],
+        [*uv, "compile", "--quiet", "pyproject.toml", *chosen, *wheels, "-o", str(needs)],
+        [*uv, "install", *into, *wheels, "--require-hashes", "-r", str(needs)],
+        # As it is published: the environment has no build backend.
+        ["-m", "hatchling", "build", "-t", "wheel", "-d", str(folder / "wheel")],
+    ]
+    for step in steps:
+        if status := run(step):
+            return status
+    (wheel,) = (folder / "wheel").glob("*.whl")
+    if status := run([*uv, "install", *into, "--no-deps", str(wheel)]):
+        return status
+    halves = ["-n", "2", "--dist", "worksteal"]
+    return run(["-m", "pytest", *halves, *TESTED, *args[1:]], program=python)
+
+
 def lock(args: list[str]) -> int:
     """Update requirements.lock from pyproject.toml (`--upgrade`: to the newest versions)."""
     # Ignore the configuration of this machine: the lock contains public files only.
@@ -110,6 +138,12 @@ def lock(args: list[str]) -> int:
     uv = ["-m", "uv", "pip", "compile", "pyproject.toml"]
     return run([*uv, *options.split(), *wanted.split(), *written, *args])
 
+
+#: Choice of versions by `./go compatibility`, in options of uv.
+VERSIONS = {"lowest": "--resolution lowest-direct", "newest": "--prerelease allow"}
+
+#: Tests with these versions: those of the package, not of the tools of the project.
+TESTED = ["tests", "--ignore=tests/project", "--ignore=tests/verification"]
 
 #: Scripts of `./go bench` by their names.
 BENCHMARKS = {
@@ -141,6 +175,7 @@ TASKS = {
     "docs": docs,
     "bench": bench,
     "build": build,
+    "compatibility": compatibility,
     "lock": lock,
 }
 
@@ -163,7 +198,8 @@ def set_up() -> None:
     """Create the environment, or update it; an incomplete one is created again."""
     uv = shutil.which("uv")
     make = [uv, "venv", "--python", sys.executable] if uv else [sys.executable, "-m", "venv"]
-    pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else venv_pip()
+    pip = [uv, "pip", "install"] if uv else [str(PYTHON), "-m", "pip", "install"]
+    into = ["--python", str(PYTHON)] if uv else []
     # An environment created by uv has no pip, so it cannot be updated without uv.
     updating = PYTHON.exists() and STAMP.exists() and (uv or any(PYTHON.parent.glob("pip*")))
     doing = "bringing .venv up to date" if updating else "setting up .venv, once, about a minute"
@@ -173,15 +209,11 @@ def set_up() -> None:
         if VENV.exists():
             shutil.rmtree(VENV)
         install(make, [str(VENV)])
-    install(pip, ["--require-hashes", "-r", str(LOCK)])
+    # A package that is built here would use files without hashes.
+    install(pip, [*into, "--only-binary", ":all:", "--require-hashes", "-r", str(LOCK)])
     # The build backend is in the lock; an isolated build would download another one.
-    install(pip, ["--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
+    install(pip, [*into, "--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
     STAMP.write_text(fingerprint())
-
-
-def venv_pip() -> list[str]:
-    """Return the pip command of the environment; building packages would use unhashed files."""
-    return [str(PYTHON), "-m", "pip", "install", "--only-binary", ":all:"]
 
 
 def install(command: list[str], args: list[str]) -> None:
@@ -233,7 +265,7 @@ def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> in
     """Run the task named by the first argument, with the other arguments."""
     if not argv or argv[0] in ("-h", "--help"):
         print("usage: ./go TASK [ARGUMENTS]\n")
-        print("\n".join(f"  {name:10} {task.__doc__}" for name, task in TASKS.items()))
+        print("\n".join(f"  {name:14} {task.__doc__}" for name, task in TASKS.items()))
         return 0
     try:
         if argv[0] not in TASKS:

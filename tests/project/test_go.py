@@ -127,7 +127,7 @@ def test_only_hashed_files_are_installed(
     monkeypatch.setattr(go.shutil, "which", lambda name: uv)
     go.main(["test"])
     packages, project = installer.asked
-    assert "--require-hashes" in packages
+    assert "--only-binary :all: --require-hashes" in packages  # nothing is built of other files
     assert "--no-deps --no-build-isolation --editable" in project
 
 
