@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -10,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.messages import refuse, say, stop
 from viscontact.runs.processes.job import Job
 from viscontact.units.formatting import format_number
 
@@ -48,6 +49,7 @@ def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
         refuse("--scheduler needs Dask: install it with: pip install 'viscontact[cluster]'")
     from viscontact.studies.executors.local import signals_blocked
 
+    _silence()
     with ExitStack() as opened:
         try:
             if scheduler == "local":
@@ -59,10 +61,16 @@ def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
                         threads_per_worker=1,
                         memory_limit=0,
                         dashboard_address=_ANY_PORT,
+                        silence_logs=logging.CRITICAL,
                     )
                 client = distributed.Client(opened.enter_context(cluster))
             else:
                 client = distributed.Client(address, timeout=_PATIENCE)
+        except RuntimeError as error:  # Dask's word for a worker that ends before it has begun
+            stop(
+                f"--scheduler {scheduler}: a worker ended while it started ({error}); it was killed,"
+                " or there is too little memory; start again"
+            )
         except (OSError, TimeoutError, ValueError) as error:
             at = "" if address == scheduler else f" at {address}"
             refuse(f"--scheduler {scheduler}: no scheduler answers{at}: {error}")
@@ -72,6 +80,12 @@ def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
                 say(f"--scheduler {scheduler}: waiting for its first worker")
             client.wait_for_workers(1)
         yield client
+
+
+def _silence() -> None:
+    """Leave what happens to workers and scheduler to this program's messages, not Dask's log."""
+    for name in ("distributed", "distributed.client", "tornado.application"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def _address(scheduler: str) -> str:
