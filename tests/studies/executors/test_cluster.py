@@ -10,6 +10,7 @@ import time as clock
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import psutil
 import pytest
 
 import viscontact as vc
@@ -199,3 +200,49 @@ def test_killed_scheduler_and_client_leave_a_sweep_that_is_resumed_to_the_same_b
     assert same_bits(sweep, whole)
     assert before
     assert {name: finished(sweep)[name] for name in before} == before  # nothing was repeated
+
+
+def killed_at_its_start(folder: Path, moment: float) -> tuple[int, str]:
+    """Kill a worker of this machine at a moment after it began [s]; return the end and messages."""
+    process = command("--scheduler", "local", "-j", "2")  # the last option counts
+    above = psutil.Process(process.pid)
+
+    def workers() -> list[psutil.Process]:
+        return [each for each in above.children() if "spawn_main" in " ".join(each.cmdline())]
+
+    until(lambda: workers() or process.poll() is not None)
+    clock.sleep(moment)
+    for each in workers()[:1]:
+        each.kill()
+    _, said = process.communicate(timeout=PATIENCE)
+    return process.returncode, said
+
+
+@pytest.mark.parametrize("moment", [0.0, 0.5])
+def test_worker_that_is_killed_while_it_starts_is_replaced_or_named(
+    folder: Path, whole: Path, moment: float
+) -> None:
+    code, said = killed_at_its_start(folder, moment)
+    assert "fault of viscontact" not in said
+    assert "Traceback" not in said
+    if code == 0:
+        assert same_bits(folder / "sweep", whole)
+    else:
+        assert code == 1
+        assert "a worker ended while it started" in said
+        assert not (folder / "sweep").exists()
+
+
+def test_scheduler_that_is_killed_while_its_first_worker_is_awaited_is_named(
+    folder: Path, clusters: list[Cluster]
+) -> None:
+    clusters.append(cluster := Cluster(folder, 0))
+    process = command("-v")
+    assert process.stderr is not None
+    clock.sleep(3)
+    cluster.scheduler.kill()
+    _, said = process.communicate(timeout=PATIENCE)
+    assert "fault of viscontact" not in said
+    assert process.returncode in (1, 2)
+    assert "its scheduler has ended" in said or "no scheduler answers" in said
+    assert not (folder / "sweep").exists()

@@ -33,9 +33,11 @@ def cluster_tasks(
     from viscontact.studies.executors.remote import RemoteTasks
 
     with connected(scheduler, count, quiet=quiet) as client:
-        if scheduler != "local":
-            _check_memory(client, scheduler, jobs, quiet=quiet)
-        with RemoteTasks(dask_executor(client), directory) as tasks:
+        with _answering(scheduler):
+            if scheduler != "local":
+                _check_memory(client, scheduler, jobs, quiet=quiet)
+            executor = dask_executor(client)
+        with RemoteTasks(executor, directory) as tasks:
             yield tasks
 
 
@@ -68,18 +70,28 @@ def connected(scheduler: str, count: int, *, quiet: bool) -> Iterator[Any]:
                 client = distributed.Client(address, timeout=_PATIENCE)
         except RuntimeError as error:  # Dask's word for a worker that ends before it has begun
             stop(
-                f"--scheduler {scheduler}: a worker ended while it started ({error}); it was killed,"
-                " or there is too little memory; start again"
+                f"--scheduler {scheduler}: a worker ended while it started ({error}); it was"
+                " killed, or there is too little memory; start again"
             )
         except (OSError, TimeoutError, ValueError) as error:
             at = "" if address == scheduler else f" at {address}"
             refuse(f"--scheduler {scheduler}: no scheduler answers{at}: {error}")
         opened.enter_context(client)
         if scheduler != "local":
-            if not quiet and not client.scheduler_info()["workers"]:
-                say(f"--scheduler {scheduler}: waiting for its first worker")
-            client.wait_for_workers(1)
+            with _answering(scheduler):
+                if not quiet and not client.scheduler_info()["workers"]:
+                    say(f"--scheduler {scheduler}: waiting for its first worker")
+                client.wait_for_workers(1)
         yield client
+
+
+@contextmanager
+def _answering(scheduler: str) -> Iterator[None]:
+    """Stop the command if its scheduler ends before the first run is submitted."""
+    try:
+        yield
+    except (OSError, TimeoutError) as error:  # a closed connection is an OSError of Dask
+        stop(f"--scheduler {scheduler}: its scheduler has ended: {error}; start it again")
 
 
 def _silence() -> None:
