@@ -101,6 +101,8 @@ from .mechanics.time_integration.requested_times import log_times as log_times
 from .mechanics.time_integration.requested_times import uniform_times as uniform_times
 from .report import write_report as write_report
 from .results.contact_spots import contact_spots as contact_spots
+from .results.heating.result import RollingTemperature as RollingTemperature
+from .results.heating.rolling_temperature import rolling_temperature as rolling_temperature
 from .results.interface_stresses import interface_stresses as interface_stresses
 from .results.margins import margins as margins
 from .results.netcdf import open_results as open_results

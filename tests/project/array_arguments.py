@@ -15,6 +15,7 @@ import numpy as np
 
 import synthetic_results
 import viscontact as vc
+from rolling_curves import rolling_curve
 from viscontact import indenters, laws, loads, plot, reference, surfaces
 from viscontact.units.numbers import unit_of
 
@@ -143,6 +144,12 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
         {
             **{**RUN, "grid": vc.Grid((24, 24), (2.4e-3, 2.4e-3)), "errors": False},
             **{"load": vc.step(0.1, tilt_y=0.0), "speed": [1e-3], "fields": [1e-3]},
+        },
+    ),
+    "rolling_temperature": (
+        {
+            **{"curve": rolling_curve(), "cooling": 10.0, "ambient": 333.15},
+            **{"speed": [0.1, 1.0], "conductivity": 0.2},
         },
     ),
     "ting_triangle": (

@@ -81,6 +81,8 @@ SIGNATURES = {
         "(indenter, material, load, grid=None, times=None, *, indenter_material=None, "
         "tolerance=1e-06, fields='all', threads=1, progress=None)",
     ),
+    "rolling_temperature": "(curve, *, cooling, ambient, area=None, speed=None, conductivity=None, "
+    "core_temperature=None, heat_capacity=None, density=None)",
     "save": "(ds, path)",
     "open_results": "(path)",
 }
@@ -936,6 +938,10 @@ OPTIONS = {
         *("--runs", "-j", "-o", "--resume"),
     ),
     "sensitivity": ("--of", "--change", "--at", "-j", "-o", "--resume"),
+    "heat": (
+        *("DIR", "--cooling", "--ambient", "--area", "--conductivity", "--core-temperature"),
+        *("--heat-capacity", "--density"),
+    ),
     **{"status": ("DIR", "--watch"), "collect": ("DIR", "-o")},
     # promised, not built yet
     **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast", "-o")},

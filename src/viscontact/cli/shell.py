@@ -14,6 +14,7 @@ from viscontact.cli.commands.cases import demo, example, schema
 from viscontact.cli.commands.designing import design
 from viscontact.cli.commands.drawing import compare, plot
 from viscontact.cli.commands.fitting import fit
+from viscontact.cli.commands.heating import heat
 from viscontact.cli.commands.installation import cite, doctor
 from viscontact.cli.commands.materials import material
 from viscontact.cli.commands.running import check, run
@@ -44,6 +45,7 @@ _COMMANDS = (
         sensitivity,
         "viscontact sensitivity my.yaml --of peak_pressure,approach -o matters",
     ),
+    (heat, "viscontact heat rolling --cooling '10 W/m2/K' --ambient '23 degC' --area '0.1 m2'"),
     (schema, "viscontact schema > viscontact.schema.json"),
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),

@@ -2,6 +2,7 @@
 
 from viscontact.report.design_page import write_design_report
 from viscontact.report.fit_page import write_fit_report
+from viscontact.report.heat_page import write_heat_report
 from viscontact.report.page import report_page, write_report
 from viscontact.report.profile_page import write_profile_report
 from viscontact.report.sensitivity_page import write_sensitivity_report
@@ -12,6 +13,7 @@ __all__ = [
     "sweep_page",
     "write_design_report",
     "write_fit_report",
+    "write_heat_report",
     "write_profile_report",
     "write_report",
     "write_sensitivity_report",

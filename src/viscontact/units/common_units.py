@@ -142,6 +142,21 @@ _FACTORS: dict[str, dict[str, float]] = {
         "/ (GPa s)": 1e-09,
         "1/(GPa s)": 1e-09,
     },
+    "kilogram / kelvin / second ** 3": {
+        "W/m^2/K": 1.0,
+        "W/(m^2 K)": 1.0,
+    },
+    "kilogram * meter / kelvin / second ** 3": {
+        "W/m/K": 1.0,
+        "W/(m K)": 1.0,
+    },
+    "meter ** 2 / kelvin / second ** 2": {
+        "J/kg/K": 1.0,
+        "J/(kg K)": 1.0,
+    },
+    "kilogram / meter ** 3": {
+        "kg/m^3": 1.0,
+    },
 }
 
 #: Factor of a unit to SI base units, and these, by the unit as it is written.

@@ -43,6 +43,14 @@ DIMENSIONS = {
     "stiffness": Dimension("a stiffness", "N/m", "0.1 N/m", ("N/m", "mN/m", "kN/m")),
     "voltage": Dimension("a voltage", "V", "1 V", ("mV", "V")),
     "sensitivity": Dimension("a length per voltage", "m/V", "50 nm/V", ("nm/V", "um/V")),
+    "heat transfer coefficient": Dimension(
+        "a heat transfer coefficient", "W/(m^2 K)", "10 W/m2/K", ("W/m^2/K", "kW/m^2/K")
+    ),
+    "thermal conductivity": Dimension(
+        "a thermal conductivity", "W/(m K)", "0.2 W/m/K", ("W/m/K", "mW/m/K")
+    ),
+    "heat capacity": Dimension("a heat capacity", "J/(kg K)", "1800 J/kg/K", ("J/kg/K", "kJ/kg/K")),
+    "density": Dimension("a density", "kg/m^3", "1150 kg/m3", ("kg/m^3", "g/cm^3")),
     "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 

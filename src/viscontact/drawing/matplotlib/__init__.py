@@ -64,6 +64,11 @@ from viscontact.drawing.matplotlib.pressure.pressure_surface import (
 from viscontact.drawing.matplotlib.pressure.stress_section import stress_section
 from viscontact.drawing.matplotlib.result_plots import ResultPlots, add_methods
 from viscontact.drawing.matplotlib.sweeps.design import profiles, trade_off, trials
+from viscontact.drawing.matplotlib.sweeps.heat_balance import (
+    heat_balance,
+    rolling_heating,
+    rolling_temperature,
+)
 from viscontact.drawing.matplotlib.sweeps.response import response
 from viscontact.drawing.matplotlib.sweeps.sensitivity import scatter_bands, tornado
 
@@ -99,6 +104,7 @@ __all__ = [
     "fitted_records",
     "fitted_series",
     "friction",
+    "heat_balance",
     "history",
     "hysteresis",
     "indenter",
@@ -114,6 +120,8 @@ __all__ = [
     "profiles",
     "require_suffix",
     "response",
+    "rolling_heating",
+    "rolling_temperature",
     "save_animation",
     "save_figure",
     "scatter_bands",

@@ -1,0 +1,1 @@
+"""Self-heating of rolling bodies: heat balances from a curve over speed."""

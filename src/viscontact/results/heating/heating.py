@@ -1,0 +1,52 @@
+"""Heating of a cover over time, with the power of its temperature at each instant."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from viscontact.backend.arrays import Floats
+from viscontact.results.heating.balances import Reach
+from viscontact.results.heating.cover import Cover
+from viscontact.results.heating.power_curve import PowerCurve
+
+#: Relative and absolute tolerance [K] of a heating.
+_RELATIVE, _ABSOLUTE = 1e-8, 1e-8
+
+
+def heating(
+    cover: Cover, area: float, curve: PowerCurve, speed: float, reach: Reach, times: Floats
+) -> Floats:
+    """Modes of a cover that starts to roll at its idle temperature, (times, modes).
+
+    NaN from where its mean temperature leaves the reach of the curve.
+    """
+    stored, conducted = cover.matrices
+    start, inflow = cover.steady(0.0), cover.inflow
+    found = np.full((times.size, start.size), np.nan)
+    if reach.is_empty or reach.low > cover.idle:
+        return found
+    found[0] = start
+    inverse = np.linalg.inv(stored)
+
+    def source(modes: Floats) -> Floats:
+        within = np.clip(cover.mean(modes), reach.low, reach.high)
+        return np.asarray(curve.power(within, speed)) / area
+
+    def rate(time: float, modes: Floats) -> Floats:
+        return inverse @ (source(modes) * cover.averages + inflow - conducted @ modes)
+
+    def leaves(time: float, modes: Floats) -> float:
+        return reach.high - float(cover.mean(modes))
+
+    leaves.terminal = True  # type: ignore[attr-defined]
+    done = solve_ivp(
+        *(rate, (0.0, float(times[-1])), start),
+        method="LSODA",
+        t_eval=times,
+        events=leaves,
+        rtol=_RELATIVE,
+        atol=_ABSOLUTE,
+    )
+    found[: done.y.shape[1]] = done.y.T
+    return found
