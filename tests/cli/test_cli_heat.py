@@ -18,7 +18,7 @@ AIR = ["--cooling", "10 W/m2/K", "--ambient", "60 degC"]
 @pytest.fixture
 def stored(tmp_path: Path) -> Path:
     curve = rolling_curve()
-    needed = [name for name in REQUIRED if name in scalars_of(moving=False, over="speed")]
+    needed = [name for name in REQUIRED if name in scalars_of(over="speed")]
     zeros = {name: ("speed", np.zeros(curve.sizes["speed"])) for name in needed}
     vc.save(curve.assign(zeros), tmp_path / "curve.nc")
     return tmp_path / "curve.nc"

@@ -73,6 +73,10 @@ def test_curve_of_a_warm_law_gives_the_same_temperatures() -> None:
     assert scaled.resistance_y.values.tolist() == at_reference.tolist()
     one, other = (balanced(each, speed=[0.03, 0.3]) for each in (rolling_curve(), scaled))
     np.testing.assert_allclose(one.temperature, other.temperature, rtol=1e-8)
+    # A run with a temperature of its own records the law at its reference.
+    own = scaled.assign(temperature=("speed", np.full(33, 350.0)))
+    own.attrs["case"] = rolling_curve().attrs["case"]
+    np.testing.assert_allclose(balanced(own, speed=[0.03, 0.3]).temperature, one.temperature)
 
 
 def test_what_the_curve_does_not_reach_is_named_and_not_a_number() -> None:

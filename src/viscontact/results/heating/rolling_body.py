@@ -10,7 +10,7 @@ import xarray as xr
 
 from viscontact.bodies.indenters import Roller
 from viscontact.bodies.laws import Elastic, Shift
-from viscontact.bodies.materials.layers import Layered, named_parts
+from viscontact.bodies.materials.layers import Layered, at_temperature, named_parts
 from viscontact.bodies.materials.material import Material
 from viscontact.results.heating.power_curve import FEWEST, PowerCurve
 from viscontact.results.recorded_case import case_of, recorded_object
@@ -114,6 +114,8 @@ def _creeping_parts(results: xr.Dataset) -> dict[str, Material]:
         recorded = recorded_object(results, body, "curve")
         if not isinstance(recorded, Material | Layered):
             continue
+        if "temperature" in results:  # of the run; the case has the laws at their references
+            recorded = at_temperature(recorded, float(results["temperature"].values[0]))
         for part, material in named_parts(recorded).items():
             if not isinstance(material.law, Elastic):
                 found[f"{body}.{part}".rstrip(".")] = material
