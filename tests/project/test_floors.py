@@ -51,7 +51,7 @@ OTHERS = {
     "numpy": "backend", "scipy": "backend", "lazy_loader": "backend", "ducc0": "backend",
     "xarray": "results", "netCDF4": "results", "filelock": "results",
     "python_calamine": "tables",
-    "psutil": "runs", "threadpoolctl": "backend",
+    "psutil": "backend", "threadpoolctl": "backend",
     "pydantic": "case", "pydantic_core": "case", "ruamel": "bodies",
     "SurfaceTopography": "bodies", "afmformats": "identification",
     "matplotlib": "drawing/matplotlib", "mpl_toolkits": "drawing/matplotlib",

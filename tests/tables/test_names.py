@@ -6,7 +6,6 @@ import pytest
 
 from viscontact.tables.creep_tests import same_stress, split_stress
 from viscontact.tables.names import meaning
-from viscontact.tables.sheets import _column
 from viscontact.tables.workbook import _letters
 
 
@@ -28,5 +27,4 @@ def test_stresses_of_one_test_differ_by_a_per_cent():
 
 @pytest.mark.parametrize(("number", "letters"), [(1, "A"), (26, "Z"), (27, "AA"), (16384, "XFD")])
 def test_columns_of_sheets_are_counted_in_letters(number, letters):
-    assert _column(letters.encode()) == number
     assert _letters(number - 1) == letters

@@ -186,15 +186,6 @@ def test_cells_beside_the_table_and_broken_or_empty_files_are_refused(tmp_path: 
         read_table(tmp_path / "creep.xlsx#A")
 
 
-def test_a_cell_far_away_is_refused_before_it_fills_the_memory(tmp_path: Path) -> None:
-    path = workbook(tmp_path / "far.xlsx", {"A": CREEP})
-    book = openpyxl.load_workbook(path)
-    book["A"]["XFD40000"] = 1
-    book.save(path)
-    with pytest.raises(ValueError, match=r"far\.xlsx: a sheet extends to the cell XFD40000"):
-        read_table(path)
-
-
 def test_a_case_reads_its_tables_from_sheets_and_keeps_a_copy(tmp_path: Path) -> None:
     sheets = {
         "Law": CREEP,

@@ -73,3 +73,27 @@ class DomainError(RunError):
     ...     print(error.partial is None)
     True
     """
+
+
+#: Messages of the dynamic loader, Rust, HDF5 and NumPy when something does not fit into memory.
+_NO_ROOM = (
+    "failed to map segment",
+    "annot allocate memory",
+    "emory allocation",
+    "nable to allocate",
+)
+
+
+def is_lack_of_memory(error: BaseException | str | None) -> bool:
+    """Return whether an error, one that caused it, or the text of one says that memory is missing.
+
+    >>> is_lack_of_memory("memory allocation of 8 bytes failed"), is_lack_of_memory(ValueError("0"))
+    (True, False)
+    """
+    if isinstance(error, str):
+        return any(text in error for text in _NO_ROOM)
+    while error is not None:
+        if isinstance(error, MemoryError) or is_lack_of_memory(str(error)):
+            return True
+        error = error.__cause__ or error.__context__
+    return False

@@ -9,6 +9,8 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from operator import attrgetter
 
+from viscontact.backend.errors import is_lack_of_memory
+from viscontact.backend.reading_limits import read_all_apart
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, CommandError, say
@@ -18,9 +20,6 @@ from viscontact.units.visible import visible
 #: Memory that the libraries take before a case has been read [bytes]. With a little less some of
 #: them hang or end the process without a message.
 LEAST_MEMORY = 3e8
-
-#: Messages of the dynamic loader when a library does not fit into memory.
-_NO_ROOM = ("failed to map segment", "cannot allocate memory", "Cannot allocate memory")
 
 
 def main(
@@ -38,6 +37,7 @@ def main(
     occupy_streams()
     if arguments is None:
         remember_output()
+        read_all_apart()
     try:
         return _run_watched(arguments, code_of)
     except KeyboardInterrupt:  # before or after the command
@@ -124,7 +124,7 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
         return STOPPED
     if os.environ.get("VISCONTACT_TRACEBACK"):
         raise error
-    if _is_lack_of_memory(error):
+    if is_lack_of_memory(error):
         return _lacks_memory()
     say(f"viscontact: unexpected {type(error).__name__}: {error}")
     say("This is a fault of viscontact; set VISCONTACT_TRACEBACK=1 to see where, and report it.")
@@ -149,11 +149,3 @@ def _address_space() -> float:
         return math.inf
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     return math.inf if limit == resource.RLIM_INFINITY else float(limit)
-
-
-def _is_lack_of_memory(error: BaseException | None) -> bool:
-    while error is not None:
-        if isinstance(error, MemoryError) or any(text in str(error) for text in _NO_ROOM):
-            return True
-        error = error.__cause__ or error.__context__
-    return False

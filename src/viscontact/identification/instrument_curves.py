@@ -6,7 +6,7 @@ import logging
 import re
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.packed_files import read_packed
+from viscontact.backend.record import Record
 from viscontact.identification.force_curve import ForceCurve
 
 #: Suffixes of the files that afmformats reads, without those of tables.
@@ -89,9 +91,35 @@ def read_force_curve(
     file, behind = split_number(Path(path))
     if not file.is_file():
         raise FileNotFoundError(f"{file}: there is no such file")
+    chosen = behind if number is None else number
+    found = read_packed(
+        *(file, _read, chosen, spring_constant),
+        prepare=_load_library,
+        remedy="save single curves, or export time, position and deflection as CSV",
+    )
+    stated = found.values["spring constant"]
+    columns = found.arrays
+    try:
+        return ForceCurve(
+            columns["time"],
+            columns["position"],
+            columns["force"] / stated,
+            stated if spring_constant is None else spring_constant,
+        )
+    except ValueError as error:
+        raise ValueError(f"{file.name}: {error}") from error
+
+
+def _load_library() -> None:
+    """Import afmformats, which takes half a second, and which few files need."""
+    with suppress(ImportError):
+        import afmformats  # noqa: F401
+
+
+def _read(file: Path, number: int | None, spring_constant: float | None) -> Record:
+    """Time, position and force of a curve, and the spring constant with which it was recorded."""
     name = file.name
-    curves = _load_curves(file, spring_constant)
-    curve = _choose_curve(name, curves, behind if number is None else number)
+    curve = _choose_curve(name, _load_curves(file, spring_constant), number)
     columns = {column: _column(name, curve, column) for column in ("time", "force")}
     position = next((each for each in _POSITIONS if each in curve.columns), None)
     if position is None:
@@ -103,22 +131,14 @@ def read_force_curve(
                 f"{name}: states no spring constant; give it (--spring-constant, spring_constant=)"
             )
         stated = spring_constant
-    way = _column(name, curve, position)
-    try:
-        return ForceCurve(
-            columns["time"],
-            way,
-            columns["force"] / stated,
-            stated if spring_constant is None else spring_constant,
-        )
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from error
+    columns["position"] = _column(name, curve, position)
+    return Record({"spring constant": float(stated)}, columns)
 
 
 def _load_curves(file: Path, spring_constant: float | None) -> list[Any]:
     """Curves of a file in the order of their numbers, as afmformats gives them."""
     try:
-        import afmformats  # takes half a second, and few files need it
+        import afmformats
         from afmformats.errors import MissingMetaDataError
     except ImportError as error:
         raise ValueError(

@@ -10,10 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from viscontact.tables.text import Row, looks_like_number, read_text
-
-#: Upper limit on the rows of a table; larger records are to be thinned out.
-_MOST_ROWS = 1_000_000
+from viscontact.tables.text import MOST_ROWS, Row, looks_like_number, read_text
 
 _COMMENTS = ("#", "%", "//")
 _COMMENT = re.compile(r"\s*(?:#|%|//)[#%\s]*")
@@ -50,9 +47,9 @@ def rows_of_text(path: Path, example: str) -> TextRows:
     try:
         for row in _rows_at_blanks(text) if mark == _BLANKS else _rows_at(text, mark):
             rows.append(row)
-            if len(rows) > _MOST_ROWS:
+            if len(rows) > MOST_ROWS:
                 raise ValueError(
-                    f"{path.name}: more than {_MOST_ROWS} rows; keep fewer of the measured points"
+                    f"{path.name}: more than {MOST_ROWS} rows; keep fewer of the measured points"
                 )
     except csv.Error as error:
         raise ValueError(f"{path.name}: cannot be read as CSV: {error}") from error

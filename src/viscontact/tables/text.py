@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
+#: Upper limit on the rows of a table; larger records are to be thinned out.
+MOST_ROWS = 1_000_000
 # Upper limit on a file of measured points; larger records are to be thinned out.
 _LARGEST_FILE = 50_000_000
 # Characters that decide on the encoding of a text without a byte-order mark.

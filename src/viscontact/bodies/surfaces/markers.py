@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 
 #: Texts of cells without a height, in small letters.
 NOT_MEASURED = ("", "nan", "na", "n/a", "-", "bad", "***", "void", "null", "none")
@@ -30,7 +30,7 @@ def without_markers(
     found = np.array(values, dtype=np.float64)
     notes = []
     with np.errstate(invalid="ignore"):
-        beyond = np.abs(found) >= _NO_LENGTH
+        beyond = (found >= _NO_LENGTH) | (found <= -_NO_LENGTH)
     if beyond.any():
         notes.append(_note(int(beyond.sum()), float(found[beyond][0])))
         found[beyond] = np.nan
@@ -46,17 +46,30 @@ def without_markers(
 
 def _marker(found: Floats, units: tuple[float, ...]) -> tuple[float, float] | None:
     """Marker among the extreme values, and its unit [m]; None if there is none."""
-    known = found[np.isfinite(found)]
-    if known.size == 0:
+    # Reductions with a mask: copies of a large map would need a multiple of its memory.
+    known = np.isfinite(found)
+    if not known.any():
         return None
-    for value in (float(known.min()), float(known.max())):
-        rest = known[known != value]
-        if rest.size == 0 or np.abs(rest - value).min() <= np.ptp(rest):
+    for value in _extremes(found, known):
+        unit = next((each for each in units if _is_number_of(value / each)), None)
+        if unit is None:
             continue
-        for unit in units:
-            if any(abs(abs(value) / unit - each) <= _CLOSE * each for each in _MARKERS):
+        rest = known & (found != value)
+        if rest.any():
+            low, high = _extremes(found, rest)
+            if min(abs(low - value), abs(high - value)) > high - low:
                 return value, unit
     return None
+
+
+def _extremes(found: Floats, where: Bools) -> tuple[float, float]:
+    low = np.min(found, where=where, initial=np.inf)
+    return float(low), float(np.max(found, where=where, initial=-np.inf))
+
+
+def _is_number_of(value: float) -> bool:
+    """True for one of the usual markers, with either sign."""
+    return any(abs(abs(value) - each) <= _CLOSE * each for each in _MARKERS)
 
 
 def _note(count: int, value: float) -> str:

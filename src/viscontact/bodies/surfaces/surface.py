@@ -195,13 +195,14 @@ def _map_of(name: str, heights: ArrayLike) -> Floats:
     given = real_array(f"{name}: heights", heights, "m", 2)
     if given.size == 0:
         raise ValueError(f"{name}: heights must be a map [x, y], got shape {given.shape}")
-    known = given[~np.isnan(given)]
-    if known.size == 0:
+    if np.isnan(given).all():
         raise ValueError(f"{name}: all {given.size} heights are missing")
-    if np.abs(known).max() > _LARGEST:
+    # Without a copy of the heights that are known: maps are large.
+    farthest = max(np.nanmin(given), np.nanmax(given), key=abs)
+    if abs(farthest) > _LARGEST:
         raise ValueError(
             f"{name}: heights must be lengths in m, got "
-            f"{format_quantity(known[np.abs(known).argmax()], 'm', 6)}; give points that were not "
+            f"{format_quantity(farthest, 'm', 6)}; give points that were not "
             "measured as NaN"
         )
     copy = np.array(given)
