@@ -234,7 +234,7 @@ def test_bad_meaning_of_a_column_is_refused(
 def test_file_beyond_bounds_is_refused_unread(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("viscontact.tables.splitting._MOST_ROWS", 2)
+    monkeypatch.setattr("viscontact.tables.splitting.MOST_ROWS", 2)
     with pytest.raises(ValueError, match="more than 2 rows"):
         table(tmp_path, PLAIN)
     monkeypatch.setattr("viscontact.tables.text._LARGEST_FILE", 20)
