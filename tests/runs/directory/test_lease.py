@@ -370,6 +370,40 @@ def test_lease_that_cannot_be_renewed_lapses_before_another_can_take_it_over(
         held.check()
 
 
+# --- clocks -----------------------------------------------------------------------------------
+
+#: Differences between the clock of this machine and that of its file server [s].
+SKEWS = [-1e9, -3600.0, 3600.0, 1e9]
+
+
+@pytest.mark.parametrize("skew", SKEWS)
+def test_lease_is_held_whatever_the_clock_of_the_file_server_shows(
+    skew: float, tmp_path: Path
+) -> None:
+    shown = clock.time() + skew
+    with Lease(tmp_path, SHORT) as held:
+        os.utime(tmp_path / LOCK_NAME, (shown, shown))
+        with pytest.raises(LeaseHeld):
+            Lease(tmp_path, SHORT)
+        held.check()
+
+
+@pytest.mark.parametrize(
+    "skew", [SKEWS[-1], *(pytest.param(each, marks=pytest.mark.slow) for each in SKEWS[:-1])]
+)
+def test_abandoned_lease_is_taken_over_whatever_the_clock_of_the_file_server_shows(
+    skew: float, tmp_path: Path
+) -> None:
+    left(tmp_path, "c" * 32, duration=SHORT / 2)
+    shown = clock.time() + skew
+    os.utime(tmp_path / LOCK_NAME, (shown, shown))
+    assert not is_locked(tmp_path)  # no command refuses the directory
+    began = clock.monotonic()
+    with Lease(tmp_path, SHORT) as held:
+        assert clock.monotonic() - began >= SHORT / 2
+        held.check()
+
+
 # --- status -----------------------------------------------------------------------------------
 
 
