@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from viscontact.backend import reading_process
-from viscontact.backend.packed_files import can_expand, read_packed
+from viscontact.backend.packed_files import read_packed
 from viscontact.backend.reading_child import ReadingRequest
 from viscontact.backend.reading_limits import VARIABLE, End, ReadingLimits, reading_limits
 from viscontact.backend.reading_process import UnansweredError, read_apart
@@ -147,17 +147,6 @@ def test_limits_grow_with_the_file_and_by_the_variable(
     monkeypatch.setenv(VARIABLE, "4 GB")
     with pytest.raises(ValueError, match=rf"^{VARIABLE}: must be a number of megabytes.*'4 GB'"):
         reading_limits(file)
-
-
-def test_kinds_that_can_expand_and_large_files_are_read_apart(tmp_path: Path) -> None:
-    for start in (b"PK\3\4", b"\x89HDF\r\n\x1a\n", b"CDF\1", b"MATLAB 5.0", b"\x1f\x8b"):
-        (tmp_path / "file").write_bytes(start + bytes(50))
-        assert can_expand(tmp_path / "file")
-    (tmp_path / "file").write_bytes(b"\x93NUMPY" + bytes(50))
-    assert not can_expand(tmp_path / "file")
-    with (tmp_path / "file").open("r+b") as opened:
-        opened.truncate(20_000_001)
-    assert can_expand(tmp_path / "file")
 
 
 def test_message_states_limit_size_and_remedy(tmp_path: Path) -> None:

@@ -181,7 +181,6 @@ def _curve_values(curve: Any) -> tuple[Any, ...]:
 def test_honest_files_have_the_same_bits_as_when_read_in_this_process(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(packed_files, "reads_all_apart", lambda: True)
     apart: list[Path] = []
 
     def here(request: ReadingRequest) -> Record:

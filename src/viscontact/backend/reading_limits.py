@@ -13,9 +13,6 @@ VARIABLE = "VISCONTACT_READING_MB"
 #: Least limit of memory [bytes], limit per byte of the file, and time per least limit [s].
 _LEAST, _PER_BYTE, _SECONDS = 500_000_000, 20, 20.0
 
-# A property of the process: it is the command line, or the server of the page.
-_all_apart = False
-
 
 class End(Enum):
     """End of the process of a reading that gives no answer; the value is for a message."""
@@ -71,14 +68,3 @@ def _given_memory() -> int:
     if not 0 <= given < math.inf:
         raise ValueError(f"{VARIABLE}: must be a number of megabytes, as 4000, got {text!r}")
     return int(1e6 * given)
-
-
-def read_all_apart() -> None:
-    """Read all packed and binary files in another process from now on, harmless ones too."""
-    global _all_apart
-    _all_apart = True
-
-
-def reads_all_apart() -> bool:
-    """True for a process that reads all packed and binary files in another one."""
-    return _all_apart

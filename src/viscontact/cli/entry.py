@@ -10,7 +10,6 @@ from contextlib import suppress
 from operator import attrgetter
 
 from viscontact.backend.errors import is_lack_of_memory
-from viscontact.backend.reading_limits import read_all_apart
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, CommandError, say
@@ -37,7 +36,6 @@ def main(
     occupy_streams()
     if arguments is None:
         remember_output()
-        read_all_apart()
     try:
         return _run_watched(arguments, code_of)
     except KeyboardInterrupt:  # before or after the command

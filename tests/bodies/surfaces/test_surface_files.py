@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import os
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.backend import reading_process
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.cli import main
 from viscontact.surfaces import Surface, levelled
@@ -151,8 +152,15 @@ def test_missing_extra_is_refused_with_the_command_to_install_it(
     case: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (case.parent / "map.x3p").write_bytes(b"some")
-    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    # Another process reads the file, and finds this module first.
+    missing = case.parent / "missing"
+    missing.mkdir()
+    (missing / "SurfaceTopography.py").write_text("raise ImportError")
+    places = [str(missing), *filter(None, [os.environ.get("PYTHONPATH")])]
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(places))
+    reading_process._close_spare()
     assert main(["check", str(case), "--set", "indenter.file=map.x3p"]) == 2
+    reading_process._close_spare()
     said = capsys.readouterr().err
     assert "pip install 'viscontact[surfaces]'" in " ".join(said.split())
     assert "Traceback" not in said
