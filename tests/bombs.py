@@ -286,3 +286,13 @@ def _curve(path: Path) -> Path:
 
 #: Force curves.
 CURVES: dict[str, Callable[[Path], Path]] = {"header.jpk-force": _jpk, "fills.h5": _curve}
+
+
+def result(path: Path, time: int, points: int) -> Path:
+    """Write a result of so many instants, and of so many points along both axes, without values."""
+    with netCDF4.Dataset(str(path), "w") as file:
+        for name, length in (("time", time), ("x", points), ("y", points)):
+            file.createDimension(name, length)
+            file.createVariable(name, "f8", (name,), zlib=True)
+        file.createVariable("pressure", "f4", ("time", "x", "y"), zlib=True)
+    return path

@@ -1,5 +1,6 @@
 """Result files read without xarray, compared with xarray."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 import xarray as xr
 from tests.synthetic_results import ellipse
 
+import bombs
+from viscontact.cli import main
 from viscontact.results.contact_spots import label_spots
 from viscontact.results.netcdf import open_results, save
 from viscontact.results.single_spot import ends_in_one_spot, is_one_spot
@@ -48,6 +51,20 @@ def test_files_that_are_no_results_are_refused_as_by_open_results(tmp_path: Path
     (tmp_path / "result.nc").write_text("text")
     with pytest.raises(ValueError, match="cannot be read as a netCDF result"):
         stored_result(tmp_path)
+
+
+@pytest.mark.parametrize(("time", "points"), [(2 * 10**9, 8), (3, 10**5)])
+def test_sizes_that_no_result_has_are_refused_before_they_are_read(
+    time: int, points: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Values that are not written take no room in the file, and gigabytes when they are read."""
+    file = bombs.result(tmp_path / "result.nc", time, points)
+    said = "its variable (time|pressure) has (16|40) GB according to its header, in a file of 0.0"
+    for read in (stored_result, open_results):
+        with pytest.raises(ValueError, match=rf"{file} cannot be read as a netCDF result: {said}"):
+            read(file)
+    assert main(["show", str(file)]) == 2
+    assert re.search(rf"^{file}: {said}[^\n]*\n$", capsys.readouterr().err)
 
 
 def test_what_is_called_one_spot_has_one_label() -> None:

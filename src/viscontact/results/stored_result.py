@@ -10,6 +10,7 @@ import netCDF4
 import numpy as np
 
 from viscontact.results.run_files import RESULT_NAME
+from viscontact.results.stated_sizes import require_stated_sizes
 from viscontact.results.variables import FIELDS
 
 if TYPE_CHECKING:
@@ -110,6 +111,7 @@ def open_replaceable(path: str | Path, open_file: Callable[[Path], _Opened]) -> 
     while True:
         before = _marks(file)
         try:
+            require_stated_sizes(file)
             return open_file(file)
         except (OSError, ValueError) as error:
             # A running run may have replaced the file at this very moment.

@@ -13,6 +13,7 @@ from viscontact.mechanics.state import Outcome
 from viscontact.results.recorded_case import case_of
 from viscontact.results.run_axis import run_axis
 from viscontact.results.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
+from viscontact.results.stated_sizes import StatedSizeError
 from viscontact.results.stored_result import Result, StoredResult, stored_result
 from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
 from viscontact.runs.directory.lock import is_locked
@@ -116,6 +117,8 @@ def _remedy(directory: Path) -> str:
 
 def _unreadable(path: Path, error: Exception) -> str:
     # Messages of the reader repeat the file name and contain an error number.
+    if isinstance(error.__cause__, StatedSizeError):
+        return f"{path}: {error.__cause__}"
     if isinstance(error, ValueError) and path.is_file():
         return f"{path} is neither a run directory nor a netCDF file"
     if isinstance(error, ValueError):
