@@ -177,3 +177,19 @@ def test_steady_curve_of_a_case_with_a_temperature_has_the_shift(tmp_path) -> No
     one, other = (float(each.temperature[0, 0]) for each in found)
     assert one == close_to(other, abs=0.02)
     assert one > 299.0
+
+
+def test_contact_at_the_temperature_of_a_balance_has_the_power_that_flows_off() -> None:
+    """The contact with the law at the balance is solved, and its dissipation is h A (T - T_a)."""
+    grid = vc.Grid((1, 96), (1.0, 3e-3), periodic=(True, False))
+    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), 0.5, shift=vc.WLF(296.0, 8.86, 101.6))
+    ball, load = vc.Paraboloid(np.inf, 0.01), vc.step(400.0, tilt_y=0.0)
+    options = {"grid": grid, "errors": False, "fields": "none"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", vc.AccuracyWarning)  # a line contact has no approach
+        curve = vc.steady(ball, rubber, load, np.geomspace(0.05, 2.0, 9), **options)
+        found = balanced(curve, ambient=296.0, area=0.1, speed=[0.4])
+        hot = float(found.temperature[0, 0])
+        contact = vc.steady(ball, rubber.at(hot), load, 0.4, **options)
+    assert hot > 300.0
+    assert float(contact.dissipation[0]) == close_to(10.0 * 0.1 * (hot - 296.0), rel=2e-3)

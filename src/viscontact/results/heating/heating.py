@@ -10,8 +10,8 @@ from viscontact.results.heating.balances import Reach
 from viscontact.results.heating.cover import Cover
 from viscontact.results.heating.power_curve import PowerCurve
 
-#: Relative and absolute tolerance [K] of a heating.
-_RELATIVE, _ABSOLUTE = 1e-8, 1e-8
+#: Rise of temperature for slopes [K], relative and absolute tolerance [K] of a heating.
+_RISE, _RELATIVE, _ABSOLUTE = 1e-3, 1e-6, 1e-5
 
 
 def heating(
@@ -36,13 +36,19 @@ def heating(
     def rate(time: float, modes: Floats) -> Floats:
         return inverse @ (source(modes) * cover.averages + inflow - conducted @ modes)
 
+    def slopes(time: float, modes: Floats) -> Floats:
+        rise = _RISE * cover.averages
+        gained = float(source(modes + rise) - source(modes)) / float(cover.averages @ rise)
+        return inverse @ (gained * np.outer(cover.averages, cover.averages) - conducted)
+
     def leaves(time: float, modes: Floats) -> float:
         return reach.high - float(cover.mean(modes))
 
     leaves.terminal = True  # type: ignore[attr-defined]
     done = solve_ivp(
         *(rate, (0.0, float(times[-1])), start),
-        method="LSODA",
+        method="BDF",
+        jac=slopes,
         t_eval=times,
         events=leaves,
         rtol=_RELATIVE,
