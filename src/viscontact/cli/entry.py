@@ -124,6 +124,11 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
         raise error
     if is_lack_of_memory(error):
         return _lacks_memory()
+    from viscontact.results.digests import DamagedFileError
+
+    if isinstance(error, DamagedFileError):
+        say(str(error))
+        return REFUSED
     say(f"viscontact: unexpected {type(error).__name__}: {error}")
     say("This is a fault of viscontact; set VISCONTACT_TRACEBACK=1 to see where, and report it.")
     return STOPPED

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import xarray as xr
 
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
-from viscontact.results.stored_result import open_replaceable
+from viscontact.results.checked_store import open_checked
+from viscontact.results.digests import store_digests
+from viscontact.results.stored_result import open_replaceable, open_to_append
 
 
 def save(ds: xr.Dataset, path: str | Path) -> None:
-    """Save a result as CF netCDF-4.
+    """Save a result as CF netCDF-4, with the digests by which `open_results` notices damage.
 
     Parameters
     ----------
@@ -31,10 +32,12 @@ def save(ds: xr.Dataset, path: str | Path) -> None:
     1.0
     """
     ds.to_netcdf(path, format="NETCDF4", engine="netcdf4")
+    with open_to_append(Path(path).expanduser()) as file:
+        store_digests(file)
 
 
 def open_results(path: str | Path) -> xr.Dataset:
-    """Open the result of a run; fields are read when used.
+    """Open the result of a run; fields are read, and checked for damage, when used.
 
     Parameters
     ----------
@@ -51,7 +54,12 @@ def open_results(path: str | Path) -> xr.Dataset:
     FileNotFoundError
         If there is no result.
     ValueError
-        If the file cannot be read as netCDF.
+        If the file cannot be read as netCDF, or is damaged; also when a field is read later.
+
+    Notes
+    -----
+    A file without digests, such as one of `xarray.Dataset.to_netcdf`, is opened and a line of the
+    log says so.
 
     Examples
     --------
@@ -63,4 +71,4 @@ def open_results(path: str | Path) -> xr.Dataset:
     ...         stored.force.dims
     ('time',)
     """
-    return open_replaceable(path, partial(xr.open_dataset, engine="netcdf4"))
+    return open_replaceable(path, open_checked)

@@ -2,29 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, Union
 
 import netCDF4
 import numpy as np
 
+from viscontact.results.digests import DamagedFileError, StoredDigests
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.stated_sizes import require_stated_sizes
 from viscontact.results.variables import FIELDS
+from viscontact.units.visible import visible
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _Opened = TypeVar("_Opened")
+_LOG = logging.getLogger("viscontact")
+
+#: What netCDF4 and its callers raise where the bytes of a file are damaged.
+_UNREADABLE = (
+    *(OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError),
+    *(ArithmeticError, AssertionError),
+)
 
 
-def open_file(path: Path, mode: Literal["r", "a"] = "r") -> netCDF4.Dataset:
-    """Open a result without masks, ``"r"`` for reading or ``"a"`` for appending."""
-    file = netCDF4.Dataset(str(path), mode)
-    # NaN is the fill value and would be masked.
-    file.set_auto_maskandscale(False)
+def open_to_append(path: Path) -> netCDF4.Dataset:
+    """Open a result without masks for appending."""
+    file = without_masks(netCDF4.Dataset(str(path), "a"))
     keep_little(file)
+    return file
+
+
+def without_masks(file: netCDF4.Dataset) -> netCDF4.Dataset:
+    """Let a file return the values that it stores: NaN is the fill value and would be masked."""
+    file.set_auto_maskandscale(False)
+    file.set_auto_chartostring(False)
     return file
 
 
@@ -35,11 +52,27 @@ def keep_little(file: netCDF4.Dataset) -> None:
             file.variables[name].set_var_chunk_cache(size=1, nelems=1, preemption=1.0)
 
 
+@contextmanager
+def noticing_damage(path: Path) -> Iterator[None]:
+    """Raise DamagedFileError for what the libraries raise where they cannot read a file."""
+    try:
+        yield
+    except DamagedFileError:
+        raise
+    except _UNREADABLE as error:
+        raise DamagedFileError(path, f"its contents ({error})") from error
+
+
 class StoredVariable:
     """Variable of a result file, with the attributes of an xarray.DataArray that tables use."""
 
-    def __init__(self, variable: netCDF4.Variable[Any]) -> None:
-        self._variable = variable
+    def __init__(
+        self, variable: netCDF4.Variable[Any], digests: StoredDigests | None, path: Path
+    ) -> None:
+        self._variable, self._digests, self._path = variable, digests, path
+        self.shape: tuple[int, ...] = variable.shape
+        self.dtype = variable.dtype
+        self.getncattr = variable.getncattr
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -47,21 +80,82 @@ class StoredVariable:
         return self._variable.dimensions
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Names of the axes."""
+        return self.dims
+
+    @property
     def values(self) -> Any:
         """All values, in the unit of the file."""
         return self[...]
 
     def __getitem__(self, key: Any) -> Any:
-        """Return some of the values."""
-        return np.asarray(self._variable[key])
+        """Return some of the values; DamagedFileError if they are not as they were written."""
+        with noticing_damage(self._path):
+            if self._digests is None:
+                return np.asarray(self._variable[key])
+            return self._digests.read(self._variable, key)
+
+
+class StoredFile:
+    """Result file under names of netCDF4, which checks what is read against its digests.
+
+    DamagedFileError of any method where they differ.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._file = netCDF4.Dataset(str(path))
+        try:
+            with noticing_damage(path):
+                keep_little(self._file)
+                self.digests = checked_digests(without_masks(self._file), path)
+                self.variables = {
+                    name: StoredVariable(each, self.digests, path)
+                    for name, each in self._file.variables.items()
+                }
+        except BaseException:
+            self._file.close()
+            raise
+        self.dimensions = self._file.dimensions
+        self.ncattrs, self.getncattr = self._file.ncattrs, self._file.getncattr
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        """Return the file itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def checked_digests(file: netCDF4.Dataset, path: Path) -> StoredDigests | None:
+    """Check what a file says of itself and return its digests; None if it has none."""
+    digests = StoredDigests.of(file)
+    if digests is None:
+        _note_unchecked(path)
+    else:
+        digests.check_file(file)
+    return digests
+
+
+@cache  # once for each file
+def _note_unchecked(path: Path) -> None:
+    _LOG.warning(
+        "%s has no digests, as from an earlier version or another program: damage to it would not "
+        "be noticed",
+        visible(str(path)),
+    )
 
 
 class StoredResult:
     """Result file, with the attributes of an xarray.Dataset that tables use."""
 
-    def __init__(self, file: Path) -> None:
-        self._file = open_file(file)
-        self.encoding = {"source": str(file)}
+    def __init__(self, path: Path) -> None:
+        self._file = StoredFile(path)
+        self.encoding = {"source": str(path)}
         self.attrs = {name: self._file.getncattr(name) for name in self._file.ncattrs()}
         self.sizes = {name: len(axis) for name, axis in self._file.dimensions.items()}
         #: Variables other than coordinates.
@@ -78,7 +172,7 @@ class StoredResult:
 
     def __getitem__(self, name: str) -> StoredVariable:
         """Return a variable."""
-        return StoredVariable(self._file.variables[name])
+        return self._file.variables[name]
 
     def __enter__(self) -> Self:
         """Return the result itself."""
@@ -116,6 +210,8 @@ def open_replaceable(path: str | Path, open_file: Callable[[Path], _Opened]) -> 
         except (OSError, ValueError) as error:
             # A running run may have replaced the file at this very moment.
             if _marks(file) == before:
+                if isinstance(error, DamagedFileError):
+                    raise
                 raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.case import Case
+from viscontact.results.netcdf import save
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place, replacing
 
 #: The best case, and the table of a study as CF netCDF-4.
@@ -14,10 +15,10 @@ BEST_NAME, TRIALS_NAME = "best.yaml", "trials.nc"
 
 
 def write_table(path: Path, table: xr.Dataset) -> None:
-    """Write a table as netCDF-4, atomically."""
+    """Write a table as netCDF-4 with digests, atomically."""
     fresh = fresh_name(path)
     try:
-        table.to_netcdf(fresh.absolute(), format="NETCDF4", engine="netcdf4")
+        save(table, fresh.absolute())
         put_in_place(fresh, path)
     finally:
         fresh.unlink(missing_ok=True)

@@ -10,6 +10,7 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.cli.terminal.messages import refuse
+from viscontact.results.digests import DamagedFileError
 from viscontact.results.history_csv import write_history
 from viscontact.tables.workbook import write_csv_or_workbook
 from viscontact.units.parsing import parse_quantity
@@ -20,6 +21,8 @@ def write_table(ds: xr.Dataset, output: Path | None, points: Sequence[str] = ())
     written = io.StringIO()
     try:
         write_history(ds, written, [_point(text) for text in points])
+    except DamagedFileError:
+        raise
     except ValueError as error:
         refuse(f"--point: {error}")
     if output is None:

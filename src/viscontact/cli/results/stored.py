@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from viscontact.cli.terminal.messages import refuse
 from viscontact.mechanics.state import Outcome
+from viscontact.results.digests import DamagedFileError
 from viscontact.results.recorded_case import case_of
 from viscontact.results.run_axis import run_axis
 from viscontact.results.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
@@ -55,9 +56,12 @@ def _open_checked(path: Path, open_file: Callable[[Path], _Result]) -> Iterator[
         refuse(f"{path}: no result there; `viscontact run CASE.yaml -o {path}` makes one")
     except (OSError, ValueError) as error:
         refuse(_unreadable(path, error))
-    with ds:
-        _require_history(path, ds)
-        yield ds
+    try:
+        with ds:
+            _require_history(path, ds)
+            yield ds
+    except DamagedFileError as error:  # noticed when a field was read
+        refuse(str(error))
 
 
 def _require_history(path: Path, ds: Result) -> None:
@@ -116,6 +120,8 @@ def _remedy(directory: Path) -> str:
 
 
 def _unreadable(path: Path, error: Exception) -> str:
+    if isinstance(error, DamagedFileError):
+        return str(error)
     # Messages of the reader repeat the file name and contain an error number.
     if isinstance(error.__cause__, StatedSizeError):
         return f"{path}: {error.__cause__}"

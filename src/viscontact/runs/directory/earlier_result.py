@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import netCDF4
 import numpy as np
 
 from viscontact.bodies.grid import Grid
 from viscontact.results.descriptions import parse_case
-from viscontact.results.stored_result import open_file
+from viscontact.results.digests import DamagedFileError
+from viscontact.results.stored_result import StoredFile
 from viscontact.results.variables import AXES
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.netcdf_layout import Extent, Layout
@@ -30,17 +30,19 @@ class StoredRun:
 def stored_run(path: Path) -> StoredRun:
     """Read the description of a stored result; ValueError if it cannot be read as one."""
     try:
-        with open_file(path) as file:
+        with StoredFile(path) as file:
             over = next((name for name in AXES if name in file.dimensions), None)
             if over is None:
                 raise ValueError("it has no times")
             complete = "complete" in file.ncattrs() and int(file.getncattr("complete")) == 1
             return StoredRun(len(file.dimensions[over]), complete, _case(file))
+    except DamagedFileError as error:
+        raise ValueError(error.fault) from error
     except (OSError, RuntimeError, ValueError, TypeError, OverflowError) as error:
         raise ValueError(f"{path} cannot be read as a result of viscontact: {error}") from error
 
 
-def _case(file: netCDF4.Dataset) -> dict[str, Any] | None:
+def _case(file: StoredFile) -> dict[str, Any] | None:
     if not {"case", "fields"} <= set(file.ncattrs()):
         return None
     case = parse_case(str(file.getncattr("case")))
@@ -54,8 +56,10 @@ def check_result(path: Path, layout: Layout, extent: Extent) -> None:
     if not path.is_file():
         raise ValueError(f"{path} is missing, so the run cannot be continued; {REMEDY}")
     try:
-        with open_file(path) as file:
+        with StoredFile(path) as file:
             fault = _fault(file, layout, extent) or _fault_of_scalars(file, layout, extent)
+    except DamagedFileError as error:
+        raise ValueError(f"{error.fault}; {REMEDY}") from error
     except (OSError, RuntimeError, ValueError) as error:
         raise ValueError(f"{path} cannot be read as a netCDF result ({error}); {REMEDY}") from error
     if fault:
@@ -65,13 +69,13 @@ def check_result(path: Path, layout: Layout, extent: Extent) -> None:
 def stored_grid(path: Path, grid: Grid) -> Grid:
     """Return the grid of a result, whose run may have enlarged the given grid."""
     try:
-        with open_file(path) as file:
+        with StoredFile(path) as file:
             return grid.widened((len(file.dimensions["x"]), len(file.dimensions["y"])))
     except (OSError, RuntimeError, ValueError, KeyError):
         return grid  # `check_result` reports what is wrong with the file
 
 
-def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
+def _fault(file: StoredFile, layout: Layout, extent: Extent) -> str:
     for name, (variable, dimensions) in layout.columns.items():
         if name not in file.variables:
             return f"it has no {name}"
@@ -93,7 +97,7 @@ def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
     return ""
 
 
-def _fault_of_scalars(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
+def _fault_of_scalars(file: StoredFile, layout: Layout, extent: Extent) -> str:
     for name, (_, dimensions) in layout.columns.items():
         if len(dimensions) == 1:
             file.variables[name][:]  # raises where it is damaged

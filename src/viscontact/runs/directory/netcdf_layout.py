@@ -15,8 +15,9 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.state import MOTION, ContactState
+from viscontact.results.digests import RunningDigests
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
-from viscontact.results.stored_result import keep_little
+from viscontact.results.stored_result import StoredFile, keep_little
 from viscontact.results.variables import (
     AXES,
     COORDINATES,
@@ -86,7 +87,7 @@ class Layout:
             for name, variable in (FIELDS | LINES).items()
         }
 
-    def extent_of(self, file: netCDF4.Dataset) -> Extent:
+    def extent_of(self, file: netCDF4.Dataset | StoredFile) -> Extent:
         """Return how many rows a file of this layout has."""
         lengths = [len(file.dimensions[axis]) if axis else 0 for axis in (self.over, self.axis)]
         return Extent(*lengths)
@@ -117,7 +118,9 @@ class Contents:
         return Layout(grid, axis, self.errors, kind, self.parts, self.over)
 
 
-def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
+def created(
+    path: Path, layout: Layout, attributes: Mapping[str, Any]
+) -> tuple[netCDF4.Dataset, RunningDigests]:
     """Create a result without rows and with global attributes, open for appending."""
     with true_cause(path):
         file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
@@ -130,11 +133,14 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
         file.createDimension(layout.axis, None)
     for name, (variable, dimensions) in layout.columns.items():
         _create(file, name, variable, dimensions)
-    file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
     for name in layout.scalars:
         file[name].setncatts(scalar_attributes(name, errors=layout.errors))
     keep_little(file)
-    return file
+    digests = RunningDigests(file)
+    for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
+        file[name][:] = centres
+        digests.add(name, centres)
+    return file, digests
 
 
 @contextmanager
@@ -160,7 +166,9 @@ def _create(
     file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
 
 
-def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState]) -> None:
+def write_scalars(
+    file: netCDF4.Dataset, digests: RunningDigests, row: int, states: Sequence[ContactState]
+) -> None:
     """Write the scalars of consecutive states, and their instants or speeds, from a row on."""
     if not states:
         return
@@ -169,6 +177,11 @@ def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState
     for name, variable in {over: AXES[over], **scalars}.items():
         values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values
+        digests.add(name, values)
+    unknown = np.full(len(states), np.nan)  # which fills the rows until the errors are known
+    for name in ERRORS:
+        if name in file.variables:
+            digests.add(name, unknown)
 
 
 def read_scalars(file: netCDF4.Dataset) -> dict[str, Floats]:
@@ -177,7 +190,7 @@ def read_scalars(file: netCDF4.Dataset) -> dict[str, Floats]:
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
 
 
-def described_fields(file: netCDF4.Dataset) -> dict[str, Any] | None:
+def described_fields(file: netCDF4.Dataset | StoredFile) -> dict[str, Any] | None:
     """Describe instants [s] or speeds [m/s], and grid [m], of the stored fields; None without."""
     # Results with equal descriptions store fields at the same places.
     if not (names := [name for name in FIELDS | LINES if name in file.variables]):
@@ -189,38 +202,65 @@ def described_fields(file: netCDF4.Dataset) -> dict[str, Any] | None:
     return {"names": names, "axis": axis, "instants": instants, **grid}
 
 
-def write_errors(file: netCDF4.Dataset, values: Mapping[str, Floats]) -> None:
+def write_errors(
+    file: netCDF4.Dataset, digests: RunningDigests, values: Mapping[str, Floats]
+) -> None:
     """Write the errors of the scalars, for all rows, by the names of the scalars."""
-    for name, errors in values.items():
-        file.variables[error_name(name)][: len(errors)] = errors
+    for scalar, errors in values.items():
+        name = error_name(scalar)
+        file.variables[name][: len(errors)] = errors
+        digests.replace(name, file.variables[name][:])
 
 
-def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: ContactState) -> None:
+def write_fields(
+    file: netCDF4.Dataset, digests: RunningDigests, layout: Layout, row: int, state: ContactState
+) -> None:
     """Write the fields of a state on the grid of the layout or a smaller one, and their instant."""
     for name in FIELDS:
         values = on_wider(name, getattr(state, name), state.grid, layout.grid)
-        file.variables[name][row] = values
+        _write_rows(file, digests, name, row, values[np.newaxis])
     for name in LINES:
-        file.variables[name][row] = line_on_wider(getattr(state, name), state.grid, layout.grid)
+        line = line_on_wider(getattr(state, name), state.grid, layout.grid)
+        _write_rows(file, digests, name, row, line[np.newaxis])
     if layout.axis not in (None, layout.over):
         file.variables[layout.axis][row] = getattr(state, layout.over)
 
 
+def _write_rows(
+    file: netCDF4.Dataset, digests: RunningDigests, name: str, row: int, values: Any
+) -> None:
+    """Write rows of a variable along several axes, in its type, and their digests."""
+    variable = file.variables[name]
+    stored = np.asarray(values, dtype=variable.dtype)
+    variable[row : row + len(stored)] = stored
+    digests.put(file, name, row, stored)
+
+
 def copy_rows(
-    source: netCDF4.Dataset, target: netCDF4.Dataset, layout: Layout, grid: Grid, extent: Extent
+    source: StoredFile,
+    target: netCDF4.Dataset,
+    digests: RunningDigests,
+    grids: tuple[Layout, Grid],
+    extent: Extent,
 ) -> None:
     """Copy the first rows of a result of some layout to one on a grid that is at least as large."""
+    layout, grid = grids
     for name, (_, dimensions) in layout.columns.items():
         if dimensions[0] in ("x", "y"):
             continue
         last = extent.field_rows if dimensions[0] == layout.axis else extent.rows
+        if len(dimensions) == 1:
+            values = source.variables[name][:last]
+            target.variables[name][:last] = values
+            digests.add(name, values)
+            continue
         for rows in _blocks(last, grid.shape[: len(dimensions) - 1]):
             values = source.variables[name][rows]
             if name in FIELDS:
                 values = on_wider(name, values, layout.grid, grid)
             elif name in LINES:
                 values = line_on_wider(values, layout.grid, grid)
-            target.variables[name][rows] = values
+            _write_rows(target, digests, name, rows.start, values)
 
 
 def _blocks(last: int, shape: tuple[int, ...]) -> Iterator[slice]:

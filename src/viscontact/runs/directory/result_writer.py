@@ -16,8 +16,9 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.state import ContactState
+from viscontact.results.digests import RunningDigests, store_digests
 from viscontact.results.enlarged_grid import enlargement
-from viscontact.results.stored_result import open_file
+from viscontact.results.stored_result import StoredFile, open_to_append
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
 from viscontact.runs.directory.earlier_result import check_result, stored_grid
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -64,6 +65,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     # writing when its process is killed, and locks it against readers.
 
     _layout: Layout
+    _digests: RunningDigests
 
     def __init__(self, path: str | Path, contents: Contents, check: LockCheck = never_lost) -> None:
         self._set_up(Path(path), contents, START, check)
@@ -104,6 +106,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         self._waiting: list[ContactState] = []
         self._written = self._done.rows
         self._kept = contents.kept
+        #: Instants or speeds of the fields, where these have an axis of their own.
+        self._field_places: list[float] = []
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -128,7 +132,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         self._make_room(state.grid)
         if self._layout.axis == state.over or getattr(state, state.over) in self._kept:
             with self._guard.writing():
-                write_fields(self._file(), self._layout, field_rows, state)
+                write_fields(self._file(), self._digests, self._layout, field_rows, state)
+            self._field_places[field_rows:] = [getattr(state, state.over)]
             field_rows += 1
         # What an interruption here has left does not count.
         self._waiting[rows - self._written :] = [state.without_fields()]
@@ -171,7 +176,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         self._contents = replace(self._contents, attributes=described)
         if bars is not None:
             with self._guard.writing():
-                write_errors(self._file(), bars.values)
+                write_errors(self._file(), self._digests, bars.values)
             self._warnings += bars.warnings
         self._complete = True
         for _ in range(TRIES):
@@ -202,13 +207,20 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         """Create the working file, with the rows so far of another file of some layout."""
         self.close()
         try:
-            self._open = file = created(self._working, self._layout, self._attributes)
+            self._open, self._digests = created(self._working, self._layout, self._attributes)
             if source is not None and layout is not None:
-                with open_file(source) as stored:
-                    copy_rows(stored, file, layout, self._layout.grid, self._done)
+                self._copy(source, layout)
         except BaseException:
             self.close()
             raise
+
+    def _copy(self, source: Path, layout: Layout) -> None:
+        """Copy the rows so far of another file, of some layout, into the working file."""
+        grids = layout, self._layout.grid
+        with StoredFile(source) as stored:
+            copy_rows(stored, self._file(), self._digests, grids, self._done)
+            if layout.axis not in (None, layout.over):
+                self._field_places = stored.variables[layout.axis][: self._done.field_rows].tolist()
 
     def _make_room(self, grid: Grid) -> None:
         """Give the working file a new layout if the run has outgrown the grid of the file."""
@@ -217,13 +229,13 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             return
         with self._guard.writing():
             self._write_waiting()
+            self._store_digests()
             self._close()
             self._layout = replace(layout, grid=grid)
             _, before = working_files(self._path)
             self._working.replace(before)
-            self._open = larger = created(self._working, self._layout, self._attributes)
-            with open_file(before) as smaller:
-                copy_rows(smaller, larger, layout, grid, self._done)
+            self._open, self._digests = created(self._working, self._layout, self._attributes)
+            self._copy(before, layout)
             self._check()
             before.unlink()
 
@@ -235,6 +247,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
                 # What is written again leaves a hole in the file.
                 if name not in file.ncattrs() or not np.array_equal(file.getncattr(name), value):
                     file.setncattr(name, value)
+            self._store_digests()
             self._close()
             try:
                 put_in_place(self._working, self._path, self._check)
@@ -242,7 +255,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             except PermissionError:
                 if not MAY_BE_HELD:
                     raise
-                self._open = open_file(self._working, "a")
+                self._open = open_to_append(self._working)
         return self._open is None
 
     @property
@@ -264,8 +277,19 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
     def _write_waiting(self) -> None:
         waiting = self._waiting[: self._done.rows - self._written]
-        write_scalars(self._file(), self._written, waiting)
+        write_scalars(self._file(), self._digests, self._written, waiting)
         self._written, self._waiting = self._done.rows, []
+
+    def _store_digests(self) -> None:
+        """Store the digests of all rows in the working file."""
+        file, layout = self._file(), self._layout
+        if layout.extent_of(file) != self._done:
+            # An interruption has left a row that does not count.
+            store_digests(file)
+            return
+        if layout.axis not in (None, layout.over):
+            self._digests.replace(layout.axis, self._field_places[: self._done.field_rows])
+        self._digests.store(file)
 
     def _close(self) -> None:
         file, self._open = self._open, None
@@ -276,5 +300,5 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         if self._open is None:
             self._working.unlink(missing_ok=True)
             shutil.copyfile(self._path, self._working)
-            self._open = open_file(self._working, "a")
+            self._open = open_to_append(self._working)
         return self._open

@@ -11,6 +11,8 @@ from typing import Any
 import netCDF4
 import numpy as np
 
+from viscontact.results.digests import store_digests
+from viscontact.results.stored_result import open_to_append
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place
 from viscontact.runs.directory.netcdf_layout import true_cause
 from viscontact.studies.sweep.joint_layout import JointLayout, Progress
@@ -29,11 +31,11 @@ def write_joint_result(
             frame = frame.assign_coords(lazy_fields(layout).coords)
         with true_cause(fresh):
             frame.to_netcdf(fresh, format="NETCDF4", engine="netcdf4")
-        with netCDF4.Dataset(str(fresh), "a") as file:
-            file.set_auto_maskandscale(False)
+        with open_to_append(fresh) as file:
             _write_scalars(file, layout, progress)
             if fields:
                 _write_fields(file, layout, progress)
+            store_digests(file)
         put_in_place(fresh, path)
     except RuntimeError as error:  # what netCDF says where the disk is full
         raise OSError(f"{error}; is the disk full?") from error

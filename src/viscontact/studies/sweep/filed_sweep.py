@@ -11,7 +11,7 @@ from typing import Any
 
 from viscontact.results.filed_case import FiledCase, started_at
 from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME
-from viscontact.results.stored_result import open_file
+from viscontact.results.stored_result import StoredFile
 from viscontact.results.variables import ALLOWABLE
 from viscontact.studies.sweep.manifest import read_manifest
 from viscontact.studies.sweep.states import State, run_state
@@ -45,7 +45,7 @@ def _of_finished(directory: Path) -> Iterator[dict[str, Any]]:
         place = directory / run.directory
         if run_state(place).state is State.DONE:
             # One that cannot be read is a failed run of the report.
-            with suppress(OSError, RuntimeError), open_file(place / RESULT_NAME) as file:
+            with suppress(OSError, RuntimeError), StoredFile(place / RESULT_NAME) as file:
                 yield {name: file.getncattr(name) for name in _KEPT if name in file.ncattrs()}
 
 

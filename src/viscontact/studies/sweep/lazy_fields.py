@@ -11,7 +11,7 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from viscontact.results.run_files import RESULT_NAME
-from viscontact.results.stored_result import open_file
+from viscontact.results.stored_result import StoredFile
 from viscontact.results.variables import FIELDS, LINES
 from viscontact.studies.sweep.joint_layout import JointLayout
 from viscontact.studies.sweep.states import State
@@ -46,7 +46,7 @@ class _SweepField(BackendArray):
         layout = self._layout
         if layout.states[run].state is not State.DONE or not values.size:
             return
-        with open_file(layout.place(run) / RESULT_NAME) as file:
+        with StoredFile(layout.place(run) / RESULT_NAME) as file:
             variable: Any = file.variables[self._name]
             kept = inner[0] < variable.shape[0]
             wanted = [inner[0][kept], *inner[1:]]
@@ -64,7 +64,7 @@ def lazy_fields(layout: JointLayout) -> xr.Dataset:
     if described is None or not layout.done:
         return xr.Dataset()
     axis = described["axis"]
-    with open_file(layout.place(layout.done[0]) / RESULT_NAME) as file:
+    with StoredFile(layout.place(layout.done[0]) / RESULT_NAME) as file:
         coords = {
             name: (name, np.asarray(file.variables[name][:]), _attributes(file, name))
             for name in ("x", "y", *(() if axis in (layout.over, "step") else (axis,)))

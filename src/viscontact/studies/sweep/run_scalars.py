@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import netCDF4
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.state import Outcome
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
-from viscontact.results.stored_result import open_file
+from viscontact.results.stored_result import StoredFile
 from viscontact.results.variables import AXES, ERRORS, SCALARS
 from viscontact.runs.directory.netcdf_layout import described_fields
 from viscontact.runs.directory.progress_log import reached_in
@@ -49,7 +48,7 @@ def run_outline(directory: Path) -> RunOutline:
             columns = frozenset(set(COLUMNS) & set(end))
             judged = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
             return RunOutline(over, rows, columns, end.get("fields"), *judged)
-    with open_file(directory / RESULT_NAME) as file:
+    with StoredFile(directory / RESULT_NAME) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
         return RunOutline(over, rows, frozenset(_stored_columns(file)), described_fields(file))
@@ -73,7 +72,7 @@ def _row_value(line: bytes) -> float:
     return float(number) if name in _FIRST else reached_in(json.loads(line))
 
 
-def _axis_of(file: netCDF4.Dataset) -> str:
+def _axis_of(file: StoredFile) -> str:
     return next((name for name in AXES if name in file.dimensions), "time")
 
 
@@ -83,12 +82,12 @@ def _row(entries: dict[str, Any]) -> list[Any]:
     return [entries.get(name) for name in COLUMNS]
 
 
-def _stored_columns(file: netCDF4.Dataset) -> list[str]:
+def _stored_columns(file: StoredFile) -> list[str]:
     return [name for name in COLUMNS if name in file.variables]
 
 
 def _of_result(path: Path) -> Floats:
-    with open_file(path) as file:
+    with StoredFile(path) as file:
         table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
         for name in _stored_columns(file):
             table[:, COLUMNS.index(name)] = file.variables[name][:]
