@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from viscontact.results.line_digests import with_digest
 from viscontact.studies.journal import JOURNAL_NAME, Entry, journal_of
 
 ARGUMENTS = {"case": "abc", "change": {"load.force": ("1 N", "2 N")}}
@@ -48,8 +49,10 @@ def test_entries_of_earlier_versions_are_read(
     tmp_path: Path, line: dict[str, object], entry: Entry
 ) -> None:
     kept(tmp_path)
-    with (tmp_path / JOURNAL_NAME).open("a") as file:
-        file.write(json.dumps(["run", line]) + "\n")
+    header = json.loads((tmp_path / JOURNAL_NAME).read_text())
+    del header["digest"]
+    lines = (header, ["run", line])
+    (tmp_path / JOURNAL_NAME).write_text("".join(f"{json.dumps(each)}\n" for each in lines))
     assert kept(tmp_path) == {"run": entry}
 
 
@@ -82,8 +85,8 @@ def test_a_foreign_file_is_refused_in_one_sentence(tmp_path: Path, text: str, me
 
 def test_a_damaged_line_is_named_by_its_number(tmp_path: Path) -> None:
     kept(tmp_path, a=1.0)
-    with (tmp_path / JOURNAL_NAME).open("a") as file:
-        file.write('{"settings": {}}\n')
+    with (tmp_path / JOURNAL_NAME).open("ab") as file:
+        file.write(with_digest(b'{"settings": {}}') + b"\n")
     with pytest.raises(ValueError, match="jsonl:3: is not a run of a study; remove the file"):
         kept(tmp_path)
 

@@ -12,16 +12,22 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from itertools import product
 from pathlib import Path
 from typing import Any, Self
 
 import netCDF4
 import numpy as np
+
+from viscontact.units.visible import visible
+
+_LOG = logging.getLogger("viscontact")
 
 #: Group of a file with its digests: an attribute for the attributes of the file, an attribute for
 #: all variables along one axis, and a variable for each of the others.
@@ -47,6 +53,16 @@ class DamagedFileError(ValueError):
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what makes the error in another process."""
         return type(self), (self.path, self.what)
+
+
+@cache  # once for each file
+def note_unchecked(path: Path) -> None:
+    """Write a line in the log about a file without digests."""
+    _LOG.warning(
+        "%s has no digests, as from an earlier version or another program: damage to it would not "
+        "be noticed",
+        visible(str(path)),
+    )
 
 
 def digest_of(values: Any, start: int = 0) -> int:

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, Union
 
 import netCDF4
 import numpy as np
 
-from viscontact.results.digests import DamagedFileError, StoredDigests
+from viscontact.results.digests import DamagedFileError, StoredDigests, note_unchecked
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.stated_sizes import require_stated_sizes
 from viscontact.results.variables import FIELDS
-from viscontact.units.visible import visible
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _Opened = TypeVar("_Opened")
-_LOG = logging.getLogger("viscontact")
 
 #: What netCDF4 and its callers raise where the bytes of a file are damaged.
 _UNREADABLE = (
@@ -100,15 +96,15 @@ class StoredVariable:
 class StoredFile:
     """Result file under names of netCDF4, which checks what is read against its digests.
 
-    DamagedFileError of any method where they differ.
+    DamagedFileError of any method where they differ. A file without digests is `noted` in the log.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, noted: bool = True) -> None:
         self._file = netCDF4.Dataset(str(path))
         try:
             with noticing_damage(path):
                 keep_little(self._file)
-                self.digests = checked_digests(without_masks(self._file), path)
+                self.digests = checked_digests(without_masks(self._file), path, noted=noted)
                 self.variables = {
                     name: StoredVariable(each, self.digests, path)
                     for name, each in self._file.variables.items()
@@ -131,23 +127,16 @@ class StoredFile:
         self.close()
 
 
-def checked_digests(file: netCDF4.Dataset, path: Path) -> StoredDigests | None:
-    """Check what a file says of itself and return its digests; None if it has none."""
+def checked_digests(
+    file: netCDF4.Dataset, path: Path, *, noted: bool = True
+) -> StoredDigests | None:
+    """Check a file and return its digests; None, `noted` in the log, if it has none."""
     digests = StoredDigests.of(file)
-    if digests is None:
-        _note_unchecked(path)
-    else:
+    if digests is not None:
         digests.check_file(file)
+    elif noted:
+        note_unchecked(path)
     return digests
-
-
-@cache  # once for each file
-def _note_unchecked(path: Path) -> None:
-    _LOG.warning(
-        "%s has no digests, as from an earlier version or another program: damage to it would not "
-        "be noticed",
-        visible(str(path)),
-    )
 
 
 class StoredResult:

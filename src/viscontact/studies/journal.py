@@ -10,6 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from viscontact.results.line_digests import DIGEST, with_digest
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.studies.json_lines import read_lines
@@ -125,13 +126,16 @@ def _require_same(found: Any, wanted: Mapping[str, Any], place: Path, kind: str)
 def _line(found: Any, number: int) -> Any:
     """First line as it is, and the key and the entry of each other one."""
     match found:
+        case dict() if number == 1:
+            return {key: value for key, value in found.items() if key != DIGEST}
         case _ if number == 1:
             return found
         case [str(key), dict(outcome)]:
+            outcome.pop(DIGEST, None)
             return key, Entry.read(outcome)
     raise ValueError(f"is not a run of a study; {_REMEDY}")
 
 
 def _encoded(line: Any) -> bytes:
-    """Line of JSON as Python has it, with NaN and Infinity, in ASCII."""
-    return f"{json.dumps(line)}\n".encode()
+    """Line of JSON as Python has it, with NaN and Infinity, in ASCII, and a digest."""
+    return with_digest(json.dumps(line).encode()) + b"\n"

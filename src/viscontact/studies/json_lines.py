@@ -7,6 +7,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
+from viscontact.results.digests import note_unchecked
+from viscontact.results.line_digests import is_as_written
+
 Item = TypeVar("Item")
 
 #: Longest line that is read at once [characters].
@@ -23,21 +26,33 @@ def read_lines(
 ) -> Iterator[Item]:
     """Read the lines, numbered from 1, in constant memory; ValueError names one that is damaged.
 
-    Where lines are `appended` to a first one, a last one without an end is one that a killed
-    process has begun.
+    All lines have digests or, in files of earlier versions, none. Where lines are `appended` to a
+    first one, a last one without an end is one that a killed process has begun.
     """
-    with path.open(encoding="utf-8") as lines:
-        number = 0
+    with path.open(encoding="utf-8", newline="") as lines:
+        number, checked = 0, False
         try:
             while line := lines.readline(_LONGEST_LINE):
                 if appended and number and not line.endswith("\n") and not lines.read(1):
                     return
                 number += 1
-                yield read(_value(line, remedy), number)
+                value, has_digest = _value(line, remedy), _has_digest(line, remedy)
+                if number == 1 and not (checked := has_digest):
+                    note_unchecked(path)
+                if has_digest is not checked:
+                    raise ValueError(f"is damaged: it or others have no digest; {remedy}")
+                yield read(value, number)
         except UnicodeDecodeError:
             raise ValueError(f"{path}: is not UTF-8 text, as {kind} is") from None
         except ValueError as error:
             raise ValueError(f"{path}:{number}: {error}") from None
+
+
+def _has_digest(line: str, remedy: str) -> bool:
+    try:
+        return is_as_written(line.encode())
+    except ValueError as error:
+        raise ValueError(f"{error}; {remedy}") from None
 
 
 def _value(line: str, remedy: str) -> Any:

@@ -25,7 +25,10 @@ def lines_of(path: Path) -> list[dict[str, Any]]:
 
     text = path.read_text(encoding="utf-8")
     assert text == "" or text.endswith("\n")
-    return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+    lines = [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+    assert all(len(line.pop("digest")) == 8 for line in lines)
+    assert [line.pop("row") for line in lines] == list(range(len(lines)))
+    return lines
 
 
 def entries(of: ContactState) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from viscontact.cli import main
 from viscontact.cli.sweep.recorded_sweep import RecordedSweep, recorded_runs
 from viscontact.cli.terminal.messages import CommandError
+from viscontact.results.line_digests import with_digest
 from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME, STATE_NAME
 from viscontact.studies.sweep.continuation import continued
 from viscontact.studies.sweep.manifest import DESIGNS, SweepRun, read_manifest, write_manifest
@@ -64,7 +65,8 @@ def test_what_is_written_is_read(
 
 def test_a_line_is_the_documented_object(tmp_path: Path) -> None:
     path = write_manifest(tmp_path / "new", [RUN])
-    assert path.read_text(encoding="utf-8") == LINE + "\n"
+    whole = LINE.replace('"grid"}', '"grid", "last": true}')
+    assert path.read_bytes() == with_digest(whole.encode()) + b"\n"
     path.write_text(LINE.replace("a.yaml", "\\udcff.yaml"), encoding="utf-8")  # no UTF-8 name
     (kept,) = read_manifest(path)
     assert os.fsencode(kept.case) == b"\xff.yaml"

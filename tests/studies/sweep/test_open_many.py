@@ -89,13 +89,13 @@ def test_fields_are_read_for_the_selected_runs_only(
     read: list[str] = []
     from viscontact.studies.sweep import lazy_fields
 
-    opened = lazy_fields.open_file
+    opened = lazy_fields.StoredFile
 
-    def reading(path: Path) -> object:
+    def reading(path: Path, **options: bool) -> object:
         read.append(path.parent.name)
-        return opened(path)
+        return opened(path, **options)
 
-    monkeypatch.setattr(lazy_fields, "open_file", reading)
+    monkeypatch.setattr(lazy_fields, "StoredFile", reading)
     ds = vc.open_many(grid)
     read.clear()
     lazy = ds.pressure.isel({"indenter.radius": [2, 0], "load.force": 0, "field_time": -1})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext, suppress
 from itertools import islice
 from pathlib import Path
@@ -13,6 +13,8 @@ from typing import Any, Self
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.results.digests import DamagedFileError
+from viscontact.results.line_digests import ROW, is_as_written, read_entries, with_digest
 from viscontact.results.variables import AXES, error_name, scalars_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
@@ -27,7 +29,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
     # A line is written at once: when the process is killed, only the last line may be incomplete. A
     # value that is not finite, such as the eccentricity without contact, is null; an infinite error
-    # is "inf".
+    # is "inf". Each line has its number, from 0, and a digest; those of earlier versions do not.
 
     def __init__(self, path: str | Path, check: LockCheck = never_lost) -> None:
         self.count = 0
@@ -47,7 +49,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         try:
             with path.open("rb") as file:
                 found = [line for line in islice(file, lines) if line.endswith(b"\n")]
-            reaches = [reached_in(json.loads(line)) for line in found]
+            reaches = [reached_in(each) for each in _read_lines(found)]
         except OSError as error:
             raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
         except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
@@ -64,8 +66,8 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
     def append(self, state: ContactState, part: float | None = None) -> None:
         """Write a state and the finished part of the run [-]; OSError and no line if not whole."""
-        entries = _entries(state)
-        encoded = _encode(entries if part is None else entries | {"part": part})
+        entries = _entries(state) | ({} if part is None else {"part": part})
+        encoded = _encode(entries | {ROW: self.count})
         begin = self._file.tell()
         self._check()
         self._file.truncate(begin)
@@ -97,17 +99,25 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         fresh.unlink(missing_ok=True)
         try:
             with self._path.open("rb") as lines, fresh.open("xb") as file:
-                for row, line in enumerate(lines):
-                    entries = json.loads(line) | _errors(errors or {}, row)
+                for row, read in enumerate(self._read_again(lines)):
+                    entries = read | _errors(errors or {}, row)
                     if row == self.count - 1:
                         entries |= {"complete": True, "fields": fields and dict(fields)}
                         entries |= judged or {}
-                    file.write(_encode(entries))
+                    file.write(_encode({**entries, ROW: row}))
             flush_to_disk(fresh)
             self._check()
             self._replace(fresh)
         finally:
             fresh.unlink(missing_ok=True)
+
+    def _read_again(self, lines: Iterable[bytes]) -> Iterator[dict[str, Any]]:
+        try:
+            for entries in _read_lines(lines):
+                entries.pop(ROW, None)  # comes last
+                yield entries
+        except (ValueError, RecursionError) as error:
+            raise DamagedFileError(self._path, "its lines") from error
 
     def _replace(self, fresh: Path) -> None:
         """Replace the file by a closed one, and continue with that."""
@@ -139,6 +149,17 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _read_lines(lines: Iterable[bytes]) -> Iterator[dict[str, Any]]:
+    """Read lines; ValueError for one that is damaged, or without digest where earlier ones have."""
+    is_checked = False
+    for row, line in enumerate(lines):
+        entries = read_entries(line, row)
+        if is_checked and not is_as_written(line):
+            raise ValueError("a line has no digest")
+        is_checked = is_checked or is_as_written(line)
+        yield entries
 
 
 def is_course(path: Path) -> bool:
@@ -180,4 +201,4 @@ def _errors(errors: Mapping[str, Floats], row: int) -> dict[str, float | str | N
 
 
 def _encode(entries: Mapping[str, Any]) -> bytes:
-    return (json.dumps(entries, allow_nan=False, ensure_ascii=False) + "\n").encode()
+    return with_digest(json.dumps(entries, allow_nan=False, ensure_ascii=False).encode()) + b"\n"

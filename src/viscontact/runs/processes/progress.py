@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from contextlib import suppress
 from os import stat_result
 from typing import Any
 
+from viscontact.results.line_digests import read_entries
 from viscontact.results.run_files import PROGRESS_NAME
 from viscontact.runs.directory.progress_log import reached_in
 from viscontact.runs.processes.job import Job, RunStage
@@ -65,6 +65,6 @@ class RunProgress:
 
 def _line(text: bytes) -> dict[str, Any]:
     """Parse a line; the caller suppresses the errors of one that is damaged."""
-    found: dict[str, Any] = json.loads(text)
+    found = read_entries(text)
     reached_in(found)
     return found

@@ -44,9 +44,14 @@ def _of_finished(directory: Path) -> Iterator[dict[str, Any]]:
     for run in read_manifest(directory / MANIFEST_NAME):
         place = directory / run.directory
         if run_state(place).state is State.DONE:
-            # One that cannot be read is a failed run of the report.
-            with suppress(OSError, RuntimeError), StoredFile(place / RESULT_NAME) as file:
-                yield {name: file.getncattr(name) for name in _KEPT if name in file.ncattrs()}
+            # One that cannot be opened is a failed run of the report.
+            with suppress(OSError, RuntimeError):
+                yield _attributes(place / RESULT_NAME)
+
+
+def _attributes(path: Path) -> dict[str, Any]:
+    with StoredFile(path, noted=False) as file:
+        return {name: file.getncattr(name) for name in _KEPT if name in file.ncattrs()}
 
 
 def _files(found: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]:

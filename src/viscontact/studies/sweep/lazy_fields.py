@@ -46,7 +46,7 @@ class _SweepField(BackendArray):
         layout = self._layout
         if layout.states[run].state is not State.DONE or not values.size:
             return
-        with StoredFile(layout.place(run) / RESULT_NAME) as file:
+        with StoredFile(layout.place(run) / RESULT_NAME, noted=False) as file:
             variable: Any = file.variables[self._name]
             kept = inner[0] < variable.shape[0]
             wanted = [inner[0][kept], *inner[1:]]
@@ -64,7 +64,7 @@ def lazy_fields(layout: JointLayout) -> xr.Dataset:
     if described is None or not layout.done:
         return xr.Dataset()
     axis = described["axis"]
-    with StoredFile(layout.place(layout.done[0]) / RESULT_NAME) as file:
+    with StoredFile(layout.place(layout.done[0]) / RESULT_NAME, noted=False) as file:
         coords = {
             name: (name, np.asarray(file.variables[name][:]), _attributes(file, name))
             for name in ("x", "y", *(() if axis in (layout.over, "step") else (axis,)))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from viscontact.results.line_digests import DIGEST, with_digest
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.studies.json_lines import read_lines
@@ -16,6 +17,8 @@ from viscontact.studies.json_lines import read_lines
 #: Kinds of designs: combinations, pairs, rows of a table, random samples, or several case files.
 DESIGNS = ("grid", "zip", "table", "sample", "cases")
 
+#: Key of the last line.
+_LAST = "last"
 #: Remedy for a line that cannot be read.
 _REMEDY = "remove the file, and repeat the command that began the sweep with --resume"
 
@@ -54,24 +57,42 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
     directory.mkdir(parents=True, exist_ok=True)
     path = directory / MANIFEST_NAME
     with replacing(path) as file:
-        for each in runs:
+        for each, is_last in _with_last(runs):
             found = {**vars(each), "settings": dict(each.settings), "digests": dict(each.digests)}
             optional = ("changed", "digests")
             line = {name: value for name, value in found.items() if value or name not in optional}
-            text = json.dumps(line, ensure_ascii=False)
+            text = json.dumps(line | ({_LAST: True} if is_last else {}), ensure_ascii=False)
             # A name that is not UTF-8 is escaped as JSON does it.
-            file.write(text.encode("utf-8", "backslashreplace") + b"\n")
+            file.write(with_digest(text.encode("utf-8", "backslashreplace")) + b"\n")
     return path
+
+
+def _with_last(runs: Iterable[SweepRun]) -> Iterator[tuple[SweepRun, bool]]:
+    """Yield each run, and whether it is the last one."""
+    before: SweepRun | None = None
+    for run in runs:
+        if before is not None:
+            yield before, False
+        before = run
+    if before is not None:
+        yield before, True
 
 
 def read_manifest(path: Path) -> Iterator[SweepRun]:
     """Yield the runs of a manifest, in constant memory; ValueError names the damaged line."""
-    is_empty = True
-    for run in read_lines(path, _read_run, "a manifest", _REMEDY):
-        is_empty = False
-        yield run
-    if is_empty:
+    read = None
+    for read in read_lines(path, _read_line, "a manifest", _REMEDY):
+        yield read[0]
+    if read is not None and not read[1]:
+        raise ValueError(f"{path}: is damaged: its last runs are missing; {_REMEDY}")
+    if read is None:
         raise ValueError(f"{path}: holds no runs; remove it, and repeat the command of the sweep")
+
+
+def _read_line(found: Any, number: int) -> tuple[SweepRun, bool]:
+    """Run of a line, and whether it may be the last one; any may in those of earlier versions."""
+    run = _read_run(found, number)
+    return run, found.get(_LAST) is True or DIGEST not in found
 
 
 def _read_run(found: Any, number: int) -> SweepRun:

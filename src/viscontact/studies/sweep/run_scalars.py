@@ -12,6 +12,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.state import Outcome
+from viscontact.results.line_digests import is_as_written, read_entries
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.results.stored_result import StoredFile
 from viscontact.results.variables import AXES, ERRORS, SCALARS
@@ -43,12 +44,12 @@ def run_outline(directory: Path) -> RunOutline:
     with suppress(OSError, ValueError, LookupError, TypeError):  # then the result is the source
         if end.get("complete"):
             with (directory / PROGRESS_NAME).open("rb") as lines:
-                rows = np.array([_row_value(line) for line in lines])
+                rows = np.array([_row_value(line, row) for row, line in enumerate(lines)])
             over = next(name for name in AXES if name in end)
             columns = frozenset(set(COLUMNS) & set(end))
             judged = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
             return RunOutline(over, rows, columns, end.get("fields"), *judged)
-    with StoredFile(directory / RESULT_NAME) as file:
+    with StoredFile(directory / RESULT_NAME, noted=False) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
         return RunOutline(over, rows, frozenset(_stored_columns(file)), described_fields(file))
@@ -59,12 +60,20 @@ def run_scalars(directory: Path) -> Floats:
     with suppress(OSError, ValueError, LookupError, TypeError, AttributeError):
         if last_line(directory).get("complete"):
             with (directory / PROGRESS_NAME).open("rb") as lines:
-                return np.array([_row(json.loads(line)) for line in lines], dtype=np.float64)
+                rows = [_row(_read_line(line, row)) for row, line in enumerate(lines)]
+                return np.array(rows, dtype=np.float64)
     return _of_result(directory / RESULT_NAME)
 
 
-def _row_value(line: bytes) -> float:
-    if not line.endswith(b"}\n"):
+def _read_line(line: bytes, row: int) -> dict[str, Any]:
+    # Without a digest the result, which has some, is the source.
+    if not is_as_written(line, row):
+        raise ValueError("the line has no digest")
+    return read_entries(line)
+
+
+def _row_value(line: bytes, row: int) -> float:
+    if not line.endswith(b"}\n") or not is_as_written(line, row):
         raise ValueError("the line is not complete")
     # It comes first; to parse the whole line takes thirty times as long.
     name, _, rest = line[:64].partition(b": ")
@@ -87,7 +96,7 @@ def _stored_columns(file: StoredFile) -> list[str]:
 
 
 def _of_result(path: Path) -> Floats:
-    with StoredFile(path) as file:
+    with StoredFile(path, noted=False) as file:
         table = np.full((len(file.dimensions[_axis_of(file)]), len(COLUMNS)), np.nan)
         for name in _stored_columns(file):
             table[:, COLUMNS.index(name)] = file.variables[name][:]

@@ -10,6 +10,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from viscontact.results.line_digests import read_entries
 from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Ended
@@ -82,8 +83,7 @@ def last_line(directory: Path) -> dict[str, Any]:
         with (directory / PROGRESS_NAME).open("rb") as file:
             file.seek(max(0, file.seek(0, os.SEEK_END) - _LAST_LINE))
             lines = file.read().rpartition(b"\n")[0]
-        found = json.loads(lines.rpartition(b"\n")[2])
-        return found if isinstance(found, dict) else {}
+        return read_entries(lines.rpartition(b"\n")[2])
     return {}
 
 

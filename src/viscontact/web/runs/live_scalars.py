@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import threading
 from collections.abc import Iterable, Mapping
@@ -15,6 +14,7 @@ import numpy as np
 from viscontact.drawing.content.look import Look
 from viscontact.drawing.plotly.growing import growing
 from viscontact.drawing.plotly.parts import plain
+from viscontact.results.line_digests import read_entries
 from viscontact.results.run_axis import SPEED, TIME, RunAxis
 from viscontact.results.run_files import PROGRESS_NAME
 from viscontact.results.variables import SCALARS, Place, labels_in
@@ -38,7 +38,7 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
     last: dict[str, Any] = {}
     for line in lines.splitlines():
         with suppress(ValueError, LookupError, TypeError):
-            found = json.loads(line)
+            found = read_entries(line)
             places.append(reached_in(found))
             written.update(found)
             last = found
