@@ -22,6 +22,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout, suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,11 @@ import viscontact as vc
 from interrupted_runs import CASE, WITH_ERRORS, kill
 from swept_runs import sweep_of
 from viscontact.cli import main
+from viscontact.drawing.matplotlib import FIGURES
 from viscontact.studies.journal import JOURNAL_NAME, Entry, journal_of
+from viscontact.web.runs.status import result_summary
+from viscontact.web.workspace.pictures import PictureChoice, figure_of
+from viscontact.web.workspace.problems import RequestError
 
 #: Time [s] and memory [bytes] of a command.
 TIME, MEMORY = 120, 2**33
@@ -83,7 +88,7 @@ class Trial:
     """A file of a directory that is damaged, and the command that reads it."""
 
     name: str
-    source: Path  # directory that is copied
+    source: str  # directory that is copied, one of `Sources`
     file: str  # in it
     read: Callable[[], str]  # text about the directory `place`, in the working directory
     often: float  # share of the damages
@@ -133,6 +138,16 @@ def opened_whole() -> str:
         )
 
 
+def shown_on_page() -> str:
+    """What the page says of a run, and a picture."""
+    found = result_summary(Path(PLACE))
+    try:
+        drawn = figure_of(Path(PLACE), FIGURES, PictureChoice("history", kind="png"))
+    except RequestError as error:
+        raise ValueError(f"{PLACE}: {error}") from error
+    return json.dumps(found) + drawn.hex()
+
+
 STUDY = {"case": "abc", "change": {"load.force": ["1 N", "2 N"]}}
 VALUES = {f"run {n}": {"force": [n / 7, n / 70]} for n in range(30)}
 
@@ -147,39 +162,59 @@ def journal_kept() -> str:
     return ""
 
 
-def prepared(folder: Path) -> list[Trial]:
-    """Write the directories, undamaged, and return what is tried on them."""
-    done, stopped, joint = folder / "done", folder / "stopped", folder / "joint"
-    os.chdir(folder)
-    Path("case.yaml").write_text(WITH_ERRORS.replace("[0 s, 2 s, 3 s]", "all"), encoding="utf-8")
-    assert main(["run", "case.yaml", "-o", "done", "-q"]) == 0
-    Path("case.yaml").write_text(CASE, encoding="utf-8")
-    kill(5, "-o", "stopped", "-q")
-    forces = [{"load.force": f"{force} N"} for force in (3, 4, 5)]
-    sweep = sweep_of(folder, forces)
-    joint.mkdir()
-    assert main(["collect", str(sweep), "-o", "joint/joint.nc", "--fields"]) == 0
-    with journal_of("design", STUDY, directory=folder / "study") as journal:
-        assert journal is not None
-        for key, values in VALUES.items():
-            journal.keep(key, Entry(values))
-    result, state, log = "result.nc", "state.npz", "progress.jsonl"
-    a_run = "force=4N"
-    table = drawing("collect", "PLACE", output="table.csv")
-    return [
-        Trial("show", done, result, command("show", "PLACE", "--all", "--errors"), 14),
-        Trial("export", done, result, command("export", "PLACE", "--point", "0.1 mm,0 mm"), 14),
-        Trial("plot", done, result, drawing("plot", "PLACE", "pressure-map", output="a.png"), 6),
-        Trial("report", done, result, drawing("report", "PLACE", output="report.html"), 2),
-        Trial("resume", stopped, result, resumed, 12),
-        Trial("resume", stopped, state, resumed, 12),
-        Trial("resume", stopped, log, resumed, 10),
-        Trial("collect", sweep, f"{a_run}/{result}", table, 4),
-        Trial("collect", sweep, f"{a_run}/{log}", table, 8),
-        Trial("collect", sweep, "runs.jsonl", table, 8),
-        Trial("open_results", joint, "joint.nc", opened_whole, 6),
-        Trial("--resume of a study", folder / "study", JOURNAL_NAME, journal_kept, 4),
-    ]
+class Sources:
+    """Undamaged directories, written in the working directory when they are used."""
+
+    @cached_property
+    def done(self) -> Path:
+        text = WITH_ERRORS.replace("[0 s, 2 s, 3 s]", "all")
+        Path("case.yaml").write_text(text, encoding="utf-8")
+        assert main(["run", "case.yaml", "-o", "done", "-q"]) == 0
+        return Path("done")
+
+    @cached_property
+    def stopped(self) -> Path:
+        Path("case.yaml").write_text(CASE, encoding="utf-8")
+        kill(5, "-o", "stopped", "-q")
+        return Path("stopped")
+
+    @cached_property
+    def sweep(self) -> Path:
+        return sweep_of(Path.cwd(), [{"load.force": f"{force} N"} for force in (3, 4, 5)])
+
+    @cached_property
+    def joint(self) -> Path:
+        Path("joint").mkdir()
+        assert main(["collect", str(self.sweep), "-o", "joint/joint.nc", "--fields"]) == 0
+        return Path("joint")
+
+    @cached_property
+    def study(self) -> Path:
+        with journal_of("design", STUDY, directory="study") as journal:
+            assert journal is not None
+            for key, values in VALUES.items():
+                journal.keep(key, Entry(values))
+        return Path("study")
+
+
+RESULT, STATE, LOG = "result.nc", "state.npz", "progress.jsonl"
+A_RUN = "force=4N"
+TABLE = drawing("collect", "PLACE", output="table.csv")
+TRIALS = (
+    Trial("show", "done", RESULT, command("show", "PLACE", "--all", "--errors"), 14),
+    Trial("export", "done", RESULT, command("export", "PLACE", "--point", "0.1 mm,0 mm"), 14),
+    Trial("plot", "done", RESULT, drawing("plot", "PLACE", "pressure-map", output="a.png"), 6),
+    Trial("report", "done", RESULT, drawing("report", "PLACE", output="report.html"), 2),
+    Trial("page", "done", RESULT, shown_on_page, 6),
+    Trial("resume", "stopped", RESULT, resumed, 12),
+    Trial("resume", "stopped", STATE, resumed, 12),
+    Trial("resume", "stopped", LOG, resumed, 10),
+    Trial("collect", "sweep", f"{A_RUN}/{RESULT}", TABLE, 4),
+    Trial("collect", "sweep", f"{A_RUN}/{LOG}", TABLE, 8),
+    Trial("collect", "sweep", "runs.jsonl", TABLE, 8),
+    Trial("open_results", "joint", "joint.nc", opened_whole, 6),
+    Trial("--resume of a study", "study", JOURNAL_NAME, journal_kept, 6),
+)
 
 
 def outcome_of(read: Callable[[], str]) -> tuple[int, str, str]:
@@ -240,18 +275,17 @@ def verdict(trial: Trial, expected: str, found: tuple[int, str, str]) -> str:
 
 
 class Campaign:
-    """Damages of all kinds, spread over the trials by their shares."""
+    """Damages of all kinds in the working directory, spread over the trials by their shares."""
 
-    def __init__(self, folder: Path, seed: int) -> None:
-        self.chance = random.Random(seed)
-        self.trials = prepared(folder)
+    def __init__(self, seed: int) -> None:
+        self.chance, self.sources = random.Random(seed), Sources()
         self.counts: Counter[tuple[str, str, str]] = Counter()
         self.lost: list[str] = []
         self._expected: dict[int, str] = {}
 
     def try_one(self, number: int) -> None:
         """Damage a file, and judge what is said of it."""
-        trial = self.trials[number]
+        trial = TRIALS[number]
         if number not in self._expected:
             self._copy(trial)
             code, self._expected[number], said = outcome_of(trial.read)
@@ -268,18 +302,18 @@ class Campaign:
 
     def _copy(self, trial: Trial) -> None:
         shutil.rmtree(PLACE, ignore_errors=True)
-        shutil.copytree(trial.source, PLACE)
+        shutil.copytree(getattr(self.sources, trial.source), PLACE)
 
     def run(self, damages: int, only: Sequence[int] | None = None) -> None:
         """Try damages in a random order of the trials."""
-        numbers = list(only) if only is not None else list(range(len(self.trials)))
-        shares = [self.trials[n].often for n in numbers]
+        numbers = list(only) if only is not None else list(range(len(TRIALS)))
+        shares = [TRIALS[n].often for n in numbers]
         for number in self.chance.choices(numbers, shares, k=damages):
             self.try_one(number)
 
     def table(self) -> str:
         """Rows: command, file, damages, without effect, noticed, lost."""
-        rows = dict.fromkeys((trial.name, Path(trial.file).name) for trial in self.trials)
+        rows = dict.fromkeys((trial.name, Path(trial.file).name) for trial in TRIALS)
         kinds = (UNCHANGED, NOTICED, "lost")
         counts = {row: [self.counts[*row, kind] for kind in kinds] for row in rows}
         counts["all", ""] = np.sum(list(counts.values()), axis=0).tolist()
@@ -290,7 +324,8 @@ class Campaign:
 
 
 if __name__ == "__main__":
-    made = Campaign(Path(sys.argv[1]), int((*sys.argv, 1, 1)[3]))
+    os.chdir(sys.argv[1])
+    made = Campaign(int((*sys.argv, 1, 1)[3]))
     made.run(int((*sys.argv, 1000)[2]))
     print(made.table())
     print("\n".join(made.lost))

@@ -11,7 +11,12 @@ from xarray.backends.netCDF4_ import NetCDF4ArrayWrapper
 from xarray.core import indexing
 
 from viscontact.results.digests import StoredDigests
-from viscontact.results.stored_result import checked_digests, noticing_damage, without_masks
+from viscontact.results.stored_result import (
+    checked_digests,
+    noticing_damage,
+    require_sound,
+    without_masks,
+)
 
 
 class _CheckedArray(NetCDF4ArrayWrapper):
@@ -47,6 +52,7 @@ class _CheckedStore(NetCDF4DataStore):
 
 def open_checked(path: Path) -> xr.Dataset:
     """Open a netCDF-4 file; DamagedFileError, also later, for what is not as it was written."""
+    require_sound(path)
     store = _CheckedStore.open(str(path))  # type: ignore[no-untyped-call]
     try:
         with noticing_damage(path):

@@ -9,6 +9,7 @@ import xarray as xr
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.checked_store import open_checked
 from viscontact.results.digests import store_digests
+from viscontact.results.seal import seal
 from viscontact.results.stored_result import open_replaceable, open_to_append
 
 
@@ -32,8 +33,10 @@ def save(ds: xr.Dataset, path: str | Path) -> None:
     1.0
     """
     ds.to_netcdf(path, format="NETCDF4", engine="netcdf4")
-    with open_to_append(Path(path).expanduser()) as file:
+    written = Path(path).expanduser()
+    with open_to_append(written) as file:
         store_digests(file)
+    seal(written)
 
 
 def open_results(path: str | Path) -> xr.Dataset:

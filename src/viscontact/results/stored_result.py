@@ -12,6 +12,7 @@ import numpy as np
 
 from viscontact.results.digests import DamagedFileError, StoredDigests, note_unchecked
 from viscontact.results.run_files import RESULT_NAME
+from viscontact.results.seal import check_seal
 from viscontact.results.stated_sizes import require_stated_sizes
 from viscontact.results.variables import FIELDS
 
@@ -100,6 +101,7 @@ class StoredFile:
     """
 
     def __init__(self, path: Path, *, noted: bool = True) -> None:
+        require_sound(path)
         self._file = netCDF4.Dataset(str(path))
         try:
             with noticing_damage(path):
@@ -125,6 +127,12 @@ class StoredFile:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def require_sound(path: Path) -> None:
+    """Check a file before HDF5 reads it: its seal or, if it has none, the sizes that it states."""
+    if not check_seal(path):
+        require_stated_sizes(path)
 
 
 def checked_digests(
@@ -194,7 +202,6 @@ def open_replaceable(path: str | Path, open_file: Callable[[Path], _Opened]) -> 
     while True:
         before = _marks(file)
         try:
-            require_stated_sizes(file)
             return open_file(file)
         except (OSError, ValueError) as error:
             # A running run may have replaced the file at this very moment.

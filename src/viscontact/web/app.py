@@ -15,9 +15,11 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp
 
 from viscontact.case.data_file import is_plain_name
+from viscontact.results.digests import DamagedFileError
 from viscontact.web.calculator import Calculator
 from viscontact.web.guard import Guard
 from viscontact.web.routes import case_routes, run_routes
+from viscontact.web.workspace.pictures import DAMAGED
 from viscontact.web.workspace.problems import InputProblem, RequestError
 
 _STATIC = Path(__file__).parent / "static"
@@ -59,6 +61,7 @@ def new_app(calculator: Calculator) -> ASGIApp:
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.calculator = calculator
     app.add_exception_handler(RequestError, _answer_refusal)
+    app.add_exception_handler(DamagedFileError, _answer_damage)
     app.add_exception_handler(RequestValidationError, _answer_invalid)
     app.add_exception_handler(HTTPException, _answer_unknown)
     app.add_exception_handler(Exception, _failed)
@@ -89,6 +92,10 @@ def _static(name: str) -> FileResponse:
 def _answer_refusal(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestError)
     return JSONResponse(error.body, error.status)
+
+
+def _answer_damage(request: Request, error: Exception) -> JSONResponse:
+    return JSONResponse(RequestError(409, DAMAGED).body, 409)
 
 
 def _answer_invalid(request: Request, error: Exception) -> JSONResponse:

@@ -267,12 +267,19 @@ def _other(path: Path, grid: vc.Grid = GRID, fields: Any = SOME, rows: int = 5) 
             write(writer, rows)
 
 
+def unsealed_size(path: Path) -> int:
+    """Size of a file as HDF5 leaves it: it cuts off what it has not written."""
+    with netCDF4.Dataset(str(path), "a"):
+        pass
+    return path.stat().st_size
+
+
 SPOILED: dict[str, tuple[Callable[[Path], object], str]] = {
     "missing": (lambda path: path.unlink(), "is missing"),
     "empty": (lambda path: path.write_bytes(b""), "cannot be read"),
     "foreign": (lambda path: path.write_bytes(b"\x89PNG" * 999), "cannot be read"),
     "cut short": (lambda path: os.truncate(path, path.stat().st_size // 2), "cannot be read"),
-    "short of a byte": (lambda path: os.truncate(path, path.stat().st_size - 1), "cannot be read"),
+    "short of a byte": (lambda path: os.truncate(path, unsealed_size(path) - 1), "cannot be read"),
     "other data": (
         lambda path: xr.Dataset({"a": ("time", [1.0])}).to_netcdf(path),
         "is not the result of this run so far: it has no time",

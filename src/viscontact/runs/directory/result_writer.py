@@ -18,6 +18,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.mechanics.state import ContactState
 from viscontact.results.digests import RunningDigests, store_digests
 from viscontact.results.enlarged_grid import enlargement
+from viscontact.results.seal import seal
 from viscontact.results.stored_result import StoredFile, open_to_append
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
 from viscontact.runs.directory.earlier_result import check_result, stored_grid
@@ -249,6 +250,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
                     file.setncattr(name, value)
             self._store_digests()
             self._close()
+            seal(self._working)
             try:
                 put_in_place(self._working, self._path, self._check)
                 self._published = self._done

@@ -12,6 +12,7 @@ import netCDF4
 import numpy as np
 
 from viscontact.results.digests import store_digests
+from viscontact.results.seal import seal
 from viscontact.results.stored_result import open_to_append
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place
 from viscontact.runs.directory.netcdf_layout import true_cause
@@ -36,6 +37,7 @@ def write_joint_result(
             if fields:
                 _write_fields(file, layout, progress)
             store_digests(file)
+        seal(fresh)
         put_in_place(fresh, path)
     except RuntimeError as error:  # what netCDF says where the disk is full
         raise OSError(f"{error}; is the disk full?") from error
