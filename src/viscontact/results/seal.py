@@ -29,7 +29,7 @@ def seal(path: Path) -> None:
 
 
 def check_seal(path: Path) -> bool:
-    """Return whether a file has a seal; DamagedFileError if its bytes are not as they were sealed."""
+    """Return whether a file has a seal; DamagedFileError if its bytes are not those sealed."""
     with path.open("rb") as file:
         length = file.seek(0, 2)
         if length < _END.size:
