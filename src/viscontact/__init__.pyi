@@ -59,6 +59,7 @@ from .bodies.laws import Zener as Zener
 from .bodies.loads import ApproachHistory as ApproachHistory
 from .bodies.loads import Condition as Condition
 from .bodies.loads import ForceHistory as ForceHistory
+from .bodies.loads import HarmonicTemperature as HarmonicTemperature
 from .bodies.loads import LoadHistory as LoadHistory
 from .bodies.loads import LoadProgram as LoadProgram
 from .bodies.loads import MixedHistory as MixedHistory

@@ -209,7 +209,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
             "load.time: unknown key. Allowed: approach, eccentricity_x, eccentricity_y, force,",
         ),
         ("load.grid=1", "load.grid: unknown key. Allowed: approach, eccentricity_x, eccentricity"),
-        ("material.time=1 s", "material.time: unknown key; did you mean 'times'? Allowed: ampl"),
+        ("material.time=1 s", "material.time: unknown key; did you mean 'times'? Allowed: agei"),
         ("time.output=1", "time.output: unknown key. Allowed: end, first, spacing, steps"),
         ("material.law=prony", "unknown value 'prony'; did you mean 'relaxation-series'?"),
         ("material.law=fractional", "unknown value 'fractional'; did you mean 'fractional-zener'?"),
@@ -406,7 +406,7 @@ def test_schema_names_every_key_and_shows_units() -> None:
     json.dumps(schema)
     assert set(schema["properties"]) == {
         *("title", "indenter", "material", "indenter_material", "load", "time", "grid", "motion"),
-        *("output", "tolerance", "report", "allowable"),
+        *("output", "tolerance", "report", "allowable", "temperature"),
     }
     radius = schema["$defs"]["Sphere"]["properties"]["radius"]
     assert radius["examples"] == ["5 mm"]

@@ -14,8 +14,9 @@ from pydantic import TypeAdapter, ValidationError
 import viscontact as vc
 from closeness import close_to
 from random_examples import given_few_or_many
+from viscontact.case.loads.course import MOST_POINTS, SentenceError
 from viscontact.case.loads.grammar import EXAMPLES
-from viscontact.case.loads.sentence_history import MOST_POINTS, LoadPoints, SentenceError, course_of
+from viscontact.case.loads.sentence_history import LoadPoints, course_of
 from viscontact.case.loads.sentences import Sentence, Sentences, split_sentences
 
 READER = TypeAdapter(Sentences)

@@ -17,6 +17,7 @@ from viscontact.case.errors import KeyPath, dotted
 from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.loads.load import AnyLoad
+from viscontact.case.loads.temperature import AnyTemperature
 from viscontact.case.materials.layers import AnyBody, Layer
 from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.materials.shifts import AnyShift
@@ -38,6 +39,8 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)
 _MOTIONS = alternatives(AnyMotion)
+# Histories and harmonic temperatures have the names of loads.
+_TEMPERATURES = alternatives(AnyTemperature)
 _NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyBody) | alternatives(AnyLoad)
 _SINGLE = alternatives(AnyMaterial)  # of a layer, which has no layers of its own
 _ALTERNATIVES = _NO_SHIFTS | _SHIFTS | _MOTIONS | {"range": SpeedRange}
@@ -46,6 +49,7 @@ _WITHIN: dict[str | int, dict[str | int, Any]] = {
     "shift": _SHIFTS,
     "profile": _PROFILES,
     "motion": _MOTIONS,
+    "temperature": _TEMPERATURES,
 }
 
 
@@ -136,6 +140,8 @@ def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
     within = reversed(loc[1:-1])
     # Both a profile and a law can be a table.
     named = _PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
+    if loc[:1] == ("temperature",):
+        named = _TEMPERATURES
     return next((named[step] for step in within if step in named), section)
 
 
@@ -202,6 +208,7 @@ def _elsewhere(model: type[BaseModel], given: str) -> str:
         "load": list(loads),
         **{str(name): [section] for name, section in _SECTIONS.items()},
         "motion": list(_MOTIONS.values()),
+        "temperature": list(_TEMPERATURES.values()),
     }
     for word in (given, *meanings(given)):
         for name, models in sections.items():

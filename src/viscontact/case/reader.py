@@ -18,10 +18,10 @@ from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.shapes import combined
-from viscontact.case.materials.layers import Layers
 from viscontact.case.materials.measured_laws import TableLaw
 from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile, lacks_time
+from viscontact.case.temperature_checks import temperature_problems
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
 from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.tables import split_sheet
@@ -107,6 +107,7 @@ def _check_document(document: Document) -> CaseFile:
     except ValidationError as error:
         findings = error.errors()
     else:
+        known += [document.problem(*each) for each in temperature_problems(found, document.data)]
         if known:
             raise CaseError(*known)
         return found
@@ -145,6 +146,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         material=found.material.built,
         load=found.history(),
         motion=motion,
+        temperature=found.temperature.built if found.temperature else None,
         title_block=found.report.entries,
         allowable=found.allowable.limits,
         grid=found.grid.build() if found.grid else None,
@@ -165,7 +167,7 @@ def _case(document: Document, found: CaseFile) -> Case:
 
 
 def _notes(found: CaseFile) -> tuple[str, ...]:
-    described = (*found.indenter, found.material, found.indenter_material)
+    described = (*found.indenter, found.material, found.indenter_material, found.temperature)
     return tuple(note for each in described if each is not None for note in each.notes)
 
 
@@ -177,14 +179,7 @@ def _tables(found: CaseFile) -> dict[str, TableLaw]:
 
 def _fits(found: CaseFile) -> dict[str, Fit]:
     """Fits of the materials and of those of layers, by their keys."""
-    media: dict[str, Any] = {}
-    bodies = {"material": found.material, "indenter_material": found.indenter_material}
-    for name, body in bodies.items():
-        if isinstance(body, Layers):
-            media |= {f"{name}.{key}": each for key, each in body.media.items()}
-        else:
-            media[name] = body
-    laws = {name: law for name, law in media.items() if isinstance(law, TableLaw)}
+    laws = {name: law for name, law in found.media.items() if isinstance(law, TableLaw)}
     return {name: law.fit for name, law in laws.items() if law.fit is not None}
 
 
@@ -196,6 +191,8 @@ def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
         files |= {(*at, *key): path for key, path in shape.files.items()}
     if found.load.table is not None:
         files[("load", "file")] = found.load.table
+    if found.temperature is not None and found.temperature.table is not None:
+        files[("temperature", "file")] = found.temperature.table
     if found.motion is not None:
         files |= {("motion", *key): path for key, path in found.motion.files.items()}
     materials = {"material": found.material, "indenter_material": found.indenter_material}

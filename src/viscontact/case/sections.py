@@ -12,11 +12,14 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
+from viscontact.bodies.loads.temperature import require_constant
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.loads.load import AnyLoad
-from viscontact.case.materials.layers import AnyBody
+from viscontact.case.loads.temperature import AnyTemperature
+from viscontact.case.materials.base import Medium
+from viscontact.case.materials.layers import AnyBody, Layers
 from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
@@ -38,6 +41,12 @@ class CaseFile(Section):
         default=None, description="the pressed body's material; rigid when left out"
     )
     load: AnyLoad = Field(description="load over time")
+    temperature: AnyTemperature | None = Field(
+        default=None,
+        description="temperature of all bodies, constant or over time, to which the shifts of "
+        "their materials take the laws; laws are used as they are when left out",
+        examples=["40 degC", {"points": [["0 s", "23 degC"], ["2 h", "60 degC"]]}],
+    )
     motion: AnyMotion | None = Field(
         default=None, description="motion of the body over the surface; at rest when left out"
     )
@@ -78,10 +87,24 @@ class CaseFile(Section):
             )
         if steady:
             constant_load(self.history())
+            if self.temperature is not None:
+                require_constant(self.temperature.built)
         self.allowable.require_known(moving=not stands, steady=steady)
         if stands and self.time is not None and self.time.spacing == "cells":
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
         return self
+
+    @property
+    def media(self) -> dict[str, Medium]:
+        """Sections of the materials, those of layers too, by their keys."""
+        media: dict[str, Medium] = {}
+        bodies = {"material": self.material, "indenter_material": self.indenter_material}
+        for name, body in bodies.items():
+            if isinstance(body, Layers):
+                media |= {f"{name}.{key}": each for key, each in body.media.items()}
+            elif body is not None:
+                media[name] = body
+        return media
 
     def instants(self) -> Floats | AdaptiveTimes | CellTimes:
         """Return the instants of the run [s], or the settings of steps that are chosen later."""

@@ -16,7 +16,7 @@ from viscontact.units.tolerances import read_toleranced
 _LOOKS_TOLERANCED = re.compile(r"\s*([+-]?[\d.][^±]*?)\s*(?:±|\+/-|\+-).*")
 
 #: Sections whose numbers may have a tolerance.
-SECTIONS = ("indenter", "material", "indenter_material", "load", "motion")
+SECTIONS = ("indenter", "material", "indenter_material", "load", "motion", "temperature")
 
 
 @dataclass(frozen=True)

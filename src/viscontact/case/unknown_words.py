@@ -72,7 +72,8 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
     ("freq hz", {"frequency": ""}),
     ("velocity v", {"speed": ""}),
     ("speed", {"points": ""}),
-    ("temp", {"temperature": ""}),
+    ("temp t ambient temperatures", {"temperature": ""}),
+    ("aging struik", {"ageing": ""}),
     ("duration total_time until t_end", {"end": "", "time": ""}),
     ("dt time_step increments n", {"steps": ""}),
     ("cells resolution nx ny", {"shape": ""}),
@@ -94,7 +95,10 @@ _HARDNESS = (
     "a hardness does not determine how a material creeps: give moduli or measured data, see "
     "'Bring your creep data' in the manual (howto/creep-data)"
 )
-_HEAT = "heating is not available: the temperature is constant during a run"
+_HEAT = (
+    "heat is not computed during a run: give the temperature of the bodies, constant or over time, "
+    "by temperature: at the top of the case"
+)
 
 #: Effects that are not modelled, by the words that ask for them.
 _NOT_AVAILABLE = {
@@ -103,7 +107,7 @@ _NOT_AVAILABLE = {
     **dict.fromkeys(("plasticity", "yield_stress", "yield_strength"), _PLASTICITY),
     **dict.fromkeys(("heat", "thermal_expansion", "conductivity", "heat_flux"), _HEAT),
     "wear": "wear is not available: the shapes do not change",
-    "damage": "damage is not available: the materials do not age or break",
+    "damage": "damage is not available: the materials do not break",
     **dict.fromkeys(
         ("lubricant", "oil", "film_thickness", "lubrication"),
         "lubrication is not available: the contact is dry",

@@ -71,12 +71,21 @@ def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     )
     yield (
         "Linear viscoelasticity",
-        (
-            "twice the load gives twice the strain at any time, and the material neither ages nor "
-            f"changes its temperature. {_strain(ds)}"
-        ),
+        (f"twice the load gives twice the strain at any time, and {_clock(ds)}. {_strain(ds)}"),
     )
     yield "No inertia", "loads change slowly against the time that waves take through the contact."
+
+
+def _clock(ds: xr.Dataset) -> str:
+    """What the creep follows, as the end of a sentence."""
+    if "reduced_time" not in ds and "reduced_time_indenter" not in ds:
+        return "the material neither ages nor changes its temperature"
+    if "temperature" not in ds:
+        return "the creep slows down only by the ageing that is given"
+    return (
+        "all its times change with the temperature by one factor (a thermorheologically simple "
+        "material); the temperature is even in the bodies"
+    )
 
 
 def _size(ds: xr.Dataset) -> str:

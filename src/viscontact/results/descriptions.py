@@ -62,7 +62,9 @@ def describe(obj: Any) -> Any:
 
 
 def _is_left_out(item: Field[Any], obj: Any) -> bool:
-    """True for a field that is recorded only if it differs from its default."""
+    """True for a field that follows from others, or equals a default that is not recorded."""
+    if item.metadata.get("recorded") == "never":
+        return True
     return item.metadata.get("recorded") == "if given" and getattr(obj, item.name) == item.default
 
 

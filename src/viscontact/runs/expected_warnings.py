@@ -26,6 +26,7 @@ from viscontact.simulation.checks.sampling import (
     texture_warnings,
 )
 from viscontact.simulation.checks.singularities import strain_of
+from viscontact.simulation.checks.temperature import diffusion_warnings
 from viscontact.simulation.checks.tested_limits import (
     Contact,
     limit_warnings,
@@ -70,6 +71,9 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
         | warnings_of_covers(geometry, found.rim, found.motion, run.grid.cell_size)
         | _corner_warnings(run, geometry, found, compliance)
         | _limit_warnings(run.problem, found)
+        | diffusion_warnings(
+            run.problem.temperature, min(found.length, found.width) / 2, run.problem.end
+        )
         | map_warnings(missed, max(run.grid.cell_size), strain)
         | texture_warnings(geometry.indenter, run.grid)
     )
@@ -77,11 +81,13 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
 
 def _limit_warnings(problem: Problem, found: ContactEstimate) -> dict[str, str]:
     """Warnings about strains and stresses beyond those of the tests, at the largest load."""
-    bodies, peak = limited_bodies(problem.bodies), found.peak_pressure
+    since = loaded_since(problem.load)
+    bodies = limited_bodies(problem.bodies, problem.clocks, since)
+    peak = found.peak_pressure
     if not bodies or not peak > 0:
         return {}
     force = float(found.pressure.sum()) * found.grid.cell_area
-    loaded = problem.end - loaded_since(problem.load) if problem.motion.stands else 0.0
+    loaded = problem.end - since if problem.motion.stands else 0.0
     contact = Contact(
         force / max(found.rim.area, force / peak),
         min(found.length, found.width) / 2,
@@ -107,13 +113,14 @@ def _corner_warnings(
 
 def _range_warnings(problem: Problem) -> dict[str, str]:
     """Warnings about a load outside the times on which the laws rest on data."""
-    load, end, first = problem.load, problem.end, problem.measured_from
+    load, end, measured = problem.load, problem.end, problem.data_times
     instants = np.union1d(load.kinks[load.kinks <= end], problem.instants[:FIRST_INSTANTS])
-    loaded = instants[load.level_at(instants) > 0] if first > 0 else instants[:0]
+    asked = any(each.first > 0 for each in measured)
+    loaded = instants[load.level_at(instants) > 0] if asked else instants[:0]
     warnings: dict[str, str] = {}
     for time in loaded.tolist():
-        warnings = early_warnings(first, load, time, whose=problem.begins_last) | warnings
-    return warnings | data_warnings(end, problem.measured_until, problem.ends_first)
+        warnings = early_warnings(measured, load, time) | warnings
+    return warnings | data_warnings(end, measured)
 
 
 def _step_warnings(problem: Problem) -> dict[str, str]:

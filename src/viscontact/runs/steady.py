@@ -12,6 +12,7 @@ from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.steady_motion import steady_motion
+from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
@@ -38,6 +39,7 @@ def steady(  # noqa: PLR0913
     threads: int = 1,
     progress: Progress | bool | None = None,
     errors: bool = True,
+    temperature: TemperatureHistory | float | None = None,
 ) -> xr.Dataset:
     """Contact of a body that moves over a creeping half-space or layers at constant speed.
 
@@ -81,6 +83,9 @@ def steady(  # noqa: PLR0913
     errors : bool, optional
         Estimate the errors of the scalars, ``friction_coefficient_error`` and so on, from a
         contact on a coarser grid.
+    temperature : float, optional
+        Constant temperature of the bodies [K], to which the shifts of their materials take the
+        laws; when left out, laws are used as they are.
 
     Returns
     -------
@@ -146,6 +151,7 @@ def steady(  # noqa: PLR0913
         tolerance=tolerance,
         fields=fields,
         motion=motion,
+        temperature=temperature,
     )
     problem = steady_problem(contact, motion)
     return solve(OverSpeed(prepare(problem, threads), errors), report)

@@ -96,7 +96,7 @@ def _limit_warnings(run: SteadySetup, found: ContactEstimate, speed: float) -> d
     """Warnings about strains and times beyond those of the tests, in the estimated contact."""
     contact, peak = run.problem.contact, found.peak_pressure
     passed = (found.length, found.width)[run.problem.axis] / speed
-    warnings = passage_warnings(passed, contact.measured_from, contact.begins_last)
+    warnings = passage_warnings(passed, contact.data_times)
     if not peak > 0:
         return warnings
     force = float(found.pressure.sum()) * found.grid.cell_area

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 from viscontact.units.formatting import quoted
-from viscontact.units.parsing import parse_any_quantity, split_quantity
+from viscontact.units.parsing import parse_any_quantity, parse_scale, split_quantity
 
 _TOLERANCED = re.compile(r"\s*(?P<nominal>[+-]?[\d.][^±]*?)?\s*(?:±|\+/-|\+-)\s*(?P<deviation>.*)")
 #: Digits of bounds whose deviation has another unit.
@@ -50,8 +50,10 @@ def _in_unit(deviation: Decimal, given: str, nominal: Decimal, unit: str) -> Dec
     if given == "%":
         return abs(nominal) * deviation / 100
     (own, base), (one, same) = (parse_any_quantity(f"1 {each}") for each in (given, unit))
-    if base != same or base == "K":  # degrees have an offset
+    if base != same:
         raise ValueError(f"the unit of {deviation} {given} does not fit {nominal} {unit}")
+    if base == "K":  # degrees have an offset, which a deviation has not
+        own, one = (parse_scale(each, "temperature difference").factor for each in (given, unit))
     return deviation * Decimal(f"{own / one:.{_DIGITS}g}")
 
 

@@ -3,6 +3,7 @@
 from viscontact.bodies.loads.approach import ApproachHistory
 from viscontact.bodies.loads.force import ForceHistory
 from viscontact.bodies.loads.harmonic import HarmonicHistory, harmonic
+from viscontact.bodies.loads.harmonic_temperature import HarmonicTemperature
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
 from viscontact.bodies.loads.mixed import MixedHistory
 from viscontact.bodies.loads.program import Condition, LoadProgram, Segment
@@ -16,6 +17,7 @@ __all__ = [
     "Condition",
     "ForceHistory",
     "HarmonicHistory",
+    "HarmonicTemperature",
     "LoadHistory",
     "LoadPoint",
     "LoadProgram",

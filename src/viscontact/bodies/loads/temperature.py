@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -105,6 +106,14 @@ class TemperatureHistory(Displayable):
         """Lowest and highest temperature [K]."""
         return float(self.temperature.min()), float(self.temperature.max())
 
+    @cached_property
+    def steepest(self) -> float:
+        """Largest rate of change [K/s]; inf at a jump."""
+        if self.jumps.size:
+            return math.inf
+        spans, changes = np.diff(self.times), np.abs(np.diff(self.temperature))
+        return float((changes[spans > 0] / spans[spans > 0]).max(initial=0.0))
+
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
@@ -114,6 +123,15 @@ class TemperatureHistory(Displayable):
 
     def __hash__(self) -> int:
         return hash((self.times.size, float(self.times[-1]), float(self.temperature[-1])))
+
+
+def require_constant(temperature: TemperatureHistory) -> None:
+    """Refuse a temperature that varies, which a steady motion cannot have."""
+    if not temperature.is_constant:
+        raise ValueError(
+            "temperature: it varies, and a steady motion has one temperature at all speeds; give a "
+            "constant one, or a motion over time (travel, reciprocating)"
+        )
 
 
 def as_temperature(given: object) -> TemperatureHistory | None:

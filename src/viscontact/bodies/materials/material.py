@@ -186,7 +186,7 @@ class Material(Displayable):
                 "varies, got none; write e.g. shift=WLF(298.15, 17.44, 51.6)"
             )
         try:
-            self.shift.factor(temperature.temperature)
+            self.shift.factor(temperature.range)
         except ValueError as error:
             raise ValueError(f"temperature: {error}") from None
         return ReducedTime(temperature, self.shift, self.ageing)

@@ -1,8 +1,9 @@
-"""Grammar of sentences about a load: a few forms of words and slots.
+"""Grammar of sentences about a load or a temperature: a few forms of words and slots.
 
 A form is a row of words. ``in|within`` is any of these words, ``[at]`` one that may be left
-out, and a word in capitals a slot: LEVEL (a force or a length), RATE (one per time), TIME, COUNT,
-TIMES (3 times, twice). Articles are passed over.
+out, and a word in capitals a slot: LEVEL (a force or a length), RATE (one per time), TEMPERATURE,
+DIFFERENCE (of temperatures), HEATING (one per time), TIME, COUNT, TIMES (3 times, twice). Articles
+are passed over.
 """
 
 from __future__ import annotations
@@ -48,10 +49,16 @@ class Token:
         return _NUMBER.fullmatch(self.text) is not None
 
 
-class Rate(NamedTuple):
-    """Rate: a level per time [s]."""
+class Degrees(NamedTuple):
+    """A temperature, or a difference of temperatures [K]."""
 
-    change: Level
+    value: float
+
+
+class Rate(NamedTuple):
+    """Rate: a level or a difference of temperatures per time [s]."""
+
+    change: Level | Degrees
     per: float
 
 
@@ -169,6 +176,25 @@ def _rate(tokens: Sequence[Token]) -> tuple[Rate, int]:
     return Rate(change, parse_unit(unit, "time")), used
 
 
+def _temperature(tokens: Sequence[Token]) -> tuple[Degrees, int]:
+    text, used = _quantity(tokens)
+    return Degrees(WithUnit("temperature", POSITIVE).read(text)), used
+
+
+def _difference(tokens: Sequence[Token]) -> tuple[Degrees, int]:
+    text, used = _quantity(tokens)
+    return Degrees(WithUnit("temperature difference", POSITIVE).read(text)), used
+
+
+def _heating(tokens: Sequence[Token]) -> tuple[Rate, int]:
+    text, used = _quantity(tokens)
+    change, _, unit = text.rpartition("/")
+    if not change:
+        raise PhraseError(f"{text!r} is not per time; write e.g. '2 K/min'")
+    degrees = Degrees(WithUnit("temperature difference", POSITIVE).read(change))
+    return Rate(degrees, parse_unit(unit, "time")), used
+
+
 def _count(tokens: Sequence[Token]) -> tuple[int, int]:
     if not tokens or not re.fullmatch(r"\d{1,9}", tokens[0].text) or int(tokens[0].text) < 1:
         raise PhraseError("")
@@ -190,6 +216,9 @@ _Slot = Callable[[Sequence[Token]], tuple[Any, int]]
 _SLOTS: dict[str, tuple[str, _Slot]] = {
     "LEVEL": ("a force or a length", _level),
     "RATE": ("a force or a length per time", _rate),
+    "TEMPERATURE": ("a temperature", _temperature),
+    "DIFFERENCE": ("a difference of temperatures", _difference),
+    "HEATING": ("a difference of temperatures per time", _heating),
     "TIME": ("a time", _time),
     "COUNT": ("a whole number", _count),
     "TIMES": ("how many times", _times),
@@ -201,9 +230,20 @@ def _forms(rows: Iterable[tuple[str, str]]) -> tuple[Form, ...]:
 
 
 _GO, _BACK = "ramp|load|press|move|go", "unload|withdraw|retract"
+_HEAT, _COOL = "heat|warm", "cool|chill"
 _STILL = "hold|wait|rest|dwell|pause"
 
-#: All forms.
+_REPEATS = [
+    ("repeat last", "repeat last COUNT [sentences|sentence|steps|step] TIMES"),
+    ("repeat the last", "repeat last sentence|step TIMES"),
+    ("repeat", "repeat [all|everything] TIMES"),
+]
+_HOLDS = [
+    ("hold for", f"{_STILL} [constant] [for] TIME"),
+    ("hold until", f"{_STILL} [constant] until TIME"),
+]
+
+#: Forms of sentences about a load.
 FORMS = _forms(
     [
         ("to, in", f"{_GO}|{_BACK} [linearly] [up|down] to LEVEL {_WITHIN} TIME"),
@@ -215,16 +255,34 @@ FORMS = _forms(
         ("off", f"{_BACK} [at] [once]"),
         ("to", "step|jump [up|down] to LEVEL [at] [once]"),
         ("by", "step|jump by LEVEL [at] [once]"),
-        ("hold for", f"{_STILL} [constant] [for] TIME"),
-        ("hold until", f"{_STILL} [constant] until TIME"),
+        *_HOLDS,
         ("swing", "oscillate|swing by LEVEL [with] period [of] TIME for COUNT cycles|cycle"),
-        ("repeat last", "repeat last COUNT [sentences|sentence|steps|step] TIMES"),
-        ("repeat the last", "repeat last sentence|step TIMES"),
-        ("repeat", "repeat [all|everything] TIMES"),
+        *_REPEATS,
     ]
 )
 
-#: Examples for error messages.
+#: Kind of the sentence that gives the first temperature.
+START = "start"
+
+#: Forms of sentences about a temperature.
+TEMPERATURE_FORMS = _forms(
+    [
+        (START, "start|begin [at] TEMPERATURE"),
+        ("to, up, in", f"{_HEAT} [linearly] [up] to TEMPERATURE {_WITHIN} TIME"),
+        ("to, up, at", f"{_HEAT} [linearly] [up] to TEMPERATURE at HEATING"),
+        ("to, down, in", f"{_COOL} [linearly] [down] to TEMPERATURE {_WITHIN} TIME"),
+        ("to, down, at", f"{_COOL} [linearly] [down] to TEMPERATURE at HEATING"),
+        ("to, in", f"go [linearly] [up|down] to TEMPERATURE {_WITHIN} TIME"),
+        ("to, at", "go [linearly] [up|down] to TEMPERATURE at HEATING"),
+        ("by, in", f"{_HEAT} by DIFFERENCE {_WITHIN} TIME"),
+        ("back, in", f"{_COOL} by DIFFERENCE {_WITHIN} TIME"),
+        ("to", "step|jump [up|down] to TEMPERATURE [at] [once]"),
+        *_HOLDS,
+        *_REPEATS,
+    ]
+)
+
+#: Examples for error messages, of loads and of temperatures.
 EXAMPLES = (
     "ramp to 10 kN in 1 s (or: at 2 kN/s)",
     "step to 5 kN (or: by 1 kN)",
@@ -234,4 +292,14 @@ EXAMPLES = (
     "oscillate by 1 kN with a period of 2 s for 10 cycles",
     "repeat 9 times (that is, 9 times more)",
     "repeat the last 2 sentences 9 times",
+)
+TEMPERATURE_EXAMPLES = (
+    "start at 23 degC",
+    "heat to 60 degC in 2 h (or: at 2 K/min)",
+    "cool by 20 K in 1 h",
+    "hold for 8 h",
+    "hold until 24 h",
+    "step to 60 degC",
+    "repeat 9 times (that is, 9 times more)",
+    "repeat the last 4 sentences 9 times",
 )

@@ -13,8 +13,9 @@ from viscontact.bodies.loads.history import Control
 from viscontact.case.data_file import DataFile
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
+from viscontact.case.loads.course import SentenceError
 from viscontact.case.loads.levels import ForceOrApproach, Level
-from viscontact.case.loads.sentence_history import SentenceError, course_of
+from viscontact.case.loads.sentence_history import course_of
 from viscontact.case.loads.sentences import Sentences
 from viscontact.case.quantities import (
     Instant,

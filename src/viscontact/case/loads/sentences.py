@@ -1,4 +1,4 @@
-"""Sentences of a load: "ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"."""
+"""Sentences of a load: "ramp to 10 kN in 1 s; hold for 240 s", or of a temperature."""
 
 from __future__ import annotations
 
@@ -10,7 +10,16 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import BeforeValidator, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from viscontact.case.loads.grammar import EXAMPLES, FORMS, PhraseError, Reading, read_form
+from viscontact.case.loads.grammar import (
+    EXAMPLES,
+    FORMS,
+    TEMPERATURE_EXAMPLES,
+    TEMPERATURE_FORMS,
+    Form,
+    PhraseError,
+    Reading,
+    read_form,
+)
 from viscontact.units.formatting import quoted
 
 #: Ends of sentences; a new one also begins with "then" or "and".
@@ -25,8 +34,9 @@ _LONGEST = 80
 #: Largest number of sentences; more take seconds to parse.
 _MOST_SENTENCES = 10_000
 
-#: A short history.
+#: Short histories of a load and of a temperature.
 EXAMPLE = "'ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s'"
+TEMPERATURE_EXAMPLE = "'start at 23 degC; heat to 60 degC in 2 h; hold for 8 h'"
 
 
 @dataclass(frozen=True)
@@ -67,49 +77,68 @@ def _numbered_entries(texts: Sequence[Any]) -> list[_Entry]:
     return entries
 
 
-def _sentences_of(entry: _Entry) -> tuple[Sentence, ...]:
-    """Sentences of an entry; one message names all that are refused."""
-    read: list[Sentence] = []
-    refused: list[str] = []
-    for number, text in enumerate(entry.parts, start=entry.first):
-        try:
-            read.append(Sentence(number, text, entry.place, read_form(text, FORMS)))
-        except PhraseError as error:
-            refused.append(f"sentence {number}, {quoted(text, _LONGEST)}: {error}")
-    if not entry.parts:
-        refused.append("it is empty")
-    if refused:
-        if len(refused) > _MOST_EXPLAINED:
-            refused[_MOST_EXPLAINED:] = [f"and {len(refused) - _MOST_EXPLAINED} more"]
-        forms = ", ".join(repr(form) for form in EXAMPLES)
-        why = f"{'; '.join(refused)}. Possible sentences: {forms}"
-        raise PydanticCustomError("quantity", "{why}", {"why": why})
-    return tuple(read)
+@dataclass(frozen=True)
+class Language:
+    """Sentences about one thing: their forms, examples of each, and a short history."""
+
+    forms: tuple[Form, ...]
+    examples: tuple[str, ...]
+    example: str
+
+    def sentences_of(self, entry: _Entry) -> tuple[Sentence, ...]:
+        """Sentences of an entry; one message names all that are refused."""
+        read: list[Sentence] = []
+        refused: list[str] = []
+        for number, text in enumerate(entry.parts, start=entry.first):
+            try:
+                read.append(Sentence(number, text, entry.place, read_form(text, self.forms)))
+            except PhraseError as error:
+                refused.append(f"sentence {number}, {quoted(text, _LONGEST)}: {error}")
+        if not entry.parts:
+            refused.append("it is empty")
+        if refused:
+            if len(refused) > _MOST_EXPLAINED:
+                refused[_MOST_EXPLAINED:] = [f"and {len(refused) - _MOST_EXPLAINED} more"]
+            forms = ", ".join(repr(form) for form in self.examples)
+            why = f"{'; '.join(refused)}. Possible sentences: {forms}"
+            raise PydanticCustomError("quantity", "{why}", {"why": why})
+        return tuple(read)
+
+    def as_entries(self, given: Any) -> list[_Entry]:
+        """Entries of a text or of a list of texts."""
+        texts = [given] if isinstance(given, str) else given
+        if not isinstance(texts, list) or not texts:
+            got = quoted(str(given), _LONGEST)
+            why = f"must be a text or a list of texts, got {got}; write e.g. {self.example}"
+            raise PydanticCustomError("quantity", "{why}", {"why": why})
+        entries = _numbered_entries(texts)
+        count = sum(len(entry.parts) for entry in entries)
+        if count > _MOST_SENTENCES:
+            why = f"holds {count} sentences, and at most {_MOST_SENTENCES} are read; repeat some"
+            raise PydanticCustomError("quantity", "{why}", {"why": why})
+        return entries
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """JSON schema: a text, or a list of texts."""
+        return {
+            "description": "what happens in turn, such as " + ", ".join(self.examples),
+            "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
+            "examples": [self.example.strip("'")],
+        }
 
 
-def _as_entries(given: Any) -> list[_Entry]:
-    texts = [given] if isinstance(given, str) else given
-    if not isinstance(texts, list) or not texts:
-        got = quoted(str(given), _LONGEST)
-        why = f"must be a text or a list of texts, got {got}; write e.g. {EXAMPLE}"
-        raise PydanticCustomError("quantity", "{why}", {"why": why})
-    entries = _numbered_entries(texts)
-    count = sum(len(entry.parts) for entry in entries)
-    if count > _MOST_SENTENCES:
-        why = f"holds {count} sentences, and at most {_MOST_SENTENCES} are read; repeat some"
-        raise PydanticCustomError("quantity", "{why}", {"why": why})
-    return entries
-
-
-_SCHEMA = {
-    "description": "what happens in turn, such as " + ", ".join(EXAMPLES),
-    "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
-    "examples": [EXAMPLE.strip("'")],
-}
+LOADS = Language(FORMS, EXAMPLES, EXAMPLE)
+TEMPERATURES = Language(TEMPERATURE_FORMS, TEMPERATURE_EXAMPLES, TEMPERATURE_EXAMPLE)
 
 #: Of a case file: a text or a list of texts, as tuples of `Sentence`.
 Sentences = Annotated[
-    list[Annotated[Any, PlainValidator(_sentences_of)]],
-    BeforeValidator(_as_entries),
-    WithJsonSchema(_SCHEMA),
+    list[Annotated[Any, PlainValidator(LOADS.sentences_of)]],
+    BeforeValidator(LOADS.as_entries),
+    WithJsonSchema(LOADS.schema),
+]
+TemperatureSentences = Annotated[
+    list[Annotated[Any, PlainValidator(TEMPERATURES.sentences_of)]],
+    BeforeValidator(TEMPERATURES.as_entries),
+    WithJsonSchema(TEMPERATURES.schema),
 ]

@@ -1,4 +1,4 @@
-"""Common keys of material sections: volume, temperature, known range."""
+"""Common keys of material sections: volume, temperature, ageing, known range."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 
 from viscontact.bodies.laws import Law, Shift
 from viscontact.bodies.materials.material import Material
+from viscontact.case.materials.ageing import Ageing
 from viscontact.case.materials.measured_range import MeasuredRange
 from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.quantities import (
@@ -47,12 +48,16 @@ class Medium(Section):
         "half width beyond a fifth of it warns",
     )
     temperature: Temperature | None = Field(
-        default=None, description="temperature of the run, to which the law is shifted by shift"
+        default=None,
+        description="temperature of this material, to which its shift takes the law; write that of "
+        "all bodies at the top of the case",
     )
     shift: AnyShift | None = Field(
         default=None, description="change of all times of the law with temperature"
     )
-
+    ageing: Ageing | None = Field(
+        default=None, description="physical ageing of a glassy polymer from time 0 of the run on"
+    )
     measured_range: MeasuredRange | None = Field(
         default=None,
         description="strain, stress, first time and temperatures of the tests; a run beyond them "
@@ -82,8 +87,19 @@ class Medium(Section):
             notes=self.notes,
             warning=self.warning or self.misfit,
             measured_range=self.measured_range.build() if self.measured_range else None,
+            ageing=self.ageing.build() if self.ageing else None,
         )
         return self._at_temperature(material, self.shift.build() if self.shift else None)
+
+    @property
+    def own_temperature(self) -> float | None:
+        """Temperature that the section gives for this material [K]."""
+        return self.temperature
+
+    @property
+    def lacks_temperature(self) -> bool:
+        """True for a shift without the temperature that a run must give."""
+        return self.shift is not None and not self.shift.is_referred and self.temperature is None
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
@@ -111,13 +127,7 @@ class Medium(Section):
         keys = {"measured_until": self.measured_until, "thickness": self.thickness}
         given: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
         if self.temperature is None:
-            if self.shift is not None and self.shift.is_referred:
-                return replace(material, shift=shift, **given)
-            if self.shift is not None:
-                raise ValueError(
-                    "shift: needs a temperature to shift to, e.g. 'temperature: 60 degC'"
-                )
-            return replace(material, **given)
+            return replace(material, shift=shift, **given)
         if shift is None:
             raise ValueError(
                 "temperature: needs a shift, e.g. '{kind: wlf, reference_temperature: "

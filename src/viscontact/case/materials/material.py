@@ -75,6 +75,16 @@ class LawFile(FromFile):
         return self._at_temperature(self.section.built, self.shift.build())
 
     @property
+    def own_temperature(self) -> float | None:
+        """Temperature of the material, given here or in the file [K]."""
+        return self.section.own_temperature if self.temperature is None else self.temperature
+
+    @property
+    def lacks_temperature(self) -> bool:
+        """True for a shift, here or in the file, without the temperature that a run must give."""
+        return super().lacks_temperature or self.section.lacks_temperature
+
+    @property
     def _keys(self) -> dict[str, Any]:
         """Keys that replace those of the file, as in a case file."""
         units = {"bulk_modulus": "Pa", "measured_until": "s", "thickness": "m"}
@@ -85,7 +95,9 @@ class LawFile(FromFile):
             for key, unit in units.items()
             if (value := getattr(self, key)) is not None
         }
-        plain = {"poisson_ratio": self.poisson_ratio, "warning": self.warning}
+        plain: dict[str, Any] = {"poisson_ratio": self.poisson_ratio, "warning": self.warning}
+        if self.ageing is not None:
+            plain["ageing"] = {"age": f"{self.ageing.age!r} s", "exponent": self.ageing.exponent}
         return given | {key: value for key, value in plain.items() if value is not None}
 
 

@@ -318,7 +318,12 @@ class CardLaw(FromFile):
         if card.shift is not None and self.shift is not None:
             raise ValueError("shift: is given in the card; leave it out")
         return self._at_temperature(
-            replace(card.material, notes=card.notes, warning=self.warning or card.material.warning),
+            replace(
+                card.material,
+                notes=card.notes,
+                warning=self.warning or card.material.warning,
+                ageing=self.ageing.build() if self.ageing else None,
+            ),
             card.shift or (self.shift.build() if self.shift else None),
         )
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,6 +51,9 @@ FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
 SOLVER_ERROR_FACTOR = 3.0
 
 
+#: Names of the materials of two bodies that both deform.
+BODIES = ("half-space material", "indenter material")
+
 #: Edge of the cell of an automatic grid that is not chosen yet [m].
 UNKNOWN_CELL = 1e100
 
@@ -64,6 +67,28 @@ def _hint(name: str, given: object) -> str:
     if name == "load" and as_real(given) is not None:
         return "; write vc.step(force) for a constant force"
     return ""
+
+
+class DataTimes(NamedTuple):
+    """Times between which the law of a body rests on data, on the clock of its creep."""
+
+    first: float  # reduced time since a load came [s]; 0 for formulas
+    last: float  # reduced time [s]; inf for formulas
+    clock: Clock
+    whose: str
+
+    @property
+    def until(self) -> float:
+        """Time of a run at which the data end [s]."""
+        return self.clock.time_at(self.last)
+
+    def latest_before(self, time: float) -> float:
+        """Latest time at which a load could come and be in the data at a time [s]."""
+        first = self.first * (1 - 1e-9)
+        if self.clock is TIME:
+            return time - first
+        reduced = float(self.clock.reduced(np.array(time))) - first
+        return self.clock.time_at(reduced) if reduced >= 0 else -1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,36 +285,29 @@ class Problem:
         clocks = self.surface.clocks
         return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks, clocks)
 
-    @property
-    def measured_until(self) -> float:
-        """Last time of the data of the laws [s]; inf for formulas."""
-        return min(material.known_until for material in self.materials)
-
-    @property
-    def measured_from(self) -> float:
-        """First time of the data of the laws [s]; 0 for formulas."""
-        return max(material.known_from for material in self.materials)
-
-    @property
-    def ends_first(self) -> str:
-        """Material whose data end first, in words."""
-        return self._owner(lambda each: each.known_until == self.measured_until)
-
-    @property
-    def begins_last(self) -> str:
-        """Material whose data begin last, in words."""
-        return self._owner(lambda each: each.known_from == self.measured_from)
-
-    def _owner(self, is_it: Callable[[Material], bool]) -> str:
-        """Name of a material by its body, where both deform."""
-        if len(self.bodies) == 1:
-            return "material"
-        indenter = self.bodies[1]
-        return (
-            "indenter material"
-            if any(map(is_it, materials_of(indenter)))
-            else "half-space material"
+    @cached_property
+    def data_times(self) -> tuple[DataTimes, ...]:
+        """Times of the data of the laws of each body."""
+        return tuple(
+            DataTimes(
+                max(material.known_from for material in materials_of(body)),
+                min(material.known_until for material in materials_of(body)),
+                clock,
+                name,
+            )
+            for body, clock, name in zip(self.bodies, self.clocks, self.body_names, strict=True)
         )
+
+    @property
+    def body_names(self) -> tuple[str, ...]:
+        """Names of the materials of the bodies that deform."""
+        return ("material",) if len(self.bodies) == 1 else BODIES
+
+    @property
+    def given_materials(self) -> tuple[tuple[Material, ...], ...]:
+        """Materials of each body that deforms, as they are given: at their own temperatures."""
+        both = (self.material, self.indenter_material)
+        return tuple(materials_of(body) for body in both if body is not None)
 
     @property
     def thinnest_layer(self) -> float:

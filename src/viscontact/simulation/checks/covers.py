@@ -5,7 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain, repeat
 
+import numpy as np
+
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.units.formatting import format_quantity
@@ -33,9 +37,15 @@ class Cover:
     incompressible: float  # thickness of the thinnest nearly incompressible layer, else inf [m]
 
 
-def covers_of(bodies: Iterable[Material | Layered], time: float) -> tuple[Cover, ...]:
+def covers_of(
+    bodies: Iterable[Material | Layered], time: float, clocks: Iterable[Clock] = ()
+) -> tuple[Cover, ...]:
     """Covers of the bodies that have layers, with the moduli that they creep to [s]."""
-    return tuple(_cover_of(body, time) for body in bodies if isinstance(body, Layered))
+    return tuple(
+        _cover_of(body, float(clock.reduced(np.array(time))))
+        for body, clock in zip(bodies, chain(clocks, repeat(TIME)), strict=False)
+        if isinstance(body, Layered)
+    )
 
 
 def cover_warnings(

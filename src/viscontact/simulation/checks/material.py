@@ -8,7 +8,9 @@ import numpy as np
 
 from viscontact.bodies.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.materials.clock import TIME
 from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.problem.problem import DataTimes
 from viscontact.units.formatting import format_quantity
 
 #: Tolerated negative loss modulus of a table, as a part of the modulus; frequencies examined.
@@ -21,52 +23,56 @@ MAX_LAW_ERROR = 0.01
 EARLY_LOAD_FRACTION = 0.25
 
 
-def data_warnings(time: float, measured_until: float, whose: str = "material") -> dict[str, str]:
+def data_warnings(time: float, measured: Sequence[DataTimes]) -> dict[str, str]:
     """Warn of a run beyond the times at which a material was measured [s]."""
-    if time <= measured_until * (1 + 1e-9):
+    until, of = min((each.until, place) for place, each in enumerate(measured))
+    if time <= until * (1 + 1e-9):
         return {}
+    data, at = measured[of], format_quantity(until, "s")
+    reduced = "" if data.clock is TIME else f" of reduced time, which it reaches after {at},"
+    if reduced:
+        at = format_quantity(data.last, "s")
     return {
         "data": (
-            f"the run goes beyond {format_quantity(measured_until, 's')}, where the {whose}'s "
-            "data end; from there on its law is an extrapolation"
+            f"the run goes beyond {at}{reduced or ','} where the {data.whose}'s data end; from "
+            "there on its law is an extrapolation"
         )
     }
 
 
 def early_warnings(
-    measured_from: float,
-    load: LoadHistory,
-    time: float,
-    side: str = "right",
-    whose: str = "material",
+    measured: Sequence[DataTimes], load: LoadHistory, time: float, side: str = "right"
 ) -> dict[str, str]:
-    """Warn of a time so soon after the load that data from `measured_from` [s] miss the creep."""
-    if measured_from <= 0:
+    """Warn of a time so soon after the load that the first data miss the creep."""
+    data = max(measured, key=lambda each: time - each.latest_before(time))
+    if data.first <= 0:
         return {}
-    begin = time - measured_from * (1 - 1e-9)
+    begin = data.latest_before(time)
     before = float(load.level_at(begin)) if begin >= 0 else 0.0
     came = abs(float(load.level_at(time, side=side)) - before)
     if came <= EARLY_LOAD_FRACTION * load.largest_level:
         return {}
+    reduced = "" if data.clock is TIME else " of reduced time"
     return {
         "early": (
             f"at t = {format_quantity(time, 's')} {came / load.largest_level:.0%} of the load has "
-            f"come within less than {format_quantity(measured_from, 's')}, where the {whose}'s "
-            "data begin; before that its law is an extrapolation. Give the data an earlier row, or "
-            "load more slowly"
+            f"come within less than {format_quantity(data.first, 's')}{reduced}, where the "
+            f"{data.whose}'s data begin; before that its law is an extrapolation. Give the data an "
+            "earlier row, or load more slowly"
         )
     }
 
 
-def passage_warnings(passed: float, measured_from: float, whose: str) -> dict[str, str]:
+def passage_warnings(passed: float, measured: Sequence[DataTimes]) -> dict[str, str]:
     """Warn of a contact in steady motion that is passed before the data begin [s]."""
-    if passed >= measured_from * (1 - 1e-9):
+    data = max(measured, key=lambda each: each.first)
+    if passed >= data.first * (1 - 1e-9):
         return {}
     return {
         "early": (
             f"the contact is passed in {format_quantity(passed, 's', 2)}, before "
-            f"{format_quantity(measured_from, 's')}, where the {whose}'s data begin; its law is an "
-            "extrapolation there"
+            f"{format_quantity(data.first, 's')}, where the {data.whose}'s data begin; its law is "
+            "an extrapolation there"
         )
     }
 

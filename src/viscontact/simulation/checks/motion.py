@@ -11,7 +11,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.bodies.materials.material import Material
+from viscontact.bodies.materials.layers import materials_of
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import creeps
 from viscontact.units.formatting import format_quantity
@@ -76,9 +76,10 @@ def turn_warnings(problem: Problem) -> dict[str, str]:
     if motion.stands or mate is None or not creeps(mate):
         return {}
     turn = _circumference(problem, motion)
-    parts = (mate,) if isinstance(mate, Material) else mate.materials
     duration = turn / motion.top_speed
-    left = max(left_after(part.contact_compliance(), duration) for part in parts)
+    reduced = problem.clocks[1].passed(max(problem.end, duration), duration)
+    parts = materials_of(problem.bodies[1])
+    left = max(left_after(part.contact_compliance(), reduced) for part in parts)
     if _way(motion) <= turn or left <= LEFT_AFTER_TURN:
         return {}
     return {

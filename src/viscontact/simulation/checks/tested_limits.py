@@ -10,12 +10,15 @@ under a cylinder 0.19 a/R. Of a body that creeps 1/E* is J(t), t being the time 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads import LoadHistory, TemperatureHistory
+from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.materials.measured_range import MeasuredRange
@@ -51,8 +54,13 @@ class Contact:
     when: str
 
 
-def limited_bodies(bodies: Iterable[Material | Layered]) -> tuple[LimitedBody, ...]:
-    """Bodies whose materials at the surface state a strain or a stress, the half-space first."""
+def limited_bodies(
+    bodies: Iterable[Material | Layered], clocks: Sequence[Clock] = (), since: float = 0.0
+) -> tuple[LimitedBody, ...]:
+    """Bodies whose materials at the surface state a strain or a stress, the half-space first.
+
+    Their creep follows clocks, the time where none are given; the load came at `since` [s].
+    """
     found = []
     every = list(bodies)
     for place, body in enumerate(every):
@@ -63,9 +71,15 @@ def limited_bodies(bodies: Iterable[Material | Layered]) -> tuple[LimitedBody, .
         ratio = 0.5 if top.poisson_ratio is None else top.poisson_ratio
         depth = math.inf if isinstance(body, Material) else body.layers[0].thickness
         whose = "material" if len(every) == 1 else ("half-space", "indenter")[place] + " material"
-        compliance = top.contact_compliance()
+        law, clock = top.contact_compliance(), clocks[place] if clocks else TIME
+        compliance = partial(_crept, law, clock, since)
         found.append(LimitedBody(tested, compliance, 1 - ratio**2, depth, whose))
     return tuple(found)
+
+
+def _crept(law: ContactCompliance, clock: Clock, since: float, loaded: float) -> float:
+    """J of a load that came at a time and has acted for another one [1/Pa]."""
+    return float(law(clock.passed(since + loaded, loaded)))
 
 
 def loaded_since(load: LoadHistory) -> float:
@@ -91,7 +105,7 @@ def limit_warnings(bodies: Iterable[LimitedBody], contact: Contact) -> dict[str,
 
 
 def _of_body(body: LimitedBody, contact: Contact) -> dict[str, str]:
-    compliance = float(body.compliance(max(contact.loaded, 0.0)))
+    compliance = body.compliance(max(contact.loaded, 0.0))
     strain = TABOR * contact.mean_pressure * compliance
     # Wide on its layer, a contact squeezes it as a whole.
     if contact.half_width > body.depth and math.isfinite(contact.approach):
@@ -115,19 +129,24 @@ def _of_body(body: LimitedBody, contact: Contact) -> dict[str, str]:
     return warnings
 
 
-def temperature_warnings(materials: Iterable[Material]) -> dict[str, str]:
-    """Warn of laws that are used at a temperature outside those of their tests."""
+def temperature_warnings(
+    materials: Iterable[Material], temperature: TemperatureHistory | None = None
+) -> dict[str, str]:
+    """Warn of laws that are used at a temperature, or a history, outside those of their tests."""
+    varies = temperature is not None and not temperature.is_constant
     for material in materials:
         tested = material.measured_range
-        if tested is None or tested.temperatures is None or tested.used_at is None:
+        if tested is None or tested.temperatures is None:
             continue
+        used = None if tested.used_at is None else (tested.used_at, tested.used_at)
+        if temperature is not None and varies and material.shift is not None:
+            used = temperature.range
         low, high = tested.temperatures
-        if low - NEARLY <= tested.used_at <= high + NEARLY:
+        if used is None or (low - NEARLY <= used[0] and used[1] <= high + NEARLY):
             continue
-        span = f"{_celsius(low)}" if low == high else f"{_celsius(low)} to {_celsius(high)}"
         return {
             "tested temperature": (
-                f"the law is used at {_celsius(tested.used_at)} °C, but was measured at {span} °C; "
+                f"the law is used at {_span(*used)} °C, but was measured at {_span(low, high)} °C; "
                 "its shift is an extrapolation from there"
             )
         }
@@ -136,6 +155,10 @@ def temperature_warnings(materials: Iterable[Material]) -> dict[str, str]:
 
 def _percent(part: float) -> str:
     return f"{format_number(100 * part, 2)} %"
+
+
+def _span(low: float, high: float) -> str:
+    return _celsius(low) if low == high else f"{_celsius(low)} to {_celsius(high)}"
 
 
 def _celsius(kelvin: float) -> str:

@@ -33,6 +33,7 @@ from viscontact.simulation.checks.mesh import cells_across_spots, layer_warnings
 from viscontact.simulation.checks.motion import edge_warnings, free_tilt_warnings
 from viscontact.simulation.checks.periodicity import datum_warnings
 from viscontact.simulation.checks.singularities import strain_of
+from viscontact.simulation.checks.temperature import shift_warnings
 from viscontact.simulation.checks.tested_limits import (
     Contact,
     limit_warnings,
@@ -198,7 +199,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     found = law_warnings(laws.error, compliance.inversion_error)
     found |= splitting_warnings(surface.splitting_error)
     found |= origin_warnings(problem.contact.materials)
-    found |= temperature_warnings(problem.contact.materials)
+    found |= temperature_warnings(problem.contact.materials) | shift_warnings(problem.contact)
     found |= datum_warnings(run.grids[0], ("approach",), supported=surface.is_supported)
     found |= layer_warnings(problem.contact.thinnest_layer, run.grids[0].cell_size)
     if run.tolerance_reached is not None:
@@ -277,8 +278,8 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
         mesh_warnings(rim.cells_across, spots)
         | corner_warnings(geometry, grid.largest_at(pressure), strain)
         | geometry_warnings(geometry, rim, motion, contact.displacement, pressure)
-        | data_warnings(passed, body.measured_until)
-        | passage_warnings(passed, body.measured_from, body.begins_last)
+        | data_warnings(passed, body.data_times)
+        | passage_warnings(passed, body.data_times)
         | limit_warnings(limited_bodies(body.bodies), load)
         | edge_warnings(along=False, across=math.isnan(force_across(problem, contact)))
     )

@@ -118,9 +118,9 @@ def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingL
         last = LONGEST_OF_LINES * max(grid.size) / float(speeds.min())
     else:
         last = LONGEST * extents[1] / float(speeds.min())
-    material, mate = problem.contact.material, problem.contact.indenter_material
+    material, *mates = problem.contact.bodies
     found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(material)]
-    for term in _terms(mate) if mate is not None else ():
+    for term in (term for mate in mates for term in _terms(mate)):
         compliance = term.compliance
         if problem.motion.rolling and not compliance.is_elastic:
             _relaxed(compliance, last, "rolls")

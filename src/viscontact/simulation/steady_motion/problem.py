@@ -10,6 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
+from viscontact.bodies.loads.temperature import require_constant
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import creeps
 
@@ -49,6 +50,13 @@ class SteadyProblem:
 def steady_problem(contact: Problem, motion: SteadyMotion) -> SteadyProblem:
     """Check a problem of steady motion and complete it."""
     problem = SteadyProblem(contact, motion, constant_load(contact.load))
+    if contact.temperature is not None:
+        require_constant(contact.temperature)
+    if any(material.ageing for material in contact.materials):
+        raise ValueError(
+            "ageing: a material that ages has no steady state, as its creep slows down; leave "
+            "ageing out, or give a motion over time (travel, reciprocating)"
+        )
     axis, rolling = problem.axis, motion.rolling
     periodic = contact.grid.periodic if isinstance(contact.grid, Grid) else (False, False)
     if periodic[axis] and not periodic[1 - axis]:

@@ -73,6 +73,8 @@ def steady_attributes(run: SteadySetup, grid: Grid) -> dict[str, Any]:
 def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[str, Any]:
     """Describe a problem of steady motion, solved on a grid, as plain data."""
     contact = problem.contact
+    temperature = contact.temperature
+    heat = {} if temperature is None else {"temperature": describe(temperature)}
     return {
         "indenter": describe(contact.indenter),
         "material": describe(contact.material),
@@ -84,6 +86,7 @@ def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[s
             "along": problem.motion.along,
             "rolling": problem.motion.rolling,
         },
+        **heat,
         "grid": describe(grid),
         "automatic": describe(contact.automatic_grid),
         "tolerance": contact.tolerance,

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from viscontact.bodies.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads.temperature import TemperatureHistory, as_temperature
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem import Problem
@@ -14,7 +15,7 @@ from viscontact.simulation.checks.periodicity import check_endless
 from viscontact.simulation.meshing.mesh_choice import choose_mesh
 
 
-def auto_grid(
+def auto_grid(  # noqa: PLR0913
     indenter: Indenter,
     material: Material | Layered,
     load: LoadHistory,
@@ -23,6 +24,7 @@ def auto_grid(
     quantities: Sequence[str] = GRID_QUANTITIES,
     end: float | None = None,
     indenter_material: Material | Layered | None = None,
+    temperature: TemperatureHistory | float | None = None,
 ) -> Grid:
     """Choose a grid for a run.
 
@@ -43,6 +45,8 @@ def auto_grid(
         out.
     indenter_material : Material or Layered, optional
         Material of the indenter; rigid when left out.
+    temperature : TemperatureHistory or float, optional
+        Temperature of the bodies over time, or a constant one [K], as in `simulate`.
 
     Returns
     -------
@@ -73,6 +77,10 @@ def auto_grid(
     (40, 40)
     """
     request = AutomaticGrid(tolerance, quantities)
-    problem = Problem(indenter, material, load, request, indenter_material=indenter_material)
+    problem = Problem(
+        *(indenter, material, load, request),
+        indenter_material=indenter_material,
+        temperature=as_temperature(temperature),
+    )
     check_endless(indenter, None)
     return choose_mesh(problem, end).grid

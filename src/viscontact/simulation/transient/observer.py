@@ -28,6 +28,7 @@ from viscontact.simulation.checks.material import (
 from viscontact.simulation.checks.mesh import cells_across_spots, mesh_warnings
 from viscontact.simulation.checks.singularities import strain_of
 from viscontact.simulation.checks.steps import unreported_peak_warnings
+from viscontact.simulation.checks.temperature import diffusion_warnings
 from viscontact.simulation.checks.tested_limits import (
     Contact,
     limit_warnings,
@@ -60,8 +61,9 @@ class Observer:
         self._motion = StandingContact() if stands else MovingContact(run)
         self._warnings = WarningCollector()
         self._open = setup_warnings(run) if warns else {}
-        self._limited = limited_bodies(run.problem.bodies) if warns else ()
-        self._since = loaded_since(run.problem.load) if self._limited else 0.0
+        self._since = loaded_since(run.problem.load)
+        clocks = run.problem.clocks
+        self._limited = limited_bodies(run.problem.bodies, clocks, self._since) if warns else ()
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
@@ -203,7 +205,7 @@ class Observer:
 
     def _collect_warnings(self, step: TimeStep, solution: StepSolution, rim: Rim) -> None:
         problem = self._run.problem
-        found = data_warnings(step.time, problem.measured_until, problem.ends_first)
+        found = data_warnings(step.time, problem.data_times)
         if solution.outcome is not Outcome.NO_CONTACT:
             motion, displacement = solution.motion, solution.displacement
             found = self._corner_warnings(step.time, solution) | found
@@ -211,10 +213,9 @@ class Observer:
                 geometry_warnings(self._geometry, rim, motion, displacement, solution.pressure)
                 | found
             )
-            early = early_warnings(
-                problem.measured_from, problem.load, step.time, step.side, problem.begins_last
-            )
-            found = early | found
+            found = early_warnings(problem.data_times, problem.load, step.time, step.side) | found
+            half_width = min(rim.length, rim.width) / 2
+            found = diffusion_warnings(problem.temperature, half_width, problem.end) | found
             if self._limited:
                 found = self._limit_warnings(step.time, solution, rim) | found
         found = loading_warnings(self._run, step, self._before, solution) | found

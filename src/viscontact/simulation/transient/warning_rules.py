@@ -7,6 +7,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.materials.layers import materials_of
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, TimeStep
@@ -32,6 +33,7 @@ from viscontact.simulation.checks.steps import (
     step_warnings,
     touch_warnings,
 )
+from viscontact.simulation.checks.temperature import shift_warnings
 from viscontact.simulation.checks.tested_limits import temperature_warnings
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
@@ -43,7 +45,9 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     memory_error = max(plan.error for plan in run.plans)
     warnings = law_warnings(memory_error, problem.compliance.inversion_error)
     warnings |= splitting_warnings(problem.surface.splitting_error)
-    warnings |= origin_warnings(problem.materials) | temperature_warnings(problem.materials)
+    warnings |= origin_warnings(problem.materials)
+    warnings |= temperature_warnings(problem.materials, problem.temperature)
+    warnings |= shift_warnings(problem)
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)
@@ -52,8 +56,10 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
         warnings |= run.mesh.warnings
     warnings |= axle_warnings(problem) | turn_warnings(problem) | row_warnings(problem)
     warnings |= heat_warnings(problem, run.grid, [plan.compliance for plan in run.plans])
-    for material in problem.materials:
-        warnings |= passivity_warnings(material.law, problem.end)
+    for body, clock in zip(problem.bodies, problem.clocks, strict=True):
+        end = float(clock.reduced(np.array(problem.end)))
+        for material in materials_of(body):
+            warnings |= passivity_warnings(material.law, end)
     return warnings
 
 
@@ -72,7 +78,7 @@ def geometry_of(
         grid,
         thickness=problem.thickness,
         indenter_gives=problem.indenter_material is not None,
-        covers=covers_of(problem.bodies, problem.end),
+        covers=covers_of(problem.bodies, problem.end, problem.clocks),
         is_supported=problem.surface.is_supported,
         predicted=predicted,
     )

@@ -15,7 +15,7 @@ from viscontact.studies.sweep.axes import coordinate
 from viscontact.units.parsing import split_quantity
 
 #: Sections of a case whose numbers are inputs.
-SECTIONS = ("indenter", "material", "indenter_material", "load", "motion")
+SECTIONS = ("indenter", "material", "indenter_material", "load", "motion", "temperature")
 #: Sections whose numbers belong to the computation, not to the contact.
 NO_INPUTS = ("grid", "time", "output", "tolerance", "report", "allowable", "title")
 
@@ -38,7 +38,7 @@ class CaseNumber:
 
 
 def inputs_of(case: Case) -> list[CaseNumber]:
-    """Return the numbers other than zero of bodies, load and motion, in the order of the case."""
+    """Return the numbers other than zero of the contact, in the order of the sections."""
     # Those of a table within the case, such as the points of a load, are left out.
     found = []
     for section in SECTIONS:

@@ -20,8 +20,8 @@ RUN = "run"
 #: Dimension or coordinate of several case files.
 CASE = "case"
 
-#: Last parts of keys of temperature differences, whose degrees have no offset.
-_DIFFERENCES = ("c2",)
+#: Ends of keys of temperature differences, whose degrees have no offset.
+_DIFFERENCES = ("c2", "temperature.amplitude")
 
 
 @dataclass(frozen=True)
@@ -92,6 +92,9 @@ def _numbers(key: str, texts: Sequence[str]) -> tuple[Floats, str]:
 
 
 def _parse_value(key: str, text: str) -> tuple[float, str]:
-    if key.rpartition(".")[2] in _DIFFERENCES and not text.replace(".", "").isdecimal():
+    if (
+        f".{key}".endswith(tuple(f".{end}" for end in _DIFFERENCES))
+        and not text.replace(".", "").isdecimal()
+    ):
         return parse_quantity(text, "temperature difference"), "K"
     return parse_any_quantity(text)

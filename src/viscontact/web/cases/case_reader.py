@@ -11,6 +11,7 @@ from typing import Any
 
 from viscontact.case import Case, CaseError, Parts, read_case_text, read_parts
 from viscontact.case.document import document_of
+from viscontact.case.loads.temperature import spelled_temperature
 from viscontact.case.materials.layers import spelled_out
 from viscontact.runs.check_report import expectations, needs, verdict, warnings_of
 from viscontact.runs.forecast import Forecast
@@ -150,8 +151,9 @@ class CaseReader:
 def form_values(text: str, path: Path) -> dict[str, Any]:
     """Values in the text of a case as the form has them: materials in their longest spelling."""
     values = document_of(text, path).data
-    bodies = [key for key in ("material", "indenter_material") if key in values]
-    return values | {key: spelled_out(values[key]) for key in bodies}
+    spelled = {**dict.fromkeys(("material", "indenter_material"), spelled_out)}
+    spelled["temperature"] = spelled_temperature
+    return values | {key: spell(values[key]) for key, spell in spelled.items() if key in values}
 
 
 def filled(value: Any) -> Any:

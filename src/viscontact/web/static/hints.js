@@ -15,9 +15,9 @@ export const FIRST = [
 export const LATER = new Set([
   "indenter_material", "rolling", "grid", "output", "report", "allowable", "tolerance",
   "rotation", "offset_x", "offset_y", "cross_section",
-  "bulk_modulus", "measured_until", "thickness", "temperature", "shift", "warning",
+  "bulk_modulus", "measured_until", "thickness", "temperature", "shift", "ageing", "warning",
   "mean_pressure", "tilt_x", "tilt_y", "eccentricity_y", "phase",
-  "first", "periodic", "centre", "quantities", "largest_cell", "columns", "set", "before", "beyond",
+  "first", "periodic", "centre", "quantities", "largest_cell", "columns", "start", "set", "before", "beyond",
   "height_factor", "channel", "width", "flip", "crop", "missing", "resample", "filter", "cutoff",
 ]);
 

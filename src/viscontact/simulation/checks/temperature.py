@@ -1,0 +1,125 @@
+"""Warnings about the temperature of a run: its rate, and the shifts of the materials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from viscontact.bodies.laws import WLF, Elastic
+from viscontact.bodies.loads import TemperatureHistory
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.units.formatting import format_quantity
+from viscontact.units.temperatures import in_celsius
+
+#: Thermal diffusivity of polymers [m²/s].
+DIFFUSIVITY = 1e-7
+
+#: Deviation of the temperature from an even one, or from a range, that is not reported [K].
+NOTABLE = 2.0
+
+#: Constants of the WLF equation referred to the glass transition, which are alike for many polymers
+#: (Williams, Landel and Ferry 1955).
+UNIVERSAL_C1, UNIVERSAL_C2 = 17.44, 51.6
+
+#: Change of the vertical factor over a run that is not reported.
+NOTABLE_FACTOR = 0.01
+
+#: Temperatures at which a vertical factor is computed.
+_SAMPLES = 50
+
+
+def shift_warnings(problem: Problem) -> dict[str, str]:
+    """Warn of materials whose shift does not cover the temperature of a run, or is missing."""
+    temperature = problem.temperature
+    if temperature is None:
+        return {}
+    found: dict[str, str] = {}
+    for body, name in zip(problem.given_materials, problem.body_names, strict=True):
+        for material in body:
+            for kind, text in _of_material(material, name, temperature):
+                found.setdefault(kind, text)
+    return found
+
+
+def _of_material(
+    material: Material, whose: str, temperature: TemperatureHistory
+) -> Iterator[tuple[str, str]]:
+    if isinstance(material.law, Elastic):
+        return
+    if material.shift is None:
+        yield (
+            "no shift",
+            f"the {whose} has no shift, and its law is used as it is at {_span(temperature)}; give "
+            "it a shift (WLF, Arrhenius or factors), or leave the temperature out",
+        )
+        return
+    if isinstance(material.shift, WLF):
+        yield from _below_transition(material, material.shift, whose, temperature)
+    factors = material.shift.vertical_factor(np.linspace(*temperature.range, _SAMPLES))
+    low, high = float(factors.min()), float(factors.max())
+    if not temperature.is_constant and high > (1 + NOTABLE_FACTOR) * low:
+        yield (
+            "vertical shift",
+            f"the moduli of the {whose} vary by factors from {low:.3g} to {high:.3g} with the "
+            "temperature of the run (vertical shift); this is left out, as only the times of a law "
+            "follow a temperature that varies",
+        )
+
+
+def _below_transition(
+    material: Material, shift: WLF, whose: str, temperature: TemperatureHistory
+) -> Iterator[tuple[str, str]]:
+    """Warn of the WLF equation below the glass transition that its constants let expect."""
+    transition, lowest = glass_transition(shift), temperature.range[0]
+    tested = material.measured_range
+    measured = np.inf if tested is None or tested.temperatures is None else tested.temperatures[0]
+    known = min(shift.reference_temperature, measured)
+    if lowest < min(transition, known) - NOTABLE:
+        yield (
+            "glass transition",
+            f"the temperature falls to {_celsius(lowest)}, below about "
+            f"{in_celsius(transition):.0f} °C, where the constants of the {whose}'s WLF equation "
+            "become those of many polymers at their glass transition "
+            f"(C1 = {UNIVERSAL_C1}, C2 = {UNIVERSAL_C2} K); below it the "
+            "equation makes the body too slow: use Arrhenius or a table of factors there",
+        )
+
+
+def glass_transition(shift: WLF) -> float:
+    """Temperature at which the constants of a WLF equation would become the universal ones [K]."""
+    # C1 C2 and T_r - C2 do not depend on the reference temperature, so that C1 = 17.44 there.
+    return shift.reference_temperature + shift.c1 * shift.c2 / UNIVERSAL_C1 - shift.c2
+
+
+def diffusion_warnings(
+    temperature: TemperatureHistory | None, half_width: float, end: float
+) -> dict[str, str]:
+    """Warn of a temperature that changes faster than heat diffuses over a contact [m, s]."""
+    takes = half_width**2 / DIFFUSIVITY
+    if temperature is None or not temperature.steepest * takes > NOTABLE:
+        return {}
+    kinks = temperature.kinks
+    times = np.append(kinks[kinks < end], end)
+    values = np.concatenate([temperature.at(times, side=side) for side in ("left", "right")])
+    lag = min(temperature.steepest * takes, float(np.ptp(values)))
+    if lag <= NOTABLE:
+        return {}
+    return {
+        "diffusion": (
+            f"the temperature changes faster than heat diffuses over the contact: over its half "
+            f"width of {format_quantity(half_width, 'm', 2)} this takes about "
+            f"{format_quantity(takes, 's', 2)} in a polymer, in which the temperature lags behind "
+            f"by about {lag:.2g} K; the run takes it as even in the bodies"
+        )
+    }
+
+
+def _span(temperature: TemperatureHistory) -> str:
+    low, high = temperature.range
+    return _celsius(low) if low == high else f"{_celsius(low)} to {_celsius(high)}"
+
+
+def _celsius(kelvin: float) -> str:
+    return f"{in_celsius(kelvin):.4g} °C"

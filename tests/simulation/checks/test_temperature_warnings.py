@@ -1,0 +1,134 @@
+"""Warnings about the temperature of a run, in its result and predicted before it."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from closeness import close_to
+from viscontact.bodies.materials.measured_range import MeasuredRange
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
+from viscontact.runs.forecast import forecast
+from viscontact.simulation.checks.temperature import diffusion_warnings, glass_transition
+from viscontact.simulation.transient.setup import prepare_run
+
+WLF = vc.WLF(293.15, 8.86, 101.6)
+LAW = vc.Zener(1e6, 2e7, 1e10)  # it creeps little, so that no step is long
+DAY = vc.TemperatureHistory([0.0, 36000.0], [293.15, 313.15])
+
+
+def said(material: vc.Material, temperature: Any = DAY, **others: Any) -> str:
+    """Warnings of a run, which the check before it predicts as well."""
+    run = {"grid": vc.Grid((24, 24), (3e-3, 3e-3)), "times": [0.0, 600.0, 36000.0], **others}
+    run = {"load": vc.step(0.1), **run, "temperature": temperature}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = vc.simulate(vc.Sphere(0.01), material, errors=False, **run)
+    problem = contact_problem(indenter=vc.Sphere(0.01), material=material, **run)
+    predicted = forecast(prepare_run(problem)).warnings
+    found = str(result.attrs["warnings"])
+    assert len(predicted) == len([line for line in found.splitlines() if line]), predicted
+    return found
+
+
+def test_no_warning_of_an_even_temperature_on_a_shift_that_covers_it() -> None:
+    assert said(vc.Material(LAW, 0.4, shift=WLF)) == ""
+
+
+def test_data_end_at_a_reduced_time() -> None:
+    # Warm, the material creeps faster, and its data end earlier.
+    material = vc.Material(LAW, 0.4, shift=WLF, measured_until=3e4)
+    assert "beyond 8.333 h of reduced time, which it reaches after" in said(material)
+    cold = vc.TemperatureHistory([0.0, 36000.0], [293.15, 283.15])
+    assert said(material, cold) == ""
+    aged = vc.Material(LAW, 0.4, ageing=vc.Ageing(3600.0, 1.0), measured_until=3e4)
+    assert said(aged, None) == ""
+    assert "beyond 8.333 h, where" in said(vc.Material(LAW, 0.4, measured_until=3e4), None)
+
+
+def test_data_begin_at_a_reduced_time() -> None:
+    tested = MeasuredRange(first=300.0)
+    material = vc.Material(LAW, 0.4, shift=WLF, measured_range=tested)
+    times, load = np.linspace(0.0, 900.0, 19), vc.ramp(0.1, 900.0)
+    # In 900 s at 43 °C more than 2000 s of reduced time pass, at 0 °C less than 100.
+    hot = vc.TemperatureHistory([0.0, 1e5], [316.15, 316.25])
+    assert said(material, hot, times=times, load=load) == ""
+    cold = vc.TemperatureHistory([0.0, 1e5], [273.15, 273.25])
+    found = said(material, cold, times=times, load=load)
+    assert "of the load has come within less than 300 s of reduced time" in found
+
+
+def test_temperature_outside_the_tests() -> None:
+    tested = MeasuredRange(temperatures=(293.15, 303.15))
+    found = said(vc.Material(LAW, 0.4, shift=WLF, measured_range=tested))
+    assert "the law is used at 20 to 40 °C, but was measured at 20 to 30 °C" in found
+
+
+def test_temperature_below_the_glass_transition() -> None:
+    # Polyisobutylene (Ferry 1980, table 11-II): T_r 298 K, C1 8.61, C2 200.4 K; its glass
+    # transition at 202 K is where the constants become 16.6 and 104 K.
+    assert glass_transition(vc.WLF(298.0, 8.61, 200.4)) == close_to(202.0, abs=6.0)
+    referred = WLF.referred_to(glass_transition(WLF))
+    assert referred.c1 == close_to(17.44)
+    cold = vc.TemperatureHistory([0.0, 36000.0], [293.15, 233.15])
+    found = said(vc.Material(LAW, 0.4, shift=WLF), cold)
+    assert "the temperature falls to -40 °C, below about -30 °C" in found
+    assert "glass transition" in said(vc.Material(LAW, 0.4, shift=WLF), 233.15)
+    arrhenius = vc.Material(LAW, 0.4, shift=vc.Arrhenius(293.15, 80e3))
+    assert said(arrhenius, cold) == ""
+
+
+def test_vertical_shift_that_varies_is_left_out() -> None:
+    shift = vc.TabulatedShift([283.15, 323.15], [10.0, 0.1], [0.95, 1.05])
+    found = said(vc.Material(LAW, 0.4, shift=shift))
+    assert "vary by factors from 0.974 to 1.02" in found
+    assert said(vc.Material(LAW, 0.4, shift=shift), 313.15) == ""
+
+
+def test_law_without_shift_is_used_as_it_is() -> None:
+    assert "has no shift, and its law is used as it is at 40 °C" in said(
+        vc.Material(LAW, 0.4), 313.15
+    )
+    assert said(vc.Material(vc.Elastic(1e6), 0.4), 313.15) == ""
+
+
+def test_temperature_changes_faster_than_heat_diffuses() -> None:
+    quick = vc.TemperatureHistory([0.0, 6.0, 36000.0], [293.15, 313.15, 313.15])
+    found = said(vc.Material(LAW, 0.4, shift=WLF), quick)
+    assert "changes faster than heat diffuses over the contact" in found
+    # Over a half width of 10 mm heat takes 1000 s: at 1 K in 100 s it lags by 10 K.
+    slow = vc.TemperatureHistory([0.0, 1e4], [293.15, 393.15])
+    [text] = diffusion_warnings(slow, 0.01, 1e4).values()
+    assert "this takes about 1000 s" in text
+    assert "by about 10 K" in text
+    assert diffusion_warnings(slow, 0.001, 1e4) == {}
+    # A jump after the end of the run changes nothing.
+    later = vc.TemperatureHistory([0.0, 50.0, 50.0], [293.15, 293.15, 393.15])
+    assert diffusion_warnings(later, 0.01, 40.0) == {}
+
+
+def test_warnings_name_the_body() -> None:
+    shift = vc.TabulatedShift([283.15, 323.15], [10.0, 0.1], [0.95, 1.05])
+    other = vc.Material(LAW, 0.4, shift=shift)
+    found = said(vc.Material(LAW, 0.4, shift=WLF), indenter_material=other)
+    assert "the moduli of the indenter material" in found
+
+
+@pytest.mark.parametrize("ageing", [None, vc.Ageing(3600.0, 0.8)])
+def test_steady_motion_takes_a_constant_temperature(ageing: vc.Ageing | None) -> None:
+    material = vc.Material(vc.Zener(1e6, 1e6, 1e4), 0.5, shift=WLF, ageing=ageing)
+    ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    run = {"grid": vc.Grid((32, 32), (6e-3, 6e-3)), "errors": False, "fields": "none"}
+    if ageing is not None:
+        with pytest.raises(ValueError, match="ageing: a material that ages has no steady state"):
+            vc.steady(ball, material, load, [0.1], **run, temperature=303.15)
+        return
+    warm = vc.steady(ball, material, load, [0.1], **run, temperature=303.15)
+    own = vc.steady(ball, material.at(303.15), load, [0.1], **run)
+    np.testing.assert_array_equal(warm.friction_coefficient, own.friction_coefficient)
+    with pytest.raises(ValueError, match="it varies, and a steady motion has one temperature"):
+        vc.steady(ball, material, load, [0.1], **run, temperature=DAY)
