@@ -79,8 +79,8 @@ axes.legend(title="cooling", frameon=False)
 # ---------
 #
 # Where power and cooling touch, d ln P/dT = 1/(T - T_0), the condition of Semenov (1928). With the
-# power P = V R(V a_T) the rise above the air is 1/(n |d ln a_T/dT|), where n = -d ln R/d ln V is
-# taken from the curve, between the speeds on both sides.
+# power P = V R(V a_T) the rise above the air is 1/(n b), with b = -d ln a_T/dT, and with
+# n = -d ln R/d ln V from the curve, between the speeds on both sides.
 
 for cooling, heat in found.items():
     temperature = heat.table.runaway_temperature
