@@ -12,6 +12,7 @@ import pytest
 import viscontact as vc
 from closeness import close_to
 from rolling_curves import COVER, RUBBER, SHIFT, STEEL, rolling_curve
+from viscontact.results.descriptions import describe
 
 AREA = 2 * np.pi * 60e-3 * 0.5
 AIR = {"cooling": 10.0, "ambient": 333.15}
@@ -74,8 +75,9 @@ def test_curve_of_a_warm_law_gives_the_same_temperatures() -> None:
     one, other = (balanced(each, speed=[0.03, 0.3]) for each in (rolling_curve(), scaled))
     np.testing.assert_allclose(one.temperature, other.temperature, rtol=1e-8)
     # A run with a temperature of its own records the law at its reference.
-    own = scaled.assign(temperature=("speed", np.full(33, 350.0)))
-    own.attrs["case"] = rolling_curve().attrs["case"]
+    case = json.loads(rolling_curve().attrs["case"])
+    case["temperature"] = describe(vc.TemperatureHistory([0.0], 350.0))
+    own = scaled.assign_attrs(case=json.dumps(case))
     np.testing.assert_allclose(balanced(own, speed=[0.03, 0.3]).temperature, one.temperature)
 
 

@@ -110,12 +110,13 @@ def _kind_of(results: object) -> str:
 def _creeping_parts(results: xr.Dataset) -> dict[str, Material]:
     """Materials of both bodies that creep, by their keys."""
     found = {}
+    history = recorded_object(results, "temperature", "curve")
     for body in _BODIES:
         recorded = recorded_object(results, body, "curve")
         if not isinstance(recorded, Material | Layered):
             continue
-        if "temperature" in results:  # of the run; the case has the laws at their references
-            recorded = at_temperature(recorded, float(results["temperature"].values[0]))
+        if history is not None:  # of the run; the case has the laws at their references
+            recorded = at_temperature(recorded, history.range[0])
         for part, material in named_parts(recorded).items():
             if not isinstance(material.law, Elastic):
                 found[f"{body}.{part}".rstrip(".")] = material
