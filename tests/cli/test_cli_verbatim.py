@@ -128,6 +128,7 @@ COMMANDS: tuple[tuple[list[str], int], ...] = (
     (["design", f"{NAME}-.yaml", "--change", "x=1:2", "--minimise", "work", "-o", "new"], 2),
     (["compare", NAME, f"{NAME}-"], 2),
     (["report", f"{NAME}-"], 2),
+    (["heat", f"{NAME}-", "--cooling", "10 W/m2/K", "--ambient", "20 degC", "--area", "1 m2"], 2),
     (["demo", NAME], 2),
     (["example", NAME], 2),
     (["example", "sphere-maxwell", "-o", f"{NAME}-e.yaml"], 0),

@@ -1,4 +1,4 @@
-"""All modules, and the packages of all extras, can be imported in the versions that are installed."""
+"""All modules, and the packages of all extras, are imported in the versions installed."""
 
 from __future__ import annotations
 
