@@ -242,3 +242,32 @@ def test_schema_has_both_spellings_of_a_layer() -> None:
     assert defined["Layer"]["required"] == ["thickness", "material"]
     assert defined["Layers"]["required"] == ["layers", "base"]
     assert {"enum": ["rigid"]} in defined["Layers"]["properties"]["base"]["anyOf"]
+
+
+@pytest.mark.parametrize("nested", [True, False])
+def test_layer_expands_by_keys_beside_its_thickness(nested: bool, tmp_path: Path) -> None:
+    heat = {"expansion": "1.8e-4 / K", "expansion_from": "23 degC"}
+    layer = {"thickness": "5 mm", **heat, **({"material": ZENER} if nested else ZENER)}
+    material = read_case(written(tmp_path, {"layers": [layer], "base": "rigid"})).material
+    assert isinstance(material, vc.Layered)
+    assert material.layers[0] == vc.Layer(5e-3, RUBBER, expansion=1.8e-4, expansion_from=296.15)
+    assert rebuild(json.loads(json.dumps(describe(material)))) == material
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"expansion": "1.8e-4 / K"}, "expansion and expansion_from belong together"),
+        ({"expansion_from": "23 degC"}, "expansion and expansion_from belong together"),
+        ({"expansion": "1.8e-4", "expansion_from": "23 degC"}, "1.8e-4 / K"),
+        ({"expansion": "180 / K", "expansion_from": "23 degC"}, "at most 0.01"),
+    ],
+)
+def test_expansion_of_a_layer_is_checked(keys: Any, message: str, tmp_path: Path) -> None:
+    layers = [{"thickness": "5 mm", "material": ZENER, **keys}]
+    assert message in problem(tmp_path, {"layers": layers, "base": "rigid"})
+
+
+def test_half_space_has_no_expansion(tmp_path: Path) -> None:
+    found = problem(tmp_path, {**COVER, "base": {**STEEL, "expansion": "1e-5 / K"}})
+    assert "expansion" in found

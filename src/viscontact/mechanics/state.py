@@ -32,7 +32,7 @@ class Outcome(IntEnum):
 MOTION = "motion"
 
 #: Scalars that only states under a temperature or with ageing have.
-OF_CLOCKS = ("temperature", "reduced_time", "reduced_time_indenter")
+OF_CLOCKS = ("temperature", "reduced_time", "reduced_time_indenter", "thickening")
 
 #: Fields of a state over the cells.
 FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
@@ -79,9 +79,9 @@ class ContactState:
         Largest mean of the line load over a twentieth of the contact's length along x [N/m]. At a
         sharp end of the body the line load itself has no limit as cells become smaller.
     work : float
-        Work of the load on the contact since the start [J]; exact for an elastic body, across
-        jumps and at the first instant, otherwise second-order accurate in the step. NaN where the
-        approach is.
+        Work of the load, and of layers that expand, on the contact since the start [J]; exact for
+        an elastic body, across jumps and at the first instant, otherwise second-order accurate in
+        the step. NaN where the approach is.
     loss_per_cycle : float
         Work lost in the last complete cycle of the load; NaN before the first is complete [J].
     time_error : float
@@ -121,6 +121,9 @@ class ContactState:
         its law creeps as it did so far [s]; None without a shift under a temperature, and ageing.
     reduced_time_indenter : float or None
         The same of the indenter [s].
+    thickening : float or None
+        Growth of the thickness of all layers by thermal expansion, which closes the gap as an
+        approach does [m]; None without layers that expand.
 
     Examples
     --------
@@ -171,6 +174,7 @@ class ContactState:
     temperature: float | None = None
     reduced_time: float | None = None
     reduced_time_indenter: float | None = None
+    thickening: float | None = None
 
     @property
     def over(self) -> Literal["time", "speed"]:

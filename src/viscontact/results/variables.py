@@ -217,6 +217,13 @@ SCALARS = {
         rank=25,
         of="reduced_time_indenter",
     ),
+    "thickening": Variable(
+        "m",
+        "growth of the thickness of all layers by thermal expansion",
+        label="Thermal expansion",
+        rank=26,
+        of="thickening",
+    ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),

@@ -223,5 +223,5 @@ def plain_case(described: Mapping[str, Any], fields: KeptFields, *, errors: bool
 
 def fits_single_precision(problem: Problem, late: float) -> bool:
     """True if pressures fit into single precision, 1e-38 to 3e38 Pa, until a `late` time [s]."""
-    compliance, level = float(problem.compliance(late)), problem.load.largest_level
+    compliance, level = float(problem.compliance(late)), problem.contact_load.largest_level
     return 1e-20 <= compliance <= 1e10 and 1e-25 <= level <= 1e15

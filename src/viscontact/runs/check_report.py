@@ -111,9 +111,11 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []
+    time, _ = prepared.run.contact.largest_load
+    grown = prepared.run.contact.thickening_at(time)
     # Of force and approach, the one that is not prescribed; a line contact has no approach.
     follows = [
-        ("approach", format_quantity(found.approach, "m", 3))
+        ("approach", format_quantity(found.approach - grown, "m", 3))
         if control == "force"
         else ("force", format_quantity(found.force, "N", 3))
     ]

@@ -81,7 +81,7 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
 
 def _limit_warnings(problem: Problem, found: ContactEstimate) -> dict[str, str]:
     """Warnings about strains and stresses beyond those of the tests, at the largest load."""
-    since = loaded_since(problem.load)
+    since = loaded_since(problem.contact_load)
     bodies = limited_bodies(problem.bodies, problem.clocks, since)
     peak = found.peak_pressure
     if not bodies or not peak > 0:
@@ -113,7 +113,7 @@ def _corner_warnings(
 
 def _range_warnings(problem: Problem) -> dict[str, str]:
     """Warnings about a load outside the times on which the laws rest on data."""
-    load, end, measured = problem.load, problem.end, problem.data_times
+    load, end, measured = problem.contact_load, problem.end, problem.data_times
     instants = np.union1d(load.kinks[load.kinks <= end], problem.instants[:FIRST_INSTANTS])
     asked = any(each.first > 0 for each in measured)
     loaded = instants[load.level_at(instants) > 0] if asked else instants[:0]
@@ -127,7 +127,7 @@ def _step_warnings(problem: Problem) -> dict[str, str]:
     """Warnings about given steps in which contact begins or ends; adaptive ones are short there."""
     if problem.adaptive is not None:
         return {}
-    load, steps = problem.load, problem.planned_steps
+    load, steps = problem.contact_load, problem.planned_steps
     times = np.array([step.time for step in steps])
     before_jumps = np.array([step.before_jump for step in steps])
     # One call for all times: a hundred thousand single calls take seconds.

@@ -38,7 +38,7 @@ def _percent(error: float) -> str:
 
 def _when_largest(run: RunSetup) -> Iterator[str]:
     """Times of the largest load, for which the cells were chosen, and a remark on other times."""
-    problem, load = run.problem, run.problem.load
+    problem, load = run.problem, run.problem.contact_load
     crest, point = problem.largest_load
     kinks = load.kinks[load.kinks <= problem.end]
     instants = np.union1d(problem.instants, [*kinks, crest])

@@ -150,6 +150,11 @@ _FACTORS: dict[str, dict[str, float]] = {
         "W/m/K": 1.0,
         "W/(m K)": 1.0,
     },
+    "1 / kelvin": {
+        "/ K": 1.0,
+        "/K": 1.0,
+        "1/K": 1.0,
+    },
     "meter ** 2 / kelvin / second ** 2": {
         "J/kg/K": 1.0,
         "J/(kg K)": 1.0,

@@ -36,6 +36,7 @@ DIMENSIONS = {
     "speed": Dimension("a speed", "m/s", "0.5 m/s", ("um/s", "mm/s", "m/s", "km/h")),
     "temperature": Dimension("a temperature", "K", "25 degC", ("degC", "K", "degF")),
     "temperature difference": Dimension("a temperature difference", "K", "51.6 K", ("K",)),
+    "expansion": Dimension("a coefficient of thermal expansion", "1/K", "1.8e-4 / K", ("/ K",)),
     "area": Dimension("an area", "m^2", "25 mm^2", ("um^2", "mm^2", "cm^2", "m^2")),
     "line load": Dimension("a force per length", "N/m", "40 N/mm", ("N/m", "N/mm", "kN/m")),
     "energy": Dimension("an energy", "J", "5 mJ", ("uJ", "mJ", "J", "kJ")),

@@ -32,7 +32,7 @@ _PREFIXES = (
 )
 _HOUR = 3600.0
 _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
-_WITHOUT_PREFIX = ("K", "1/(Pa s)")
+_WITHOUT_PREFIX = ("K", "1/K", "1/(Pa s)")
 _SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
 
 

@@ -9,7 +9,10 @@ from typing import Literal
 from viscontact.bodies.laws import Elastic, Law
 from viscontact.bodies.materials.material import Material
 from viscontact.units.display import Displayable
-from viscontact.units.numbers import check_fields, store
+from viscontact.units.numbers import check_fields, finite, store
+
+#: Coefficient of linear thermal expansion that no solid has [1/K].
+LARGEST_EXPANSION = 0.01
 
 
 @dataclass(frozen=True)
@@ -22,25 +25,61 @@ class Layer(Displayable):
         Thickness > 0 [m].
     material : Material
         Its material, without a `thickness` of its own.
+    expansion : float, optional
+        Coefficient of linear thermal expansion [1/K]. Under the temperature of a run it makes the
+        layer thicker, and so the gap smaller; without it the thickness is constant.
+    expansion_from : float, optional
+        Absolute temperature at which the layer has its thickness [K]; it goes with `expansion`.
 
     Raises
     ------
     ValueError
-        If the thickness is not positive, or the material is none or states a thickness.
+        If the thickness is not positive, the material is none or states a thickness, only one of
+        the last two is given, or the coefficient is larger than that of any solid.
+
+    Notes
+    -----
+    A layer that is held laterally becomes thicker by (1 + ν)/(1 - ν) α h (T - T_0), a layer that
+    slides by α h (T - T_0); see "Thermal expansion" in the theory of layers. The base has no
+    expansion: it is taken to stay as it is, also laterally.
 
     Examples
     --------
     >>> from viscontact.bodies.laws import Elastic
-    >>> Layer(5e-3, Material(Elastic(1e6), poisson_ratio=0.49)).thickness
+    >>> rubber = Material(Elastic(1e6), poisson_ratio=0.49)
+    >>> Layer(5e-3, rubber).thickness
     0.005
+    >>> Layer(5e-3, rubber, expansion=1.8e-4, expansion_from=296.15).expansion
+    0.00018
     """
 
     thickness: float = field(metadata={"unit": "m"})
     material: Material
+    expansion: float | None = field(default=None, metadata={"unit": "1/K"})
+    expansion_from: float | None = field(default=None, metadata={"unit": "K"})
 
     def __post_init__(self) -> None:
-        check_fields(self, "thickness")
+        check_fields(self, "thickness", "expansion_from")
+        check_fields(self, "expansion", check=finite)
         _check_material("layer", self.material)
+        if (self.expansion is None) != (self.expansion_from is None):
+            given, missing = ("expansion", "expansion_from")
+            if self.expansion is None:
+                given, missing = missing, given
+            raise ValueError(
+                f"Layer: {given} is given without {missing}; give both, as "
+                "Layer(thickness, material, expansion=1.8e-4, expansion_from=296.15), or neither"
+            )
+        if abs(self.expansion or 0.0) > LARGEST_EXPANSION:
+            raise ValueError(
+                f"Layer: expansion must be a coefficient of linear expansion in 1/K, at most "
+                f"{LARGEST_EXPANSION:g}, got {self.expansion:g}; rubber has about 2e-4, steel 1e-5"
+            )
+
+    @property
+    def expands(self) -> bool:
+        """True if its thickness depends on the temperature."""
+        return bool(self.expansion)
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from viscontact.bodies.materials.layers import Layer as BuiltLayer
 from viscontact.bodies.materials.layers import Layered
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.material import AnyMaterial, Laws, OrName, from_library
-from viscontact.case.quantities import Length, Section
+from viscontact.case.quantities import Expansion, Length, Section, Temperature
 from viscontact.case.section_choice import ChosenBy
 
 #: Word for a base that does not yield.
@@ -73,19 +73,45 @@ class Layer(Section):
         description="material of the layer; its keys may be written beside thickness as well",
         examples=["epdm-70-25c"],
     )
+    expansion: Expansion | None = Field(
+        default=None,
+        description="coefficient of linear thermal expansion: the temperature of the run makes the "
+        "layer thicker, and the gap smaller",
+    )
+    expansion_from: Temperature | None = Field(
+        default=None, description="temperature at which the layer has its thickness"
+    )
+
+    @property
+    def built(self) -> BuiltLayer:
+        """The layer."""
+        heat = {"expansion": self.expansion, "expansion_from": self.expansion_from}
+        return BuiltLayer(self.thickness, self.material.built, **heat)
+
+    @model_validator(mode="after")
+    def _accepted(self) -> Layer:
+        if (self.expansion is None) != (self.expansion_from is None):
+            given = "expansion_from" if self.expansion is None else "expansion"
+            raise ValueError(
+                f"{given}: expansion and expansion_from belong together; write e.g. 'expansion: "
+                "1.8e-4 / K' and 'expansion_from: 23 degC', or leave both out"
+            )
+        return self
 
 
 #: Keys of materials that may be written beside the thickness of a layer.
 _BESIDE = {key for law in get_args(Laws) for key in law.model_fields} - {"thickness"}
 
+#: Keys of a layer itself.
+_OWN = set(Layer.model_fields) - {"material"}
+
 
 def _nested(given: Any) -> Any:
-    """Put keys of a material that are written beside the thickness under `material`."""
+    """Put keys of a material that are written beside those of a layer under `material`."""
     if not isinstance(given, dict) or not _BESIDE & set(given):
         return given
-    keys = dict(given)
-    thickness = {"thickness": keys.pop("thickness")} if "thickness" in keys else {}
-    return {**thickness, "material": keys}
+    own = {key: value for key, value in given.items() if key in _OWN}
+    return {**own, "material": {key: given[key] for key in given if key not in own}}
 
 
 class _OrBeside:
@@ -128,7 +154,7 @@ class Layers(Section):
     def built(self) -> Layered:
         """The body."""
         return Layered(
-            [BuiltLayer(each.thickness, each.material.built) for each in self.layers],
+            [each.built for each in self.layers],
             RIGID if isinstance(self.base, str) else self.base.built,
             self.bonded,
         )

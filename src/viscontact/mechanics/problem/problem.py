@@ -26,6 +26,7 @@ from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface as MeasuredSurface
 from viscontact.bodies.surfaces import indenter_of
 from viscontact.bodies.surfaces.topographies import is_topography
+from viscontact.mechanics.problem.expansion import ThickenedLoad, Thickening, thickening_of
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.problem.series_body import span_of
 from viscontact.mechanics.problem.surface import (
@@ -151,6 +152,20 @@ class Problem:
         varies = self.temperature is not None and not self.temperature.is_constant
         return tuple(clock_of(body, self.temperature if varies else None) for body in self.bodies)
 
+    @cached_property
+    def thickening(self) -> Thickening | None:
+        """Growth of the thickness of layers that expand under the temperature; None without."""
+        return thickening_of(self.bodies, self.temperature)
+
+    def thickening_at(self, time: float) -> float:
+        """Growth of the thickness of all layers at a time [m]."""
+        return 0.0 if self.thickening is None else float(self.thickening.at(time))
+
+    @cached_property
+    def contact_load(self) -> LoadHistory:
+        """The load, with an approach increased by the growth of layers that expand."""
+        return self.load if self.thickening is None else ThickenedLoad(self.load, self.thickening)
+
     @property
     def materials(self) -> tuple[Material, ...]:
         """Materials of all bodies and of their layers."""
@@ -175,13 +190,15 @@ class Problem:
         return frozenset([*moving, *self.clock_scalars(0.0)])
 
     def clock_scalars(self, time: float) -> dict[str, float]:
-        """Temperature [K] and reduced times [s] at a time, by their names in the result."""
+        """Temperature [K], reduced times [s] and thickening [m], by their names in the result."""
         found = {}
         if self.temperature is not None:
             found["temperature"] = float(self.temperature.at(time))
         for name, clock in zip(OF_CLOCKS[1:], self.stated_clocks, strict=False):
             if clock is not TIME:
                 found[name] = float(clock.reduced(np.array(time)))
+        if self.thickening is not None:
+            found["thickening"] = self.thickening_at(time)
         return found
 
     @cached_property
@@ -223,8 +240,8 @@ class Problem:
 
     @cached_property
     def history(self) -> LoadHistory:
-        """The load, of a moving body with the kinks and cycles of its path."""
-        return self.motion.history_under(self.load)
+        """The load on the contact, of a moving body with the kinks and cycles of its path."""
+        return self.motion.history_under(self.contact_load)
 
     @cached_property
     def instants(self) -> Floats:
@@ -238,12 +255,12 @@ class Problem:
                 return self.times_at_cells(self.grid.cell_size)
             # Until the cells are known, those of one that is longer than any path.
             return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
-        return run_instants(self.times, self.kept.places, self.load, creep)
+        return run_instants(self.times, self.kept.places, self.contact_load, creep)
 
     def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Times of a moving contact at which the body has passed whole cells [s]."""
         end = self.times.end if isinstance(self.times, CellTimes) else None
-        return moving_times(self.motion, self.load, cell_size, end, self.kept.places)
+        return moving_times(self.motion, self.contact_load, cell_size, end, self.kept.places)
 
     @property
     def awaits_cells(self) -> bool:
@@ -263,7 +280,7 @@ class Problem:
     @cached_property
     def largest_load(self) -> tuple[float, LoadPoint]:
         """Time of the largest load of the run [s], and its point."""
-        return largest_load(self.load, self.end)
+        return largest_load(self.contact_load, self.end)
 
     @cached_property
     def planned_steps(self) -> tuple[TimeStep, ...]:

@@ -148,8 +148,15 @@ class ObservedStates:
 def history_of(states: Sequence[ContactState]) -> History:
     """Scalars of states that are used to estimate their errors, over their instants."""
     scalars = scalars_with_error(moving=bool(states) and states[0].moving)
-    names = ("time", *scalars, "cells_across", "time_error")
+    names = ["time", *scalars, "cells_across", "time_error"]
+    if states and states[0].thickening is not None:
+        names.append("thickening")
     return {name: np.array([getattr(state, name) for state in states], float) for name in names}
+
+
+def indentation(history: History) -> Floats:
+    """Approach of the surfaces with the growth of layers that expand, as deep as they press [m]."""
+    return np.asarray(history["approach"] + history.get("thickening", 0.0))
 
 
 def with_contact(history: History) -> Bools:

@@ -16,7 +16,12 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.loads import MixedHistory
 from viscontact.results.variables import scalars_with_error
-from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, with_contact
+from viscontact.simulation.accuracy.coarser_results import (
+    CoarserResult,
+    History,
+    indentation,
+    with_contact,
+)
 from viscontact.simulation.accuracy.coarser_runs import (
     creeps,
     march_coarser_run,
@@ -236,7 +241,7 @@ def _touching(history: History, results: list[CoarserResult]) -> Bools:
 
 def _before_first_cell(history: History, touching: Bools) -> Bools:
     """Times after the first touch at which the contact is still smaller than a cell."""
-    return np.asarray(~np.logical_or.accumulate(touching) & (history["approach"] > 0))
+    return np.asarray(~np.logical_or.accumulate(touching) & (indentation(history) > 0))
 
 
 def _bound_by_first_contact(values: dict[str, Floats], history: History, touching: Bools) -> None:

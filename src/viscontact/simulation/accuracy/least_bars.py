@@ -8,7 +8,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.simulation.accuracy.coarser_grids import straight_ends
-from viscontact.simulation.accuracy.coarser_results import History
+from viscontact.simulation.accuracy.coarser_results import History, indentation
 from viscontact.simulation.accuracy.refinement_levels import moving_maximum
 from viscontact.simulation.accuracy.rim_cells import (
     EXTENTS,
@@ -231,7 +231,7 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
     """Effect of the solver's tolerance of the moments, and of a rim among the cells."""
     axis = int(name.endswith("y"))
     extent = np.nan_to_num(history[EXTENTS[axis]])
-    slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(extent, TINY)
+    slope = np.abs(np.nan_to_num(indentation(history))) / np.maximum(extent, TINY)
     part, lever = (LEAST_OFFSET, extent) if name.startswith("eccentricity") else (LEAST_TURN, slope)
     by_solver = run.problem.solver_error * lever
     by_cells = part * lever / np.maximum(extent / run.grid.cell_size[axis], 1.0) ** 2
@@ -268,7 +268,7 @@ def least_resistance_bar(run: RunSetup, name: str, history: History) -> Floats:
     """Effect of the tolerance of the gap over times [N]: force times slope of the indentation."""
     motion = run.problem.motion
     extent = np.fmax(history["contact_length"], history["contact_width"])
-    slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(np.nan_to_num(extent), TINY)
+    slope = np.abs(np.nan_to_num(indentation(history))) / np.maximum(np.nan_to_num(extent), TINY)
     coefficient = np.where(extent > 0, run.problem.solver_error * slope, 0.0)
     if name == "friction_coefficient":
         return np.asarray(coefficient)

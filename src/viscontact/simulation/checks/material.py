@@ -19,6 +19,9 @@ NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
 #: Largest relative error of a creep compliance that is not reported.
 MAX_LAW_ERROR = 0.01
 
+#: Excess of the thermal expansion over that at once after a change that is not reported [-].
+MAX_EXPANSION_SURPLUS = 0.05
+
 #: Part of the largest load that may act for less time than the data cover.
 EARLY_LOAD_FRACTION = 0.25
 
@@ -59,6 +62,19 @@ def early_warnings(
             f"come within less than {format_quantity(data.first, 's')}{reduced}, where the "
             f"{data.whose}'s data begin; before that its law is an extrapolation. Give the data an "
             "earlier row, or load more slowly"
+        )
+    }
+
+
+def expansion_warnings(surplus: float) -> dict[str, str]:
+    """Warn of layers whose thermal expansion follows the relaxation of their stress."""
+    if surplus <= MAX_EXPANSION_SURPLUS:
+        return {}
+    return {
+        "expansion": (
+            "the layers that expand have a bulk modulus that does not relax, so that their "
+            "thickness follows a change of temperature with the relaxation of stress; they are "
+            f"given that after all relaxation, up to {surplus:.0%} more than at once"
         )
     }
 

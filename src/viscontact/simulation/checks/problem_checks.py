@@ -29,7 +29,7 @@ def check_times(problem: Problem) -> None:
 
 def check_magnitudes(problem: Problem) -> None:
     """Refuse magnitudes whose squares and quotients are no numbers; a search might never end."""
-    load, end = problem.load, problem.end
+    load, end = problem.contact_load, problem.end
     sizes = problem.grid.size if isinstance(problem.grid, Grid) else ()
     level = abs(load.largest_level)
     compliance = problem.compliance(end)
@@ -92,20 +92,28 @@ def check_creep(problem: Problem) -> None:
 
 def check_jumps(problem: Problem) -> None:
     """Refuse a jump of the load within the run that the law cannot follow."""
-    jumps = [jump for jump in problem.load.jumps if jump <= problem.end]
-    if jumps and problem.compliance.instant == 0:
+    jumps = [jump for jump in problem.contact_load.jumps if jump <= problem.end]
+    if not jumps or problem.compliance.instant > 0:
+        return
+    if jumps[0] not in problem.load.jumps:
         raise ValueError(
-            f"load: the load jumps at t = {format_quantity(jumps[0], 's', 6)} but the law has no "
-            "instant compliance, so the surface could not follow; use a ramp, or give the law an "
-            "instant compliance"
+            "temperature: layers that have expanded press at once at t = "
+            f"{format_quantity(jumps[0], 's', 6)} but the law has no instant compliance, so the "
+            "surface could not follow; begin with a smaller approach and change the temperature "
+            "over time, or give the law an instant compliance"
         )
+    raise ValueError(
+        f"load: the load jumps at t = {format_quantity(jumps[0], 's', 6)} but the law has no "
+        "instant compliance, so the surface could not follow; use a ramp, or give the law an "
+        "instant compliance"
+    )
 
 
 def points_under_load(problem: Problem) -> list[tuple[float, LoadPoint]]:
     """Return times [s] and loads that a body on any grid must be able to carry, time 0 first."""
     # A point without load counts where the load grows from it or falls to it; a cycle from zero to
     # zero has its load between. Where the force never moves, the first time is enough.
-    load, end = problem.load, problem.end
+    load, end = problem.contact_load, problem.end
     peak = [problem.largest_load[0]] if np.isfinite(load.longest_step) else []
     instants = np.unique([*load.kinks[load.kinks < end], *peak, end])
     levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))

@@ -81,7 +81,7 @@ class Mesh:
 
 def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     """Choose the grid of a contact problem, up to `end` [s]; ValueError if none is suitable."""
-    indenter, load, compliance = problem.indenter, problem.load, problem.compliance
+    indenter, load, compliance = problem.indenter, problem.contact_load, problem.compliance
     request = problem.automatic_grid or AutomaticGrid()
     # Step 1: the contacts of the history, and the size of the grid.
     response = problem.surface.response_at(math.inf if end is None else end)
@@ -130,7 +130,8 @@ def _contacts_before_creep(problem: Problem, end: float | None) -> list[PointCon
     if problem.load.control != "approach" or len(problem.surface.terms) == 1 or compliance == 0:
         return []
     response = problem.surface.response_at(0.0)
-    return contacts_of_history(problem.indenter, compliance, problem.load, end, response=response)
+    load = problem.contact_load
+    return contacts_of_history(problem.indenter, compliance, load, end, response=response)
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,7 +268,7 @@ def _refined_for_ring(
     if PEAK not in mesh.errors:
         return mesh
     indenter, request = problem.indenter, problem.automatic_grid or AutomaticGrid()
-    growth = contact_growth(indenter, problem.compliance, problem.load, end, largest)
+    growth = contact_growth(indenter, problem.compliance, problem.contact_load, end, largest)
     if growth is None:
         return mesh
     shape, size = np.array(mesh.grid.shape), np.array(mesh.grid.size)

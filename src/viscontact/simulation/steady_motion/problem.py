@@ -49,7 +49,7 @@ class SteadyProblem:
 
 def steady_problem(contact: Problem, motion: SteadyMotion) -> SteadyProblem:
     """Check a problem of steady motion and complete it."""
-    problem = SteadyProblem(contact, motion, constant_load(contact.load))
+    problem = SteadyProblem(contact, motion, constant_load(contact.contact_load))
     if contact.temperature is not None:
         require_constant(contact.temperature)
     if any(material.ageing for material in contact.materials):

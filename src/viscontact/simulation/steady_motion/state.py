@@ -69,6 +69,7 @@ def state_of(
 ) -> ContactState:
     """State of a contact; time and cumulative values are NaN, without `datum` also the approach."""
     grid, solution, axis = contact.grid, contact.solution, problem.axis
+    grown = problem.contact.thickening_at(0.0)
     pressure, motion = contact.pressure, solution.motion
     force, peak = float((pressure * grid.cell_area).sum()), float(pressure.max())
     area, load = max(rim.area, force / peak), line_load(pressure, grid)
@@ -86,7 +87,7 @@ def state_of(
         force=force,
         eccentricity_x=offset_x,
         eccentricity_y=offset_y,
-        approach=float(motion[0]) if datum else math.nan,
+        approach=float(motion[0]) - grown if datum else math.nan,
         tilt_x=float(motion[1]),
         tilt_y=float(motion[2]),
         contact_area=area,

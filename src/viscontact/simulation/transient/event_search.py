@@ -144,7 +144,8 @@ class EventSearch:
         request = AdaptiveTimes(end, self._tolerance)
         stops = self._stops[self._stops < end]
         surface = self._run.problem.surface
-        steps = AdaptiveSteps(request, stops, history, surface.creep, clocks=surface.clocks)
+        load = replace(self._run.problem, load=history).contact_load
+        steps = AdaptiveSteps(request, stops, load, surface.creep, clocks=surface.clocks)
         last = self._last
         begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}
         steps.restore({**begun, "step": asdict(last)})

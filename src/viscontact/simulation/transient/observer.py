@@ -61,7 +61,7 @@ class Observer:
         self._motion = StandingContact() if stands else MovingContact(run)
         self._warnings = WarningCollector()
         self._open = setup_warnings(run) if warns else {}
-        self._since = loaded_since(run.problem.load)
+        self._since = loaded_since(run.problem.contact_load)
         clocks = run.problem.clocks
         self._limited = limited_bodies(run.problem.bodies, clocks, self._since) if warns else ()
         self._work = 0.0
@@ -111,7 +111,8 @@ class Observer:
         state = _state(
             *(step, solution, rim, self._work, self._cycles.last_loss), has_datum=has_datum
         )
-        state = replace(state, **moved)
+        grown = self._run.problem.thickening_at(step.time)
+        state = replace(state, approach=state.approach - grown, **moved)
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
         if state.contact_area > self._largest_area:
@@ -213,7 +214,8 @@ class Observer:
                 geometry_warnings(self._geometry, rim, motion, displacement, solution.pressure)
                 | found
             )
-            found = early_warnings(problem.data_times, problem.load, step.time, step.side) | found
+            load, measured = problem.contact_load, problem.data_times
+            found = early_warnings(measured, load, step.time, step.side) | found
             half_width = min(rim.length, rim.width) / 2
             found = diffusion_warnings(problem.temperature, half_width, problem.end) | found
             if self._limited:

@@ -115,7 +115,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     about_body = _about_body(problem, grid)
     check_touch(problem, points[0][1], open_gap, about_body)
     supported = problem.surface.is_supported
-    check_period(problem.indenter, open_gap, grid, problem.load, supported=supported)
+    check_period(problem.indenter, open_gap, grid, problem.contact_load, supported=supported)
     check_balance(points[1:], open_gap, about_body)
     check_path(problem, grid)
     # 4. Plan the hereditary integral: internal variables, or the whole history.

@@ -86,7 +86,7 @@ class Stepper:
         first = run.hereditary
         self._force_memory = InternalVariables(first.prony_approximation, (1,), clock=first.clock)
         self._creeping = run.problem.surface.most_creeping  # term whose time error is estimated
-        self._errors = TimeErrors(run.plans[self._creeping], run.problem.load, domain.team)
+        self._errors = TimeErrors(run.plans[self._creeping], run.problem.contact_load, domain.team)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
@@ -142,7 +142,7 @@ class Stepper:
 
     def _step_problem(self, step: TimeStep) -> StepProblem:
         """Pose a step: load at its end, response of the history, elastic contact to be solved."""
-        point = self._run.problem.load.at(step.time, side=step.side)  # step 1
+        point = self._run.problem.contact_load.at(step.time, side=step.side)  # step 1
         response, force_response = (
             self._history.respond(step),
             response_to(step, self._force_memory),

@@ -14,6 +14,7 @@ from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, Ti
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
 from viscontact.simulation.checks.material import (
+    expansion_warnings,
     law_warnings,
     origin_warnings,
     passivity_warnings,
@@ -56,6 +57,8 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
         warnings |= run.mesh.warnings
     warnings |= axle_warnings(problem) | turn_warnings(problem) | row_warnings(problem)
     warnings |= heat_warnings(problem, run.grid, [plan.compliance for plan in run.plans])
+    if problem.thickening is not None:
+        warnings |= expansion_warnings(problem.thickening.surplus)
     for body, clock in zip(problem.bodies, problem.clocks, strict=True):
         end = float(clock.reduced(np.array(problem.end)))
         for material in materials_of(body):
@@ -117,7 +120,7 @@ def loading_warnings(
 
 def _levels(problem: Problem, step: TimeStep) -> tuple[float, float, float]:
     """The load just after a step's begin, at its end, and the largest of the run [N or m]."""
-    load, begin = problem.load, step.time - step.duration * (1 - KINK_TOLERANCE)
+    load, begin = problem.contact_load, step.time - step.duration * (1 - KINK_TOLERANCE)
     # A clamped tilt can press with no approach at all.
     largest = max(load.largest_level, np.finfo(float).tiny)
     end = load.level_at(step.time, side=step.side)
