@@ -46,7 +46,7 @@ def test_runs_are_found_again_by_their_values(tmp_path: Path) -> None:
     ],
 )
 def test_entries_of_earlier_versions_are_read(
-    tmp_path: Path, line: dict[str, object], entry: Entry
+    tmp_path: Path, line: dict[str, object], entry: Entry, caplog: pytest.LogCaptureFixture
 ) -> None:
     kept(tmp_path)
     header = json.loads((tmp_path / JOURNAL_NAME).read_text())
@@ -54,6 +54,17 @@ def test_entries_of_earlier_versions_are_read(
     lines = (header, ["run", line])
     (tmp_path / JOURNAL_NAME).write_text("".join(f"{json.dumps(each)}\n" for each in lines))
     assert kept(tmp_path) == {"run": entry}
+    assert kept(tmp_path) == {"run": entry}  # which has digests now
+    (said,) = caplog.messages
+    assert "trials.jsonl has no digests" in said
+
+
+def test_a_value_with_another_digit_is_refused(tmp_path: Path) -> None:
+    kept(tmp_path, a=1.25)
+    path = tmp_path / JOURNAL_NAME
+    path.write_text(path.read_text().replace("1.25", "1.26"))
+    with pytest.raises(ValueError, match="jsonl:2: is damaged: it is not as it was written"):
+        kept(tmp_path)
 
 
 def test_a_line_that_a_killed_process_has_begun_is_removed(tmp_path: Path) -> None:

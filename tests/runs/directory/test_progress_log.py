@@ -101,6 +101,19 @@ def test_log_that_lacks_lines_is_refused_and_left_alone(
     assert path.read_bytes() == content
 
 
+def test_log_with_another_digit_or_with_exchanged_lines_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "progress.jsonl"
+    with ProgressLog(path) as log:
+        for row in range(3):
+            log.append(state(row))
+    whole = path.read_bytes()
+    lines = whole.splitlines(keepends=True)
+    for damaged in (whole.replace(b'"row": 1', b'"row": 3'), lines[1] + lines[0] + lines[2]):
+        path.write_bytes(damaged)
+        with pytest.raises(ValueError, match=r"progress\.jsonl is damaged.*--overwrite"):
+            ProgressLog.resume(path, 3, state(2).time)
+
+
 def test_log_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="cannot be read"):
         ProgressLog.resume(tmp_path / "progress.jsonl", 1, 1.0)

@@ -105,6 +105,18 @@ def test_a_damaged_line_is_named_with_its_number(tmp_path: Path, line: str, said
     assert f"{path}:2: " in str(caught.value) or "UTF-8" in said
 
 
+def test_a_manifest_that_lacks_its_end_or_has_another_digit_is_refused(tmp_path: Path) -> None:
+    runs = [replace(RUN, run=n, name=f"{n}", directory=f"{n}") for n in range(3)]
+    path = write_manifest(tmp_path, runs)
+    whole = path.read_bytes()
+    path.write_bytes(b"".join(whole.splitlines(keepends=True)[:2]))
+    with pytest.raises(ValueError, match=r"runs\.jsonl: is damaged: its last runs are missing"):
+        list(read_manifest(path))
+    path.write_bytes(whole.replace(b"5 N", b"7 N"))
+    with pytest.raises(ValueError, match=r"runs\.jsonl:1: is damaged: it is not as it was written"):
+        list(read_manifest(path))
+
+
 def test_an_empty_manifest_is_refused(tmp_path: Path) -> None:
     path = tmp_path / MANIFEST_NAME
     path.touch()
