@@ -295,3 +295,17 @@ def test_a_law_is_extrapolated_where_the_passage_is_longer_than_its_data(along):
     assert any("where the material's data end" in str(each.message) for each in found) == (
         along == "y"
     )
+
+
+def test_curve_at_a_temperature_is_that_of_the_slowed_law_and_has_the_temperature():
+    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), 0.5, shift=vc.WLF(293.15, 8.86, 101.6))
+    ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    grid = vc.Grid((40, 40), (4e-3, 4e-3))
+    warm, slowed = (
+        vc.steady(ball, body, load, [0.1, 1.0], grid=grid, errors=False, temperature=temperature)
+        for body, temperature in ((rubber, 303.15), (rubber.at(303.15), None))
+    )
+    np.testing.assert_array_equal(warm.friction_coefficient, slowed.friction_coefficient)
+    assert warm.temperature.values.tolist() == [303.15, 303.15]
+    assert "reduced_time" not in warm
+    assert "temperature" not in slowed

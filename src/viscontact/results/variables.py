@@ -238,6 +238,7 @@ SCALARS = {
 #: Scalars that add up over time, belong to steps in time, or are the origin of coordinates.
 NOT_STEADY = (
     *("work", "loss_per_cycle", "motion_work", "heat", "time_error", "position_x", "position_y"),
+    *("reduced_time", "reduced_time_indenter"),
 )
 
 

@@ -146,6 +146,12 @@ class Problem:
             return given
         return tuple(at_temperature(body, self.temperature.range[0]) for body in given)
 
+    @property
+    def constant_temperature(self) -> float | None:
+        """Temperature that does not vary [K]; None if it does, or none is given."""
+        given = self.temperature
+        return given.range[0] if given is not None and given.is_constant else None
+
     @cached_property
     def clocks(self) -> tuple[Clock, ...]:
         """Clock of the creep of each body."""

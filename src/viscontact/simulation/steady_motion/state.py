@@ -108,4 +108,5 @@ def state_of(
         friction_coefficient=forces[axis] / force,
         dissipation=forces[axis] * contact.speed,
         speed=contact.speed,
+        temperature=problem.contact.constant_temperature,
     )
