@@ -126,7 +126,8 @@ int rename(const char *from, const char *to)
 
 int close(int file)
 {
-    if (concerns_file(file) && fails("close")) {
+    /* Errors of earlier writes are reported when a file is closed that was written. */
+    if ((fcntl(file, F_GETFL) & O_ACCMODE) != O_RDONLY && concerns_file(file) && fails("close")) {
         int error = errno;
         REAL(close)(file);
         errno = error;

@@ -17,7 +17,8 @@ import xarray as xr
 from tests.synthetic_results import ellipse
 
 import viscontact as vc
-from viscontact.results.digests import GROUP, DamagedFileError, digest_of
+from viscontact.results.damage import DamagedFileError
+from viscontact.results.digests import GROUP, digest_of
 from viscontact.results.line_digests import is_as_written, read_entries, with_digest
 from viscontact.results.seal import check_seal
 from viscontact.results.stored_result import stored_result

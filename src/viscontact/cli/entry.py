@@ -124,7 +124,7 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
         raise error
     if is_lack_of_memory(error):
         return _lacks_memory()
-    from viscontact.results.digests import DamagedFileError
+    from viscontact.results.damage import DamagedFileError
 
     if isinstance(error, DamagedFileError):
         say(str(error))

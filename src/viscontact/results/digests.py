@@ -12,22 +12,17 @@
 from __future__ import annotations
 
 import json
-import logging
 import math
 import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
 from itertools import product
-from pathlib import Path
 from typing import Any, Self
 
 import netCDF4
 import numpy as np
 
-from viscontact.units.visible import visible
-
-_LOG = logging.getLogger("viscontact")
+from viscontact.results.damage import DamagedFileError
 
 #: Group of a file with its digests: an attribute for the attributes of the file, an attribute for
 #: all variables along one axis, and a variable for each of the others.
@@ -37,32 +32,6 @@ _AT_ONCE = 2**23
 #: Digests that HDF5 stores together.
 _CHUNK = 128
 _ABOUT = "CRC-32 of the values as stored, begun with that of the description of their variable"
-
-
-class DamagedFileError(ValueError):
-    """A file is not as it was written; `fault` is the message without its remedy."""
-
-    def __init__(self, path: str | Path, what: str) -> None:
-        self.path, self.what = path, what
-        self.fault = (
-            f"{path} is damaged, or was changed by another program: {what} are not those that were "
-            "written"
-        )
-        super().__init__(f"{self.fault}; restore it from a copy, or compute it again")
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Return what makes the error in another process."""
-        return type(self), (self.path, self.what)
-
-
-@cache  # once for each file
-def note_unchecked(path: Path) -> None:
-    """Write a line in the log about a file without digests."""
-    _LOG.warning(
-        "%s has no digests, as from an earlier version or another program: damage to it would not "
-        "be noticed",
-        visible(str(path)),
-    )
 
 
 def digest_of(values: Any, start: int = 0) -> int:

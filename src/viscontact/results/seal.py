@@ -10,7 +10,7 @@ import zlib
 from pathlib import Path
 from typing import BinaryIO
 
-from viscontact.results.digests import DamagedFileError
+from viscontact.results.damage import DamagedFileError
 
 #: Bytes with a checksum of their own, and the number of such blocks. The structure is at the
 #: beginning of a file; in a larger file, damage to fields behind it is noticed by their digests.

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, Union
 import netCDF4
 import numpy as np
 
-from viscontact.results.digests import DamagedFileError, StoredDigests, note_unchecked
+from viscontact.results.damage import DamagedFileError, note_unchecked
+from viscontact.results.digests import StoredDigests
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.seal import check_seal
 from viscontact.results.stated_sizes import require_stated_sizes

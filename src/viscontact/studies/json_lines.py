@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
-from viscontact.results.digests import note_unchecked
+from viscontact.results.damage import note_unchecked
 from viscontact.results.line_digests import is_as_written
 
 Item = TypeVar("Item")

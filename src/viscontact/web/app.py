@@ -15,7 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp
 
 from viscontact.case.data_file import is_plain_name
-from viscontact.results.digests import DamagedFileError
+from viscontact.results.damage import DamagedFileError
 from viscontact.web.calculator import Calculator
 from viscontact.web.guard import Guard
 from viscontact.web.routes import case_routes, run_routes

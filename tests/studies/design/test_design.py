@@ -16,6 +16,7 @@ from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.results.line_digests import with_digest
 from viscontact.studies.executors import executor_choice
 from viscontact.studies.executors.local import LocalWorkers
 
@@ -222,7 +223,9 @@ def test_a_journal_of_an_earlier_search_is_refused_in_one_sentence(
     first, *others = journal.read_text().splitlines(keepends=True)
     header = json.loads(first)
     del header["search"], header["clear_of_ends"]  # which it did not have
-    journal.write_text("".join([json.dumps(header) + "\n", *others]))
+    del header["digest"]
+    sealed = with_digest(json.dumps(header).encode()).decode()
+    journal.write_text("".join([f"{sealed}\n", *others]))
     with pytest.raises(ValueError, match="holds another design, with a different search") as error:
         vc.design(ball, change, minimise="approach", workers=1, directory=place)
     assert "\n" not in str(error.value)

@@ -10,7 +10,7 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.cli.terminal.messages import refuse
-from viscontact.results.digests import DamagedFileError
+from viscontact.results.damage import DamagedFileError
 from viscontact.results.history_csv import write_history
 from viscontact.tables.workbook import write_csv_or_workbook
 from viscontact.units.parsing import parse_quantity

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from viscontact.cli.terminal.messages import refuse
 from viscontact.mechanics.state import Outcome
-from viscontact.results.digests import DamagedFileError
+from viscontact.results.damage import DamagedFileError
 from viscontact.results.recorded_case import case_of
 from viscontact.results.run_axis import run_axis
 from viscontact.results.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME

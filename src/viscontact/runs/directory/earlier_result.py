@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from viscontact.bodies.grid import Grid
+from viscontact.results.damage import DamagedFileError
 from viscontact.results.descriptions import parse_case
-from viscontact.results.digests import DamagedFileError
 from viscontact.results.stored_result import StoredFile
 from viscontact.results.variables import AXES
 from viscontact.runs.directory.checkpoint import REMEDY

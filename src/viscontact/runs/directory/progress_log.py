@@ -13,7 +13,7 @@ from typing import Any, Self
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.state import ContactState, Outcome
-from viscontact.results.digests import DamagedFileError
+from viscontact.results.damage import DamagedFileError
 from viscontact.results.line_digests import ROW, is_as_written, read_entries, with_digest
 from viscontact.results.variables import AXES, error_name, scalars_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
