@@ -168,8 +168,8 @@ class Sources:
     @cached_property
     def done(self) -> Path:
         text = WITH_ERRORS.replace("[0 s, 2 s, 3 s]", "all")
-        Path("case.yaml").write_text(text, encoding="utf-8")
-        assert main(["run", "case.yaml", "-o", "done", "-q"]) == 0
+        Path("done.yaml").write_text(text, encoding="utf-8")
+        assert main(["run", "done.yaml", "-o", "done", "-q"]) == 0
         return Path("done")
 
     @cached_property

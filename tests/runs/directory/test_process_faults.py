@@ -200,7 +200,7 @@ def test_disk_faults_stop_a_run_in_words_and_it_is_resumed(
     build = [compiler, "-shared", "-fPIC", "-o", str(library), str(source), "-ldl"]
     subprocess.run(build, check=True)
     done = subprocess.run(
-        [sys.executable, str(HERE / "disk_faults.py"), str(tmp_path), "60", "1"],
+        [sys.executable, str(HERE / "disk_faults.py"), str(tmp_path), "80", "1"],
         env={**os.environ, "LD_PRELOAD": str(library)},
         stdout=subprocess.PIPE,
         text=True,
