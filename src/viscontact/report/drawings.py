@@ -16,10 +16,11 @@ from matplotlib.figure import Figure
 from viscontact.bodies.indenters import HeightMap, Indenter
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.layers import creeping_laws
-from viscontact.drawing.content.law_curves import curve_times
+from viscontact.drawing.content.law_curves import curve_times, time_of_laws
 from viscontact.drawing.content.small_panels import law_panels
-from viscontact.drawing.matplotlib import creep_curve, draw_indenter
+from viscontact.drawing.matplotlib import draw_indenter
 from viscontact.drawing.matplotlib.layout.saving import as_svg
+from viscontact.drawing.matplotlib.materials.law_curves import draw_laws
 from viscontact.drawing.svg.html import element
 from viscontact.drawing.svg.panel_drawing import panel_drawing
 from viscontact.drawing.svg.shapes import indenter_drawings
@@ -132,10 +133,11 @@ def _middle(ds: xr.Dataset) -> tuple[float, float]:
 
 def _curves(ds: xr.Dataset, part: str) -> Figure:
     laws = creeping_laws(recorded_object(ds, part, "creep"))
-    instants = law_times(ds)
+    instants = law_times(ds, part)
     positive = instants[instants > 0]
     end = float(positive.max(initial=0.0)) or 1.0
-    return creep_curve(laws, curve_times(end, float(positive.min(initial=end))))
+    times = curve_times(end, float(positive.min(initial=end)))
+    return draw_laws(laws, times, time_of_laws([ds], part))
 
 
 def drawn(draw: Callable[[], Figure], about: str) -> Element:

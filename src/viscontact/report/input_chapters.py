@@ -16,6 +16,7 @@ import xarray as xr
 from viscontact import __version__
 from viscontact.drawing.svg.html import element
 from viscontact.report import accuracy, drawings, limits
+from viscontact.report.clocks import clock_line
 from viscontact.report.inputs import InputRow, case_file, inputs
 from viscontact.report.measured import measured_lines
 from viscontact.report.page_elements import remark, stacked_table
@@ -65,6 +66,8 @@ def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the curves of each body's material."""
     for title, drawing in drawings.materials(ds):
         yield element("h3", title)
+        if clock := clock_line(ds, title):
+            yield element("p", clock)
         yield element("figure", drawing)
         yield from measured_lines(ds, title)
     yield remark(

@@ -21,6 +21,7 @@ _PARTS = {
     "material": "Material of the half-space",
     "indenter_material": "Material of the indenter",
     "load": "Load",
+    "temperature": "Temperature",
     "motion": "Motion",
     "grid": "Grid",
 }

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.bodies.laws import Law
-from viscontact.bodies.loads import LoadHistory, LoadProgram
+from viscontact.bodies.loads import LoadHistory, LoadProgram, TemperatureHistory
 from viscontact.bodies.loads.motion import Motion
 from viscontact.results.descriptions import STORED_CLASSES, rebuild
 from viscontact.units.formatting import format_quantity
@@ -23,7 +23,8 @@ _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
 #: Classes whose part of the table says what they are.
 _PLAIN = {"Material", "Grid", "AutomaticGrid", "CombinedIndenter", "PlacedIndenter"}
 _PLAIN |= {"Layer", "Layered"}
-_PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, LoadHistory | Motion)}
+_OVER_TIME = LoadHistory | Motion | TemperatureHistory
+_PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, _OVER_TIME)}
 #: Arguments that are left out if this is their value.
 _DEFAULTS: dict[str, tuple[object, ...]] = {
     **dict.fromkeys(["eccentricity_x", "eccentricity_y", "fluidity", "phase"], (0,)),

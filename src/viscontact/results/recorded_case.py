@@ -5,6 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal
 
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import TemperatureHistory
+from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.materials.layers import Layered, at_temperature
+from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.problem.surface import clock_of
 from viscontact.results.descriptions import STORED_CLASSES, parse_case, rebuild
 from viscontact.units.axis_flags import AxisFlags
 
@@ -92,8 +97,27 @@ def is_prescribed(ds: Result, name: str) -> bool:
     return name.startswith("tilt_") and load.get(name) is not None
 
 
+def recorded_temperature(results: Result) -> TemperatureHistory | None:
+    """Temperature that the case of a result gives; None where laws are used as they are."""
+    described = case_of(results).get("temperature")
+    found = None if described is None else rebuild(described)
+    assert found is None or isinstance(found, TemperatureHistory)
+    return found
+
+
+def recorded_clock(results: xr.Dataset, part: str, figure: str) -> Clock:
+    """Clock of the creep of a body of a result, "material" or "indenter_material"."""
+    temperature = recorded_temperature(results)
+    varies = temperature is not None and not temperature.is_constant
+    body = recorded_object(results, part, figure)
+    return TIME if body is None else clock_of(body, temperature if varies else None)
+
+
 def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
-    """Rebuild a part of the recorded case, such as "indenter"; None where the case has none."""
+    """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
+
+    Bodies at a constant temperature have the laws of the run.
+    """
     # A large part is recorded by its fingerprint only.
     if "case" not in results.attrs:
         raise ValueError(
@@ -102,6 +126,11 @@ def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
         )
     described = case_of(results).get(part)
     try:
-        return None if described is None else rebuild(described)
+        found = None if described is None else rebuild(described)
     except ValueError as error:
         raise ValueError(f"{figure}: cannot rebuild the {part}: {error}") from error
+    if not isinstance(found, Material | Layered):
+        return found
+    temperature = recorded_temperature(results)
+    constant = temperature is not None and temperature.is_constant
+    return at_temperature(found, temperature.range[0]) if temperature and constant else found

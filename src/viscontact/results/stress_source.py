@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
@@ -25,6 +26,7 @@ from viscontact.mechanics.problem.stress_history import StressHistory, stress_hi
 from viscontact.mechanics.problem.surface import as_elastic
 from viscontact.results.recorded_case import (
     is_layered,
+    recorded_clock,
     recorded_grid,
     recorded_object,
     recorded_poisson_ratio,
@@ -50,6 +52,7 @@ class StressSource:
     responses: tuple[StressResponse, ...]  # the stresses are the sum of theirs
     stack: ElasticStack | None = None  # layers of a body, one of the stacks of `history`
     history: StressHistory | None = None  # weights of the pressures of the responses
+    clock: Clock = TIME  # of the creep of the body
 
     @property
     def splitting_error(self) -> float:
@@ -155,7 +158,11 @@ class StressSource:
         load = recorded_object(self.results, "load", "stresses")
         jumps = np.zeros(0) if load is None else load.jumps
         pressure = np.asarray(self.results["pressure"].values, dtype=np.float64)
-        return self.history.pressures(self.stored, pressure, jumps)
+        # Both at once, so that a jump at a stored instant is at it on the clock, too.
+        marks = np.unique(np.concatenate([self.stored, jumps]))
+        reduced = self.clock.reduced(marks)
+        instants, falls = (reduced[np.searchsorted(marks, each)] for each in (self.stored, jumps))
+        return self.history.pressures(instants, pressure, falls)
 
 
 def stress_source(
@@ -182,8 +189,10 @@ def stress_source(
     stack = as_elastic(layered)
     if stack is not None:
         return StressSource(results, (LayeredStress(stack),), stack)
-    span = span_of(results["time"].values) if "time" in results.dims else ANY_TIMES
+    clock, span = recorded_clock(results, body, "stresses"), ANY_TIMES
+    if "time" in results.dims:
+        span = span_of(clock.reduced(results["time"].values))
     history = stress_history(layered, span)
     return StressSource(
-        results, tuple(map(LayeredStress, history.stacks)), history.stacks[0], history
+        results, tuple(map(LayeredStress, history.stacks)), history.stacks[0], history, clock
     )

@@ -12,14 +12,15 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class ReadableUnit:
-    """A unit to print or draw in: its symbol, and its size in SI units."""
+    """A unit to print or draw in: its symbol, its size and its zero in SI units."""
 
     symbol: str
     factor: float
+    zero: float = 0.0
 
     def __call__(self, values: ArrayLike) -> NDArray[np.float64]:
         """Values given in SI units, expressed in this unit."""
-        return np.asarray(values, dtype=np.float64) / self.factor
+        return (np.asarray(values, dtype=np.float64) - self.zero) / self.factor
 
     def label(self, quantity: str) -> str:
         """Label of an axis or a column: the quantity with its unit in brackets."""

@@ -17,6 +17,7 @@ from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity, readable_unit
 from viscontact.units.numbers import finite_array
+from viscontact.units.temperatures import CELSIUS
 
 #: Relative change of a constant load, and share of the time from which on it is held: the rest is
 #: creep, which is even in log time.
@@ -58,6 +59,9 @@ def along_run(
 def texts_along(run: xr.Dataset, name: str, look: Look = LIGHT) -> tuple[str, ...]:
     """Instants or speeds of a run, and the values of a scalar there with their errors."""
     axis, si = run_axis(run), SCALARS[name].units
+    if name == "temperature":
+        values = zip(axis.values(run).tolist(), CELSIUS(run[name].values).tolist(), strict=True)
+        return tuple(f"{axis.place(place)}: {value:.4g} °C" for place, value in values)
     columns = axis.values(run), run[name].values, errors_of(run, name)
     return tuple(
         f"{axis.place(place)}: {look.text(value, error, si)}"

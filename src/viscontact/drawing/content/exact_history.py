@@ -10,10 +10,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.bodies.indenters import Indenter, Paraboloid, Sphere
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.loads import ApproachHistory, ForceHistory
+from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.drawing.content.panel import FAINT, TEXT, Axis, Curve, Ink, Mark, Panel
 from viscontact.reference import (
@@ -25,7 +26,12 @@ from viscontact.reference import (
     lee_radok_step,
     press_axisymmetric,
 )
-from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_object
+from viscontact.results.recorded_case import (
+    is_layered,
+    recorded_clock,
+    recorded_grid,
+    recorded_object,
+)
 from viscontact.results.run_axis import require_time
 from viscontact.units.formatting import ReadableUnit
 
@@ -105,11 +111,16 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
     growing = exact_sphere(results, figure)
     if growing is not None and not is_elastic:
         return _of_growing(growing, instants)
+    times, level = _loaded(load, instants)
     try:
-        marched = _contact(float(radius or 0.0), load, compliance, instants)
+        marched = _contact(
+            *(float(radius or 0.0), load, compliance),
+            *(_clock(results, figure).reduced(times), level),
+        )
     except ValueError as error:
         raise ValueError(f"{figure}: {error}") from error
-    return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
+    last = np.searchsorted(times, instants, side="right") - 1
+    return _of_marched(marched, last, "Hertz" if is_elastic else "Ting")
 
 
 def exact_label(results: xr.Dataset, solution: str, figure: str = _NAME) -> str:
@@ -155,8 +166,21 @@ def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
     return compliance, all(isinstance(body.law, Elastic) for body in there)
 
 
-def _contact(radius: float, load: Any, compliance: Any, instants: Floats) -> AxisymmetricContact:
-    """Reference solution under the load, with its own steps between those of the run."""
+def _clock(results: xr.Dataset, figure: str) -> Clock:
+    """Clock of the creep of both bodies; ValueError if they have different ones."""
+    parts = ("material", "indenter_material")
+    clocks = dict.fromkeys(recorded_clock(results, part, figure) for part in parts)
+    creeping = [clock for clock in clocks if clock is not TIME]
+    if len(creeping) > 1:
+        raise ValueError(
+            f"{figure}: needs bodies whose creep follows one clock, and these have different "
+            "shifts or ageing; draw history instead"
+        )
+    return next(iter(creeping), TIME)
+
+
+def _loaded(load: Any, instants: Floats) -> tuple[Floats, Floats]:
+    """Times of a reference solution, some steps between those of a run, and the levels there."""
     corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
     corners = corners[corners <= instants[-1]]
     placed = clustered_times(corners, _STEPS) if corners.size > 1 else corners
@@ -166,12 +190,17 @@ def _contact(radius: float, load: Any, compliance: Any, instants: Floats) -> Axi
     before = np.concatenate([times, jumps])
     level = np.concatenate([load.level_at(times), load.level_at(jumps, side="left")])
     order = np.lexsort((np.arange(before.size) < times.size, before))
-    driven, profile = level[order], SphereProfile(radius)
+    return before[order], level[order]
+
+
+def _contact(
+    radius: float, load: Any, compliance: Any, times: Floats, driven: Floats
+) -> AxisymmetricContact:
+    """Reference solution under the load at times of the clock."""
+    profile = SphereProfile(radius)
     if isinstance(load, ApproachHistory):
-        return press_axisymmetric(
-            profile, before[order], approach=driven, creep_compliance=compliance
-        )
-    return press_axisymmetric(profile, before[order], force=driven, creep_compliance=compliance)
+        return press_axisymmetric(profile, times, approach=driven, creep_compliance=compliance)
+    return press_axisymmetric(profile, times, force=driven, creep_compliance=compliance)
 
 
 def _of_growing(contact: LeeRadokContact, instants: Floats) -> ExactHistory:
@@ -187,8 +216,9 @@ def _of_growing(contact: LeeRadokContact, instants: Floats) -> ExactHistory:
     )
 
 
-def _of_marched(contact: AxisymmetricContact, instants: Floats, solution: str) -> ExactHistory:
-    last = np.searchsorted(contact.times, instants, side="right") - 1
+def _of_marched(contact: AxisymmetricContact, last: Integers, solution: str) -> ExactHistory:
+    """History at the last times of a solution before those of a run, by their numbers."""
+    instants = contact.times[last]
     radius = contact.contact_radius[last]
     peaks = [
         float(np.max(contact.pressure(a * _places(), float(t)))) if a > 0 else 0.0
@@ -216,6 +246,9 @@ def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
         return None
     if is_layered(results) or is_layered(results, "indenter_material"):
         return None
+    parts = ("material", "indenter_material")
+    if any(recorded_clock(results, part, figure) is not TIME for part in parts):
+        return None  # in the time of the clock
     compliance = material.contact_compliance()
     if other is not None:
         compliance = compliance + other.contact_compliance()

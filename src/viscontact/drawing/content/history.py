@@ -12,6 +12,7 @@ from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import (
     PERCENT,
     SECOND,
+    Aside,
     Axis,
     Curve,
     Ink,
@@ -19,8 +20,15 @@ from viscontact.drawing.content.panel import (
     Panel,
     Units,
 )
+from viscontact.drawing.content.temperature_course import temperature_aside
+from viscontact.mechanics.state import OF_CLOCKS
 from viscontact.results.margins import PREFIX, margins
-from viscontact.results.recorded_case import across_period, is_prescribed, prescribes_approach
+from viscontact.results.recorded_case import (
+    across_period,
+    is_prescribed,
+    prescribes_approach,
+    recorded_temperature,
+)
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
 from viscontact.results.run_axis import run_axis
@@ -36,6 +44,7 @@ from viscontact.results.stated_errors import (
 )
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
 from viscontact.units.formatting import readable_unit
+from viscontact.units.temperatures import CELSIUS
 
 #: Remark on a scalar without any error.
 UNKNOWN = "error not known"
@@ -118,6 +127,8 @@ def history_panel(
     others = [reference] if reference is not None and name in reference else []
     variable = SCALARS[name]
     y = units(variable.units, *(run[name].values for run in [*each, *others]))
+    if name == "temperature":
+        y = CELSIUS
     curves = [
         *(_curve(run, name, label, ink) for (label, run), ink in _with_inks(runs)),
         *(_curve(run, name, "", SECOND, has_error=False) for run in others),
@@ -131,7 +142,15 @@ def history_panel(
         note=_note(each, name),
         in_place="" if is_drawn else NOT_DRAWN,
         name=name,
+        aside=_temperature(each[0]) if len(each) == 1 and name not in OF_CLOCKS else None,
     )
+
+
+def _temperature(run: xr.Dataset) -> Aside | None:
+    """Temperature of a run over its time, if it varies."""
+    if not run_axis(run).is_history:
+        return None
+    return temperature_aside(recorded_temperature(run), float(run["time"].values[-1]))
 
 
 def _with_inks(runs: Mapping[str, xr.Dataset]) -> Iterable[tuple[tuple[str, xr.Dataset], Ink]]:

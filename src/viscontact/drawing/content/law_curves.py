@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -16,7 +16,7 @@ from viscontact.bodies.materials.layers import creeping_laws
 from viscontact.bodies.materials.library import Points
 from viscontact.drawing.content.panel import FIRST, Axis, Curve, Ink, Mark, Panel
 from viscontact.results.recorded_case import recorded_object
-from viscontact.results.run_axis import law_times
+from viscontact.results.run_axis import follows_clock, law_times
 from viscontact.units.formatting import ReadableUnit, readable_unit
 from viscontact.units.numbers import real_array
 
@@ -27,6 +27,8 @@ _EARLIEST, _POINTS, _SAMPLES = 1e-4, 300, 241
 _DEPTH = 1e-6
 #: Ratio of the ends of an axis, and its power with margins, from which on it is logarithmic.
 _DECADE, _WITH_MARGINS = 8.0, 1.1
+#: Names of the axis of a law.
+TIME, REDUCED = "Time", "Reduced time"
 _COMPLIANCE, _MODULUS = ("Creep compliance Φ", "1/Pa"), ("Relaxation modulus G", "Pa")
 
 
@@ -54,20 +56,29 @@ def curve_times(end: float, first: float = np.inf) -> Floats:
     return np.geomspace(min(first, _EARLIEST * end), end, _POINTS)
 
 
-def creep_panels(laws: Mapping[str, Law], times: Floats) -> list[Panel]:
+def time_of_laws(runs: Iterable[xr.Dataset], part: str = "material") -> str:
+    """Name of the time over which the laws of runs are drawn."""
+    return REDUCED if any(follows_clock(run, part) for run in runs) else TIME
+
+
+def creep_panels(laws: Mapping[str, Law], times: Floats, along: str = TIME) -> list[Panel]:
     """Panels of compliance and modulus; without the modulus if a law has none at time 0."""
     compliances = {name: (law(times), float(law(0.0))) for name, law in laws.items()}
-    panels = [_over_time(*_COMPLIANCE, times, compliances)]
+    panels = [_over_time(*_COMPLIANCE, times, compliances, along)]
     if all(at_once > 0 for _, at_once in compliances.values()):
         moduli = {
             name: (law.relaxation(times), float(law.relaxation(0.0))) for name, law in laws.items()
         }
-        panels.append(_over_time(*_MODULUS, times, moduli))
+        panels.append(_over_time(*_MODULUS, times, moduli, along))
     return panels
 
 
 def _over_time(
-    quantity: str, si: str, times: Floats, curves: Mapping[str, tuple[Floats, float]]
+    quantity: str,
+    si: str,
+    times: Floats,
+    curves: Mapping[str, tuple[Floats, float]],
+    along: str,
 ) -> Panel:
     """Panel of curves, of a single one with its value at time 0, which is not on the axis."""
     x, (first, end) = readable_unit("s", times), times[[0, -1]].tolist()
@@ -76,7 +87,7 @@ def _over_time(
     falls = [bool(values[-1] <= value) for values, value in curves.values()]
     level = Mark(at_once[0], "y", "t = 0", "dashed", is_text_below=falls[0])
     return Panel(
-        Axis("Time", x, (first, end), "log", first, in_clock_units=True),
+        Axis(along, x, (first, end), "log", first, in_clock_units=True),
         Axis.of(quantity, si, at_once, *(values for values, _ in curves.values())),
         tuple(
             Curve(times, values, name, Ink(place=number))

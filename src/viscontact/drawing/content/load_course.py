@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.loads import HarmonicHistory, LoadHistory
+from viscontact.bodies.loads import HarmonicHistory, LoadHistory, TemperatureHistory
 from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel, Units
+from viscontact.drawing.content.temperature_course import temperature_aside
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
 #: Number of cycles of a harmonic load that are drawn, and of straight pieces of a curved load.
@@ -23,8 +24,16 @@ _BELOW, _ABOVE = 0.04, 0.06
 _POINTS, _MARGIN = 1200, 0.02
 
 
-def load_panel(load: LoadHistory, end: float, units: Units = readable_unit) -> Panel:
-    """Panel of a load up to an end [s]; a jump is a vertical line, one at time 0 begins at zero."""
+def load_panel(
+    load: LoadHistory,
+    end: float,
+    units: Units = readable_unit,
+    temperature: TemperatureHistory | None = None,
+) -> Panel:
+    """Panel of a load up to an end [s], and of a temperature beside it.
+
+    A jump is a vertical line, one at time 0 begins at zero.
+    """
     kinks = load.kinks[(load.kinks > 0) & (load.kinks < end)]
     instants = np.unique(np.concatenate([np.linspace(0.0, end, _POINTS), kinks]))
     times, levels = _both_sides(load, instants)
@@ -35,6 +44,7 @@ def load_panel(load: LoadHistory, end: float, units: Units = readable_unit) -> P
         Axis.of(_quantity(load), load.unit, levels, units=units),
         (Curve(times, levels),),
         marks=(Mark(0.0, "y"),),
+        aside=temperature_aside(temperature, end),
     )
 
 

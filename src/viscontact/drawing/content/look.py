@@ -81,6 +81,8 @@ class Look:
             return runs[int(ink.place) % len(runs)]
         if ink.kind == "beyond":
             return RED
+        if ink.kind == "temperature":
+            return self.warm
         return {"fit": self.warm, "faint": self.faint, "pale": self.faint}.get(ink.kind, self.ink)
 
     def instants(self, count: int) -> list[str]:

@@ -150,6 +150,14 @@ class Mark:
 
 
 @dataclass(frozen=True, eq=False)
+class Aside:
+    """Curve on an axis of its own, at the right of a panel, behind its curves."""
+
+    axis: Axis
+    curve: Curve
+
+
+@dataclass(frozen=True, eq=False)
 class Panel:
     """Panel of a figure."""
 
@@ -163,3 +171,4 @@ class Panel:
     note: str = ""  # remark beside the title
     in_place: str = ""  # text in place of curves that are not drawn
     name: str = ""  # identifies the panel, such as a scalar
+    aside: Aside | None = None

@@ -40,7 +40,18 @@ def panel_over_run(panel: Panel, look: Look, name: str, hover: Sequence[str]) ->
         },
         hovermode="x",
         annotations=[words(panel.in_place, look)] if panel.in_place else [],
+        **_axis_aside(panel, look),
     )
+
+
+def _axis_aside(panel: Panel, look: Look) -> Part:
+    """Axis at the right of a curve that has its own."""
+    if panel.aside is None:
+        return {}
+    axis, colour = panel.aside.axis, look.colour(panel.aside.curve.ink)
+    limits = {} if axis.limits is None else {"range": axis.unit(axis.limits).tolist()}
+    own = {"overlaying": "y", "side": "right", "showgrid": False, "color": colour}
+    return {"yaxis2": {**own, **limits, "title": {"text": axis.label}}}
 
 
 def _frame(panel: Panel, look: Look, *, log: bool) -> Part:
@@ -48,7 +59,7 @@ def _frame(panel: Panel, look: Look, *, log: bool) -> Part:
     name = LOGARITHMIC if log else LINEAR
     return {
         "name": name,
-        "traces": list(range(len(panel.curves) + 1)),
+        "traces": list(range(len(panel.curves) + 1 + (panel.aside is not None))),
         "data": _positions(panel, log=log),
         # A part that was enlarged on one scale is elsewhere on the other.
         "layout": {
@@ -66,10 +77,21 @@ def _styles(panel: Panel, look: Look, hover: Sequence[str]) -> list[Part]:
     line = {"color": look.blue, "width": 2}
     dashed = {"color": look.warm, "width": 2, "dash": "dash"}
     return [
+        *_style_aside(panel, look),
         *(_line(panel, other, dashed) | {"hoverinfo": "skip"} for other in others),
         shade | {"y": _band(panel, curve), "hoverinfo": "skip"},
         _line(panel, curve, line) | {"text": hover, "hovertemplate": "%{text}<extra></extra>"},
     ]
+
+
+def _style_aside(panel: Panel, look: Look) -> list[Part]:
+    """Curve on an axis of its own, without its positions."""
+    if panel.aside is None:
+        return []
+    axis, curve = panel.aside.axis, panel.aside.curve
+    line = {"color": look.colour(curve.ink), "width": 1}
+    values = numbers(axis.unit(curve.y))
+    return [{"y": values, "yaxis": "y2", "mode": "lines", "line": line, "hoverinfo": "skip"}]
 
 
 def _line(panel: Panel, curve: Curve, line: Part) -> Part:
@@ -88,7 +110,10 @@ def _positions(panel: Panel, *, log: bool) -> list[Part]:
     parts = _parts(panel.curves[0])
     edges = [[*places[0][part], *places[0][part][::-1], np.nan] for part in parts]
     band = np.concatenate(edges or [[]])
-    return [{"x": numbers(each)} for each in (*places[1:], band, places[0])]
+    drawn = [*places[1:], band, places[0]]
+    if panel.aside is not None:
+        drawn.insert(0, places_along(panel.x, panel.aside.curve.x, log=log))
+    return [{"x": numbers(each)} for each in drawn]
 
 
 def _event_lines(panel: Panel, look: Look, *, log: bool) -> list[Part]:

@@ -9,13 +9,14 @@ from xml.etree.ElementTree import Element
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Law
-from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads import LoadHistory, TemperatureHistory
 from viscontact.bodies.materials.cards import Card as MaterialCard
 from viscontact.bodies.materials.layers import Layered, creeping_laws
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface
 from viscontact.drawing.content.load_course import whole_load_panel
 from viscontact.drawing.content.small_panels import law_panels
+from viscontact.drawing.content.temperature_course import temperature_panel
 from viscontact.drawing.svg.measurements import (
     fit_overview,
     indentation_fit_overview,
@@ -175,4 +176,6 @@ def _draw(obj: Displayable) -> list[Element]:
         return [stack_drawing(obj), *map(panel_drawing, panels)]
     if isinstance(obj, Law | Material):
         return [*map(panel_drawing, law_panels(obj if isinstance(obj, Law) else obj.law))]
+    if isinstance(obj, TemperatureHistory):
+        return [panel_drawing(temperature_panel(obj))]
     return [panel_drawing(whole_load_panel(obj))] if isinstance(obj, LoadHistory) else []

@@ -40,13 +40,14 @@ def scale_of(axis: Axis, most: int = 4) -> AxisScale:
     low, high = axis.limits or (0.0, 1.0)
     if axis.scale != "linear":
         return _logarithmic(axis, axis.first, high)
-    factor = axis.unit.factor
+    factor, zero = axis.unit.factor, axis.unit.zero
     step = round_step((high - low) / factor / most)
-    first, last = (math.ceil(low / factor / step - 1e-9), high / factor / step + 1e-9)
+    first = math.ceil((low - zero) / factor / step - 1e-9)
+    last = (high - zero) / factor / step + 1e-9
     texts = {step * k: _number(step * k) for k in range(first, math.floor(last) + 1)}
     if axis.texts:
         texts = {float(place): text for place, text in enumerate(axis.texts)}
-    ticks = tuple(((at * factor - low) / (high - low), text) for at, text in texts.items())
+    ticks = tuple(((at * factor + zero - low) / (high - low), text) for at, text in texts.items())
     return AxisScale(_label(axis), low, high, ticks)
 
 

@@ -180,7 +180,8 @@ class Problem:
     @cached_property
     def stated_clocks(self) -> tuple[Clock, ...]:
         """Clock of each body that its states tell, also at a constant temperature."""
-        if self.temperature is None or not self.temperature.is_constant:
+        is_over_time = self.motion.stands or any(self.motion.moves)
+        if self.temperature is None or not self.temperature.is_constant or not is_over_time:
             return self.clocks
         given = (body for body in (self.material, self.indenter_material) if body is not None)
         shifts = (next((m.shift for m in materials_of(body) if m.shift), None) for body in given)

@@ -58,7 +58,7 @@ def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> li
         if what == "load":
             if isinstance(case.load, MixedHistory):  # carried out for the forecast
                 case = cases.forecast(text)[0].case
-            return [Captioned(draw_load(case.load, case.end))]
+            return [Captioned(draw_load(case.load, case.end, temperature=case.temperature))]
         return list(_material(case, what, width))
     except CaseError as error:
         raise case_problems(error, case.document.path) from error

@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads import LoadHistory, TemperatureHistory
 from viscontact.drawing.content.load_course import load_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.panels import draw_panel
 
 
-def draw_load(load: LoadHistory, end: float) -> Figure:
+def draw_load(
+    load: LoadHistory, end: float, *, temperature: TemperatureHistory | None = None
+) -> Figure:
     """Draw the force or the approach of a load history over time.
 
     Parameters
@@ -20,6 +22,8 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
         The history.
     end : float
         Until when [s].
+    temperature : TemperatureHistory, optional
+        Drawn on a second axis, where it varies.
 
     Returns
     -------
@@ -41,5 +45,5 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
     if not (np.isfinite(end) and end > 0):
         raise ValueError(f"end must be an instant after 0 s, got {end!r}")
     figure = style.new_figure(style.ONE_COLUMN, 2.7)
-    draw_panel(figure.subplots(), load_panel(load, end))
+    draw_panel(figure.subplots(), load_panel(load, end, temperature=temperature))
     return figure

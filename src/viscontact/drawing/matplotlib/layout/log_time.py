@@ -18,12 +18,14 @@ _BESIDE, _LETTER, _GAP = 0.7, 0.065, 0.07
 BEFORE_FIRST = 0.2
 
 
-def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> str:
+def label_log_time(
+    axes: Axes, unit: ReadableUnit, first: float, end: float, quantity: str = "Time"
+) -> str:
     """Mark s, min, h and d on a logarithmic axis over hours or days; return the axis label."""
     is_whole = axes.get_xscale() == "symlog"
     ticks = clock_ticks(unit, first, end)
     if not ticks:
-        return unit.label("Time")
+        return unit.label(quantity)
     before = BEFORE_FIRST / (1 + BEFORE_FIRST) if is_whole else 0.0
     width, decades = _axis_width(axes), math.log10(end / first)
     along = {
@@ -35,7 +37,7 @@ def label_log_time(axes: Axes, unit: ReadableUnit, first: float, end: float) -> 
     axes.set_xticks(list(labelled), list(labelled.values()))
     axes.set_xticks([place for place in ticks if place not in labelled], minor=True)
     axes.xaxis.set_minor_formatter(NullFormatter())
-    return "Time"
+    return quantity
 
 
 def _axis_width(axes: Axes) -> float:

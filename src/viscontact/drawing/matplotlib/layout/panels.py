@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from viscontact.backend.arrays import Floats
-from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel
+from viscontact.drawing.content.panel import Aside, Axis, Curve, Mark, Panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.error_band import ErrorBand, draw_band
 from viscontact.drawing.matplotlib.layout.log_time import label_log_time, set_log_time
@@ -81,6 +81,8 @@ def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
 def draw_panel(axes: Axes, panel: Panel) -> list[ErrorBand]:
     """Draw a panel, and return the error bands of its curves."""
     style.dress(axes)
+    if panel.aside is not None:
+        _draw_aside(axes, panel, panel.aside)
     if panel.shaded is not None:
         low, high = panel.x.unit(panel.shaded).tolist()
         axes.axvspan(low, high, color=style.SHADE, zorder=0, linewidth=0)
@@ -102,6 +104,22 @@ def draw_panel(axes: Axes, panel: Panel) -> list[ErrorBand]:
     if panel.note:
         style.add_heading(axes, panel.note, aside=True)
     return bands
+
+
+def _draw_aside(axes: Axes, panel: Panel, aside: Aside) -> None:
+    """Draw a curve on an axis of its own at the right, behind the panel's."""
+    right = axes.twinx()
+    style.dress(right)
+    look = _look_of(aside.curve)
+    right.plot(panel.x.unit(aside.curve.x), aside.axis.unit(aside.curve.y), **look)
+    _scale_up(right, aside.axis)
+    right.spines["left"].set_visible(False)
+    right.spines["right"].set_visible(True)
+    for part in (right.spines["right"], right.yaxis.label):
+        part.set_color(look["color"])
+    right.tick_params(axis="y", colors=look["color"])
+    axes.set_zorder(right.get_zorder() + 1)
+    axes.patch.set_visible(False)
 
 
 def _draw_curve(axes: Axes, x: Floats, y: Floats, curve: Curve) -> None:
@@ -163,7 +181,8 @@ def scale_along(axes: Axes, axis: Axis) -> None:
     if axis.scale == "log":
         axes.set_xscale("log")
     if axis.limits is not None and (axis.scale == "time" or axis.in_clock_units):
-        label = label_log_time(axes, axis.unit, float(axis.unit(axis.first)), end)
+        first = float(axis.unit(axis.first))
+        label = label_log_time(axes, axis.unit, first, end, axis.quantity)
     if axis.is_reversed:
         axes.xaxis.set_inverted(True)
     if axes.xaxis.get_tick_params()["labelbottom"]:

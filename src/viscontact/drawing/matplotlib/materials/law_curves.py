@@ -16,10 +16,12 @@ from viscontact.bodies.laws import Law
 from viscontact.bodies.materials.library import Points
 from viscontact.drawing.content.compared_runs import runs_of
 from viscontact.drawing.content.law_curves import (
+    TIME,
     creep_panels,
     material_panels,
     recorded_laws,
     run_times,
+    time_of_laws,
 )
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
@@ -51,7 +53,8 @@ def creep(
     Returns
     -------
     matplotlib.figure.Figure
-        The curves, as drawn by `creep_curve`.
+        The curves, as drawn by `creep_curve`: of a run at a constant temperature those of the law
+        there, of one at a temperature that varies, or with ageing, over the reduced time.
 
     Raises
     ------
@@ -68,7 +71,8 @@ def creep(
     ['Creep compliance Φ [1/GPa]', 'Relaxation modulus G [MPa]']
     """
     runs = runs_of(results, _NAME)
-    return _draw_laws(recorded_laws(runs), run_times(runs, times), width)
+    along = time_of_laws(runs.values())
+    return draw_laws(recorded_laws(runs), run_times(runs, times), along, width)
 
 
 def compare_creep(
@@ -156,11 +160,14 @@ def creep_curve(
         raise ValueError(
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"
         )
-    return _draw_laws({"": law} if isinstance(law, Law) else law, instants, width)
+    return draw_laws({"": law} if isinstance(law, Law) else law, instants, width=width)
 
 
-def _draw_laws(laws: Mapping[str, Law], times: Floats, width: Width | None) -> Figure:
-    drawn = creep_panels(laws, times)
+def draw_laws(
+    laws: Mapping[str, Law], times: Floats, along: str = TIME, width: Width | None = None
+) -> Figure:
+    """Draw laws over times above 0 [s], those of a run or of a clock, by the name of the axis."""
+    drawn = creep_panels(laws, times, along)
     wide = page_width(width, style.TWO_COLUMNS if len(drawn) == 2 else style.ONE_COLUMN)
     columns = 1 if wide <= NARROW else len(drawn)
     rows = len(drawn) // columns
