@@ -16,6 +16,7 @@ from viscontact.verify import (
     moving_contact,
     periodic,
     steady_motion,
+    temperature,
     unloading,
 )
 
@@ -26,6 +27,7 @@ _GROUPS = {
     "contacts that grow on creeping bodies": growing,
     "contacts that shrink, are lost and made again": unloading,
     "contacts of constant or known area": fixed_contact,
+    "temperatures that vary, and ageing": temperature,
     "layers on a rigid base": layers,
     "periodic wavy surfaces": periodic,
     "line contacts": line_contact,

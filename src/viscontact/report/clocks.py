@@ -17,7 +17,7 @@ from viscontact.units.temperatures import in_celsius
 
 def clock_line(ds: xr.Dataset, title: str) -> str:
     """Sentence about the clock of a body, by its title; empty if its law is used as it is."""
-    part = next(part for part, name in BODIES.items() if name == title)
+    part = next((part for part, name in BODIES.items() if name == title), "")
     temperature = recorded_temperature(ds)
     if case_of(ds).get(part) is None or not (temperature or follows_clock(ds, part)):
         return ""

@@ -23,15 +23,15 @@ from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, fractional_zener, tabulated_creep, zener
 from viscontact.verify.indentation import FORCE, RADIUS, CaseRun, press, press_ball
 
-_PUNCH = FlatPunch(5e-3)
-_GRID = Grid((18, 18), (11e-3, 11e-3))
+PUNCH = FlatPunch(5e-3)
+GRID = Grid((18, 18), (11e-3, 11e-3))
 _PERIOD, _AMPLITUDE, _MEAN = 2 * TIME, 4.0, 10.0  # s, N, N
 
 
-def _softness() -> float:
+def softness_of_punch() -> float:
     """Approach over force and compliance on this mesh; 1/(2 a) for fine meshes [1/m]."""
     body = Material(Elastic(2.5e8), 0.5)  # J = 1e-9/Pa
-    run = press(body, step(1.0), [0.0], _GRID, indenter=_PUNCH, tolerance=1e-10)
+    run = press(body, step(1.0), [0.0], GRID, indenter=PUNCH, tolerance=1e-10)
     return run.states[0].approach * 1e9
 
 
@@ -44,7 +44,7 @@ def _oscillation(control: Control, compliance: complex, softness: float, steps: 
         else harmonic(approach=20 * amplitude, amplitude=amplitude, period=_PERIOD, cycles=cycles)
     )
     times = _PERIOD * np.arange(cycles * steps + 1) / steps
-    return press(zener().material, load, times, _GRID, indenter=_PUNCH, tolerance=1e-8)
+    return press(zener().material, load, times, GRID, indenter=PUNCH, tolerance=1e-8)
 
 
 def _amplitude(run: CaseRun, name: str, steps: int) -> complex:
@@ -55,7 +55,7 @@ def _amplitude(run: CaseRun, name: str, steps: int) -> complex:
 
 
 def _harmonic(control: Control, steps: int) -> tuple[Comparison, ...]:
-    frequency, softness = 2 * math.pi / _PERIOD, _softness()
+    frequency, softness = 2 * math.pi / _PERIOD, softness_of_punch()
     compliance = reference.series_complex_compliance(frequency, 1 / (8 * G), [1 / (8 * G)], [TIME])
     run = _oscillation(control, compliance, softness, steps)
     force, approach = (_amplitude(run, name, steps) for name in ("force", "approach"))
@@ -69,11 +69,11 @@ def _harmonic(control: Control, steps: int) -> tuple[Comparison, ...]:
 
 def _staircase(steps: int) -> tuple[Comparison, ...]:
     del steps  # none are needed between the jumps
-    body, softness = fractional_zener(), _softness()
+    body, softness = fractional_zener(), softness_of_punch()
     jumps, levels = np.array([0.0, 7.0, 20.0, 80.0]), np.array([10.0, 25.0, 4.0, 12.0])
     load = ForceHistory(np.repeat(jumps, 2)[1:], np.repeat(levels, 2)[:-1])
     times = np.array([3.0, 7.0, 15.0, 20.0, 26.0, 80.0, 300.0])
-    run = press(body.material, load, times, _GRID, indenter=_PUNCH, tolerance=1e-8)
+    run = press(body.material, load, times, GRID, indenter=PUNCH, tolerance=1e-8)
     exact = reference.punch_staircase(times, jumps, levels, 1 / (2 * softness), body.creep)
     return (history(exact, run.over_time("approach")),)
 

@@ -11,7 +11,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, Paraboloid
-from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads import LoadHistory, TemperatureHistory
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.state import ContactState, Outcome
@@ -63,7 +63,7 @@ def grid_around(
     return Grid((count, count), (count * semi_axes[0] / cells, count * semi_axes[1] / cells))
 
 
-def press(
+def press(  # noqa: PLR0913
     material: Material | Layered,
     load: LoadHistory,
     times: Iterable[float],
@@ -72,6 +72,7 @@ def press(
     indenter: Indenter = BALL,
     indenter_material: Material | None = None,
     tolerance: float = 1e-7,
+    temperature: TemperatureHistory | None = None,
 ) -> CaseRun:
     """Run a contact and keep all states."""
     states = march(
@@ -82,6 +83,7 @@ def press(
         list(times),
         indenter_material=indenter_material,
         tolerance=tolerance,
+        temperature=temperature,
     )
     return CaseRun(grid, tuple(states))
 

@@ -14,6 +14,7 @@ from viscontact.verify import (
     moving_contact,
     periodic,
     steady_motion,
+    temperature,
     unloading,
 )
 from viscontact.verify.case import Case, Result, run_case
@@ -24,6 +25,7 @@ CASES: tuple[Case, ...] = (
     *growing.CASES,
     *unloading.CASES,
     *fixed_contact.CASES,
+    *temperature.CASES,
     *layers.CASES,
     *periodic.CASES,
     *line_contact.CASES,

@@ -134,9 +134,7 @@ class SteadyCurve:
             self.bars.append(self._bars(fine, coarse, singular=singular))
         self.work.append(work)
         self._before = contact.neighbour
-        held = problem.contact.temperature
-        temperature = None if held is None else held.range[0]
-        return replace(fine.state, temperature=temperature), found
+        return fine.state, found
 
     def _bars(
         self, fine: Measured, coarse: SteadyContact | None, *, singular: bool
