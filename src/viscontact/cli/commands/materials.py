@@ -96,6 +96,14 @@ TemperatureUnit = Annotated[
         help="Unit of the temperatures in a card's shift: degC or K.",
     ),
 ]
+Temperature = Annotated[
+    str | None,
+    typer.Option(
+        "--temperature",
+        metavar="T",
+        help="Show or write the law at this temperature, e.g. '40 degC', by its shift.",
+    ),
+]
 Name = Annotated[
     str | None,
     typer.Option("--name", metavar="NAME", help="Name or number of a material in a card."),
@@ -117,6 +125,7 @@ def material(
     time_unit: TimeUnit = None,
     temperature_unit: TemperatureUnit = None,
     name: Name = None,
+    temperature: Temperature = None,
 ) -> None:
     """Show creep and relaxation of a material and its source, or write it for another program."""
     from viscontact.cli.material.material_files import MaterialOptions
@@ -132,6 +141,7 @@ def material(
         time_unit=time_unit,
         temperature_unit=temperature_unit,
         name=name,
+        temperature=temperature,
     )
     _show_or_write(which, output, width, to, typed)
 
@@ -143,7 +153,7 @@ def _show_or_write(
     to: str | None,
     typed: MaterialOptions,
 ) -> None:
-    from viscontact.cli.material.material_files import find_material
+    from viscontact.cli.material.material_files import at_temperature, find_material
     from viscontact.cli.material.material_tables import list_library, show_material
     from viscontact.cli.material.material_writing import FORMS, write_material
     from viscontact.cli.results.figures import chosen_width
@@ -157,7 +167,7 @@ def _show_or_write(
             refuse(f"--to {to}: name one material, e.g. pmma-paper")
         list_library(output)
         return
-    shown = find_material(which, typed, writes=to is not None)
+    shown = at_temperature(find_material(which, typed, writes=to is not None), typed.temperature)
     if to is None:
         show_material(shown, output, page)
     else:

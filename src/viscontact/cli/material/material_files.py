@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.tables import Table, is_spreadsheet, read_table, read_text
+from viscontact.units.parsing import parse_quantity
 
 _CASE_SUFFIXES = (".yaml", ".yml", ".toml")
 _CARD_SUFFIXES = (".inp", ".mac", ".cdb", ".ans", ".apdl", ".mpl", ".k", ".key", ".dyn")
@@ -38,6 +39,7 @@ class MaterialOptions:
     time_unit: str | None = None
     temperature_unit: str | None = None
     name: str | None = None
+    temperature: str | None = None
 
     def given(self, *keys: str) -> dict[str, Any]:
         """Return the given ones of these options, by their keys."""
@@ -66,6 +68,27 @@ def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -
         return MaterialDisplay(which, read_material(path))
     except CaseError as error:
         refuse(*error.problems)
+
+
+def at_temperature(shown: MaterialDisplay, given: str | None) -> MaterialDisplay:
+    """Return a material at a temperature, as typed; unchanged without one."""
+    if given is None:
+        return shown
+    try:
+        wanted = parse_quantity(given, "temperature")
+    except ValueError as error:
+        refuse(f"--temperature: {error}")
+    if shown.material.shift is None:
+        refuse(
+            f"--temperature: {shown.name} has no shift, which says how its times change with "
+            "temperature; give it one in a case file, e.g. 'shift: {kind: wlf, "
+            "reference_temperature: 25 degC, c1: 17.44, c2: 51.6 K}'"
+        )
+    try:
+        material = shown.material.at(wanted)
+    except ValueError as error:
+        refuse(f"--temperature: {str(error).removeprefix('temperature: ')}")
+    return replace(shown, material=material, shift=material.shift)
 
 
 def _refuse_unknown(which: str, path: Path) -> None:

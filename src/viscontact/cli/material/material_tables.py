@@ -71,8 +71,12 @@ def _print_about(shown: MaterialDisplay) -> None:
     """Print the further contents of a file."""
     if shown.card_name:
         put(f"  material      {shown.card_name}")
-    if shown.shift is not None:
-        put(f"  temperature   {_shift(shown.shift)}")
+    shift, ageing = shown.shift or shown.material.shift, shown.material.ageing
+    if shift is not None:
+        put(f"  temperature   {_shift(shift)}")
+    if ageing is not None:
+        age = format_quantity(ageing.age, "s", 3)
+        put(f"  ageing        age {age} at first, exponent {ageing.exponent:g}")
     measured = shown.measured
     if measured is not None:
         put(f"  range         {' to '.join(format_quantity(t, 's') for t in measured)}")
@@ -86,7 +90,7 @@ def _shift(shift: Shift) -> str:
     elif isinstance(shift, Arrhenius):
         rule = f"Arrhenius, {shift.activation_energy / 1e3:.6g} kJ/mol"
     else:
-        rule = type(shift).__name__
+        rule = "a table of factors"
     reference = getattr(shift, "reference_temperature", None)
     at = "" if reference is None else f"{in_celsius(reference):.6g} °C; "
     return f"{at}times shift by {rule}"
