@@ -164,6 +164,7 @@ BENCHMARKS = {
     "steady": "steady.py",
     "layers": "layers.py",
     "error-bars": "error_bars.py",
+    "temperature": "temperature.py",
     "indentation-intervals": "indentation_intervals.py",
 }
 

@@ -87,6 +87,7 @@ class Case(DisplayableGroup, Problem):
             "material": self.material,
             "indenter material": self.indenter_material or "rigid",
             "load": self.load,
+            **({} if self.temperature is None else {"temperature": self.temperature}),
             "grid": self.grid or "automatic",
             **_format_rows(self),
             "tolerance": f"{self.tolerance:g}",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -70,7 +69,8 @@ def _hint(name: str, given: object) -> str:
     return ""
 
 
-class DataTimes(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class DataTimes:
     """Times between which the law of a body rests on data, on the clock of its creep."""
 
     first: float  # reduced time since a load came [s]; 0 for formulas
@@ -78,7 +78,7 @@ class DataTimes(NamedTuple):
     clock: Clock
     whose: str
 
-    @property
+    @cached_property
     def until(self) -> float:
         """Time of a run at which the data end [s]."""
         return self.clock.time_at(self.last)

@@ -47,9 +47,10 @@ def early_warnings(
     measured: Sequence[DataTimes], load: LoadHistory, time: float, side: str = "right"
 ) -> dict[str, str]:
     """Warn of a time so soon after the load that the first data miss the creep."""
-    data = max(measured, key=lambda each: time - each.latest_before(time))
-    if data.first <= 0:
+    late = [each for each in measured if each.first > 0]
+    if not late:
         return {}
+    data = max(late, key=lambda each: time - each.latest_before(time))
     begin = data.latest_before(time)
     before = float(load.level_at(begin)) if begin >= 0 else 0.0
     came = abs(float(load.level_at(time, side=side)) - before)

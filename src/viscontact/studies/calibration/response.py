@@ -147,6 +147,7 @@ def _problem(
         *(case.indenter, case.material, load, cells, instants, case.indenter_material),
         tolerance=case.tolerance,
         kept=NO_FIELDS,
+        temperature=case.temperature,
     )
 
 

@@ -45,7 +45,7 @@ class LoadedRoller:
     def arguments(self, profile: Profile | None = None) -> dict[str, Any]:
         """Arguments of `simulate`, with another profile if one is given."""
         names = ("material", "load", "grid", "times", "indenter_material", "tolerance", "errors")
-        found = {name: getattr(self.case, name) for name in names}
+        found = {name: getattr(self.case, name) for name in (*names, "temperature")}
         return {**found, "indenter": self.roller if profile is None else self.with_profile(profile)}
 
     def certifying(self, profile: Profile | None, grid: Grid) -> dict[str, Any]:
