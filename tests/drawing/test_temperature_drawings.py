@@ -46,6 +46,7 @@ def test_temperature_is_on_an_axis_of_its_own(warmed: xr.Dataset) -> None:
     at_jump = aside.curve.y[aside.curve.x == 4.0]
     assert at_jump.tolist() == close_to([303.15, 283.15])
     assert history_panel({"": warmed}, "temperature").aside is None
+    assert history_panel({"": warmed}, "force").aside is None  # prescribed
     assert history_panel({"one": warmed, "two": warmed}, "approach").aside is None
     assert history_panel({"": run(303.15)}, "approach").aside is None
     assert history_panel({"": run(None)}, "approach").aside is None

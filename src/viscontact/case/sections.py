@@ -45,7 +45,6 @@ class CaseFile(Section):
         default=None,
         description="temperature of all bodies, constant or over time, to which the shifts of "
         "their materials take the laws; laws are used as they are when left out",
-        examples=["40 degC", {"points": [["0 s", "23 degC"], ["2 h", "60 degC"]]}],
     )
     motion: AnyMotion | None = Field(
         default=None, description="motion of the body over the surface; at rest when left out"

@@ -142,13 +142,13 @@ def history_panel(
         note=_note(each, name),
         in_place="" if is_drawn else NOT_DRAWN,
         name=name,
-        aside=_temperature(each[0]) if len(each) == 1 and name not in OF_CLOCKS else None,
+        aside=_temperature(each[0], name) if len(each) == 1 else None,
     )
 
 
-def _temperature(run: xr.Dataset) -> Aside | None:
-    """Temperature of a run over its time, if it varies."""
-    if not run_axis(run).is_history:
+def _temperature(run: xr.Dataset, name: str) -> Aside | None:
+    """Temperature of a run over its time beside a scalar that answers it, if it varies."""
+    if not run_axis(run).is_history or name in OF_CLOCKS or is_prescribed(run, name):
         return None
     return temperature_aside(recorded_temperature(run), float(run["time"].values[-1]))
 

@@ -51,6 +51,7 @@ def _axis_aside(panel: Panel, look: Look) -> Part:
     axis, colour = panel.aside.axis, look.colour(panel.aside.curve.ink)
     limits = {} if axis.limits is None else {"range": axis.unit(axis.limits).tolist()}
     own = {"overlaying": "y", "side": "right", "showgrid": False, "color": colour}
+    own |= {"tickmode": "auto", "nticks": 6}  # by default at the places of the other axis
     return {"yaxis2": {**own, **limits, "title": {"text": axis.label}}}
 
 
