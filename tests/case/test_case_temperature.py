@@ -152,7 +152,7 @@ def test_form_has_the_longest_spelling(tmp_path: Path) -> None:
         ("40", "temperature: 40 has no unit"),
         (40, "temperature: 40 has no unit"),
         ("-300 degC", "temperature: must be more than zero"),
-        ([1], "temperature: cannot read [1] as a temperature; write e.g. '40 degC'"),
+        ([1], "temperature: cannot read [1] as a temperature; write e.g. '25 degC'"),
         ({}, "temperature: give points (e.g."),
         ({"points": []}, "temperature.points: is empty"),
         ({"points": [["0 s", "20 mm"]]}, "temperature.points[1][2]: cannot read '20 mm'"),
