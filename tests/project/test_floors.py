@@ -59,7 +59,7 @@ OTHERS = {
     "plotly": "drawing/plotly", "typst": "report",
     "typer": "cli", "click": "cli", "rich": "cli",
     "distributed": "cli", "ezdxf": "studies",
-    "fastapi": "web", "starlette": "web", "uvicorn": "web",
+    "fastapi": "web", "starlette": "web", "uvicorn": "web", "h11": "web",
 }  # fmt: skip
 # The only file that may import it.
 ONLY_IN = {"pint": "units/parsing.py"}

@@ -38,9 +38,11 @@ LONG_CASE = CASE.replace("steps: 4", "steps: 4000").replace("5 s]}", "5 s], erro
 
 
 @contextmanager
-def asking(folder: Path, at_once: int = 2, *, keeps_spare: bool = False) -> Iterator[TestClient]:
-    """Ask a page that keeps its runs in a folder."""
-    app = new_app(Calculator(Folder(folder), at_once, keeps_spare=keeps_spare))
+def asking(
+    folder: Path, at_once: int = 2, *, keeps_spare: bool = False, token: str = ""
+) -> Iterator[TestClient]:
+    """Ask a page that keeps its runs in a folder; without a token, it asks for none."""
+    app = new_app(Calculator(Folder(folder), at_once, keeps_spare=keeps_spare), token)
     with TestClient(app, base_url=HOST) as client:
         yield client
 

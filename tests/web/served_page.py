@@ -15,6 +15,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
+from urllib.request import Request, urlopen
+
+from viscontact.web.access import TOKEN_NAME
 
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 BROWSER = next(filter(None, map(shutil.which, _BROWSERS)), None)
@@ -29,8 +32,23 @@ class Server:
     process: subprocess.Popen[str] | None = None
 
     @property
-    def address(self) -> str:
+    def page(self) -> str:
         return f"http://127.0.0.1:{self.port}/"
+
+    @property
+    def token(self) -> str:
+        return (self.folder / TOKEN_NAME).read_text(encoding="utf-8").strip()
+
+    @property
+    def address(self) -> str:
+        """The address that it prints."""
+        return f"{self.page}?token={self.token}"
+
+    def ask(self, path: str) -> Any:
+        """Answer to a request of a program."""
+        asked = Request(f"{self.page}{path}", headers={"Authorization": f"token {self.token}"})
+        with urlopen(asked) as answer:
+            return json.load(answer)
 
     def start(self) -> None:
         command = [sys.executable, "-m", "viscontact", "serve", "--no-open"]

@@ -9,7 +9,6 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
-from urllib.request import urlopen
 
 import pytest
 
@@ -70,8 +69,7 @@ def answered(server: seen.Server, firefox: Firefox, button: str) -> dict[str, An
         f"document.documentElement.dataset.drawn !== {json.dumps(before)}"
         " && document.documentElement.dataset.drawn"
     )
-    with urlopen(f"{server.address}api/runs/{run}") as answer:
-        found: dict[str, Any] = json.load(answer)
+    found: dict[str, Any] = server.ask(f"api/runs/{run}")
     return found
 
 
@@ -117,3 +115,17 @@ def test_a_mistake_is_shown_beside_its_field(firefox: Firefox) -> None:
     field = "document.querySelector('[id=\"field-load.force\"]')"
     firefox.until(f"{field}.getAttribute('aria-invalid') === 'true'")
     assert firefox.faults() == []
+
+
+def test_the_token_opens_the_page_once_and_a_refusal_is_explained(
+    server: seen.Server, firefox: Firefox
+) -> None:
+    assert firefox.script("return location.search + document.cookie") == ""
+    firefox.tell("WebDriver:Navigate", url=f"{server.page}?token=wrong")
+    firefox.until("'ready' in document.documentElement.dataset")  # the cookie is still valid
+    firefox.tell("WebDriver:DeleteAllCookies")
+    firefox.tell("WebDriver:Navigate", url=server.page)
+    text = firefox.script("return document.body.innerText")
+    assert "open the address that viscontact serve has printed" in text
+    firefox.tell("WebDriver:Navigate", url=server.address)
+    firefox.until("'ready' in document.documentElement.dataset")

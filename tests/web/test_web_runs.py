@@ -428,8 +428,9 @@ class Served:
             text=True,
         )
         assert self.process.stdout is not None
-        address = self.process.stdout.readline().split()[0]
-        self.client = httpx.Client(base_url=address, timeout=60)
+        page, _, token = self.process.stdout.readline().split()[0].partition("?token=")
+        words = {"authorization": f"token {token}"}
+        self.client = httpx.Client(base_url=page, timeout=60, headers=words)
 
     def end(self, number: int) -> tuple[int, str]:
         """Send it a signal, and return its exit code and what it said."""

@@ -10,12 +10,14 @@ from pathlib import Path
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import FileResponse, JSONResponse
+from fastapi.responses import FileResponse, JSONResponse, Response
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp
 
 from viscontact.case.data_file import is_plain_name
 from viscontact.results.damage import DamagedFileError
+from viscontact.web.access import Access
 from viscontact.web.calculator import Calculator
 from viscontact.web.guard import Guard
 from viscontact.web.routes import case_routes, run_routes
@@ -42,8 +44,8 @@ _PLOTLY = "plotly.min.js"
 _LINKED = "linked.js"
 
 
-def new_app(calculator: Calculator) -> ASGIApp:
-    """Return the application of a calculator."""
+def new_app(calculator: Calculator, token: str = "") -> ASGIApp:
+    """Return the application of a calculator; with a token, it answers only who has that."""
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -55,13 +57,14 @@ def new_app(calculator: Calculator) -> ASGIApp:
             task.cancel()
             with suppress(asyncio.CancelledError):
                 await task
-        await calculator.do(calculator.queue.close)  # after what the thread still does
+        await calculator.close()
 
     # No documentation pages, as they would load scripts from other sites.
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.calculator = calculator
     app.add_exception_handler(RequestError, _answer_refusal)
     app.add_exception_handler(DamagedFileError, _answer_damage)
+    app.add_exception_handler(ClientDisconnect, _answer_disconnected)
     app.add_exception_handler(RequestValidationError, _answer_invalid)
     app.add_exception_handler(HTTPException, _answer_unknown)
     app.add_exception_handler(Exception, _failed)
@@ -70,7 +73,7 @@ def new_app(calculator: Calculator) -> ASGIApp:
     app.add_api_route("/", _page)
     app.add_api_route("/static/{name}", _static)
     # Outermost, as answers to errors are made outside of added middleware.
-    return Guard(app)
+    return Guard(app, Access(token))
 
 
 def _page() -> FileResponse:
@@ -91,7 +94,14 @@ def _static(name: str) -> FileResponse:
 
 def _answer_refusal(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestError)
-    return JSONResponse(error.body, error.status)
+    later = error.retry_after
+    headers = None if later is None else {"retry-after": str(later)}
+    return JSONResponse(error.body, error.status, headers)
+
+
+def _answer_disconnected(request: Request, error: Exception) -> Response:
+    """End a request whose client has gone before it was whole."""
+    return Response(status_code=400)
 
 
 def _answer_damage(request: Request, error: Exception) -> JSONResponse:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time as clock
 from collections.abc import AsyncIterator, Callable
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
+from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, TypeVar
+from typing import Any, Concatenate, ParamSpec, TypeAlias, TypeVar
 from weakref import WeakKeyDictionary
 
 from starlette.requests import Request
@@ -25,7 +27,9 @@ from viscontact.results.netcdf import open_results, save
 from viscontact.results.summary import summary_rows
 from viscontact.runs.single import simulate
 from viscontact.units.systems import AUTOMATIC
+from viscontact.web.cases.case_process import CaseProcess
 from viscontact.web.cases.case_reader import CaseReader
+from viscontact.web.lane import Lane
 from viscontact.web.runs.queue import RunQueue
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.runs.run_figures import look_of, run_figures
@@ -33,7 +37,9 @@ from viscontact.web.runs.status import result_summary, status_of
 from viscontact.web.workspace.folder import Folder
 from viscontact.web.workspace.problems import RequestError
 
+P = ParamSpec("P")
 T = TypeVar("T")
+_Summary: TypeAlias = "asyncio.Future[dict[str, Any] | None]"
 
 #: Time between two checks of the runs, the same while none is active, and between two events [s].
 POLL_INTERVAL, IDLE_INTERVAL, EVENT_INTERVAL = 0.03, 0.1, 0.2
@@ -41,8 +47,8 @@ POLL_INTERVAL, IDLE_INTERVAL, EVENT_INTERVAL = 0.03, 0.1, 0.2
 _FIRST_USE = 1.0
 #: Number of events without a change after which a line is sent, to keep the connection open.
 _QUIET = 75
-#: Status code for a client that has closed the connection.
-_GONE = 499
+#: Time in which active runs finish their steps when the server ends; then they are killed [s].
+SAVING_TIME = 2.5
 
 
 class Calculator:
@@ -52,30 +58,72 @@ class Calculator:
         self.folder, self.cases = folder, CaseReader(folder)
         self.queue = RunQueue(folder, at_once, keeps_spare=keeps_spare)
         self.is_to_end, self._is_awaited = False, keeps_spare
-        self._turn, self._thread = asyncio.Lock(), ThreadPoolExecutor(1)
-        # Summaries of results; an entry is dropped with its run.
-        self._summaries: WeakKeyDictionary[ManagedRun, tuple[str, dict[str, Any]]] = (
-            WeakKeyDictionary()
-        )
+        self._end_at: float | None = None
+        self._results = Lane()
+        # A process of its own for cases: they are computed with, and libraries of many formats read
+        # their files. Without it, they are read in the thread for results, as HDF5 is not
+        # thread-safe.
+        self._process = CaseProcess(folder) if keeps_spare else None
+        self._about_cases = Lane() if keeps_spare else self._results
+        # Summaries of results as tasks; an entry is dropped with its run.
+        self._summaries: WeakKeyDictionary[ManagedRun, tuple[str, _Summary]] = WeakKeyDictionary()
 
     async def do(self, task: Callable[[], T], request: Request | None = None) -> T:
-        """Call a heavy task in the only thread for these, as HDF5 is not thread-safe."""
-        async with self._turn:
-            if request is not None and await request.is_disconnected():
-                raise RequestError(_GONE, "the client has closed the connection")
-            return await asyncio.get_running_loop().run_in_executor(self._thread, task)
+        """Call a heavy task about results in the only thread for these."""
+        return await self._results.do(task, request)
 
-    async def status(self, run: ManagedRun) -> dict[str, Any]:
-        """Return the status of a run, with a summary of its result once it is over."""
+    async def about_case(
+        self,
+        request: Request | None,
+        task: Callable[Concatenate[CaseReader, P], T],
+        *arguments: P.args,
+        **named: P.kwargs,
+    ) -> T:
+        """Call a function of a module with the reader of cases, while the server answers others."""
+        if self._process is None:
+            whole = partial(task, self.cases, *arguments, **named)
+        else:
+            whole = partial(self._process.do, task, *arguments, **named)
+        return await self._about_cases.do(whole, request)
+
+    @property
+    def is_busy(self) -> bool:
+        """True while the thread for results does a task."""
+        return self._results.is_busy
+
+    async def close(self) -> None:
+        """Let the active runs save, or end them after a time; wait for no task any more."""
+        self._begin_end()
+        while (self.queue.has_processes or self.is_busy) and not self._is_late():
+            await asyncio.sleep(POLL_INTERVAL)
+            self.queue.poll()
+        self.queue.close()
+
+    def _begin_end(self) -> None:
+        self.queue.end()
+        if self._end_at is None:
+            self._end_at = clock.monotonic() + SAVING_TIME
+            for lane in (self._results, self._about_cases):
+                lane.end()
+            if self._process is not None:
+                self._process.close()
+
+    def _is_late(self) -> bool:
+        return self._end_at is not None and clock.monotonic() > self._end_at
+
+    async def status(self, run: ManagedRun, patience: float | None = None) -> dict[str, Any]:
+        """Return the status of a run; after `patience` [s] without the summary of its result."""
         if not run.is_over:
-            return status_of(run, {})
+            return status_of(run)
         key = f"{run.entry.state} {run.course.instants} {__version__}"
         if self._summaries.get(run, ("",))[0] != key:
-            self._summaries[run] = key, await self._summary(run, key)
-        return status_of(run, self._summaries[run][1])
+            self._summaries[run] = key, asyncio.ensure_future(self._summary(run, key))
+        reading = self._summaries[run][1]
+        await asyncio.wait({reading}, timeout=patience)
+        return status_of(run, reading.result() if reading.done() else None)
 
-    async def _summary(self, run: ManagedRun, key: str) -> dict[str, Any]:
-        """Summary of the result of a run that is over, read once."""
+    async def _summary(self, run: ManagedRun, key: str) -> dict[str, Any] | None:
+        """Summary of the result of a run that is over, read once; None if it was not read."""
         kept = self.folder.summary(run.name, key)
         if kept is not None:
             return kept
@@ -83,6 +131,9 @@ class Calculator:
             found = await self.do(lambda: result_summary(run.directory))
         except (OSError, ValueError, KeyError):
             return {}
+        except RequestError:  # the server ends, or has too much to do
+            self._summaries.pop(run, None)
+            return None
         with suppress(OSError):  # a full disk
             self.folder.keep_summary(run.name, key, found)
         return found
@@ -99,7 +150,7 @@ class Calculator:
                 yield f"data: {status}\n\n"
             elif quiet % _QUIET == 0:
                 yield ": keep-alive\n\n"
-            if is_last:
+            if is_last or self._is_late():
                 return
             before = status
             # A new stage is sent at once: the values of a run are known, or it has ended.
@@ -113,15 +164,22 @@ class Calculator:
         await asyncio.sleep(_FIRST_USE)
         if self._is_awaited and not self.queue.is_at_work:
             with suppress(Exception):  # the answer itself will say what is wrong
-                await self.do(_use_first)
+                checking = self.about_case(None, CaseReader.check, _first_case(), "full")
+                await asyncio.gather(self.do(_use_first), checking)
 
     async def poll_runs(self) -> None:
         """Start and check runs until cancelled."""
         while True:
             if self.is_to_end:
-                self.queue.end()
+                self._begin_end()
+            if self._is_late():
+                self.queue.close()
             self.queue.poll()
             await asyncio.sleep(POLL_INTERVAL if self.queue.is_at_work else IDLE_INTERVAL)
+
+
+def _first_case() -> str:
+    return (files("viscontact.case.examples") / "sphere-zener.yaml").read_text(encoding="utf-8")
 
 
 def _use_first() -> None:

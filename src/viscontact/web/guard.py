@@ -1,16 +1,18 @@
-"""Access control: only pages of this server, on this machine, with limited request sizes."""
+"""Access control: who has the token, on pages of this server, with limited request sizes."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from urllib.parse import urlsplit
 
+from starlette.requests import HTTPConnection
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from viscontact.web.access import Access, refusal_page
 
 #: Names of this machine. Another name in `Host` belongs to another site whose address was
 #: redirected to this machine (DNS rebinding).
-LOOPBACK = ("127.0.0.1", "localhost", "::1")
+LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
 #: Largest size of a request [bytes]: a case as JSON, and a file of measurements.
 MOST_JSON, MOST_FILE = 3_000_000, 64_000_000
@@ -40,68 +42,88 @@ _HEADERS = {
 class Guard:
     """Middleware that refuses foreign or too large requests and adds security headers."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
+    def __init__(self, app: ASGIApp, access: Access) -> None:
+        self._app, self._access = app, access
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        headers = {
-            name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]
-        }
-        if refusal := _refusal(scope["method"], scope["path"], headers):
-            await _refuse(_marking(send), *refusal)
-        else:
-            await self._app(scope, receive, _marking(send))
+        connection = HTTPConnection(scope)
+        refusal = _foreign(connection) or self._without_token(connection) or _too_large(connection)
+        if refusal:
+            await _refuse(connection, _marking(send), *refusal)
+            return
+        cookie = self._access.cookie(connection) if self._access.is_entry(connection) else None
+        await self._app(scope, receive, _marking(send, cookie))
+
+    def _without_token(self, connection: HTTPConnection) -> tuple[int, str] | None:
+        if self._access.is_granted(connection):
+            return None
+        return 401, (
+            "this server asks for its token: open the address that viscontact serve has printed; "
+            "a program sends the header 'Authorization: token ...'"
+        )
 
 
-def _refusal(method: str, path: str, headers: dict[str, str]) -> tuple[int, str] | None:
-    """Status code and reason for refusing a request; None if it is allowed."""
-    host = headers.get("host", "")
-    if _name(f"//{host}") not in LOOPBACK:
-        return 403, f"this server answers to {', '.join(LOOPBACK)} only, and was called {host!r}"
+def _foreign(connection: HTTPConnection) -> tuple[int, str] | None:
+    """Status code and reason for refusing a request of another site; None if it is none."""
+    headers, path = connection.headers, connection.scope["path"]
+    host, port = headers.get("host", ""), connection.scope["server"][1]
+    known = [f"{name}:{port}" for name in LOOPBACK]
+    if host not in known and not (port == 80 and host in LOOPBACK):  # which browsers leave out
+        return 403, f"this server answers to {' or '.join(known)} only, and was called {host!r}"
     origin = headers.get("origin")
     if origin is not None and origin != f"http://{host}":
         return 403, f"a page of {origin} may not use this server"
     # A link to this page that the user clicked is no request of another page.
-    is_visit = method == "GET" and headers.get("sec-fetch-mode") == "navigate" and path == "/"
+    is_visit = (
+        connection.scope["method"] == "GET"
+        and headers.get("sec-fetch-mode") == "navigate"
+        and path == "/"
+    )
     if headers.get("sec-fetch-site", "none") not in ("none", "same-origin") and not is_visit:
         return 403, "another page may not use this server"
+    return None
+
+
+def _too_large(connection: HTTPConnection) -> tuple[int, str] | None:
+    """Status code and reason for refusing the size of a request; None if it is allowed."""
+    headers = connection.headers
     if "transfer-encoding" in headers:  # it overrides Content-Length
         return 411, "send a Content-Length instead of a chunked body"
-    size, most = (
-        headers.get("content-length", "0"),
-        MOST_FILE if path == "/api/files" else MOST_JSON,
-    )
+    size = headers.get("content-length", "0")
+    most = MOST_FILE if connection.scope["path"] == "/api/files" else MOST_JSON
     if not size.isdecimal() or len(size) > 20 or int(size) > most:
         return 413, f"the request is too large: at most {most // 1_000_000} MB can be sent"
     return None
 
 
-def _name(address: str) -> str | None:
-    try:
-        return urlsplit(address).hostname
-    except ValueError:
-        return None
-
-
-async def _refuse(send: Send, status: int, why: str) -> None:
-    body = json.dumps({"problems": [{"message": why, "path": "", "line": None}]}).encode()
-    headers = [(b"content-type", b"application/json"), (b"content-length", b"%d" % len(body))]
+async def _refuse(connection: HTTPConnection, send: Send, status: int, why: str) -> None:
+    if "text/html" in connection.headers.get("accept", ""):
+        kind, body = b"text/html; charset=utf-8", refusal_page(why, lacks_token=status == 401)
+    else:
+        kind = b"application/json"
+        body = json.dumps({"problems": [{"message": why, "path": "", "line": None}]})
+    content = body.encode()
+    headers = [(b"content-type", kind), (b"content-length", b"%d" % len(content))]
+    if status == 401:
+        headers.append((b"www-authenticate", b'Bearer realm="viscontact"'))
     await send({"type": "http.response.start", "status": status, "headers": headers})
-    await send({"type": "http.response.body", "body": body})
+    await send({"type": "http.response.body", "body": content})
 
 
-def _marking(send: Send) -> Send:
-    """Add the security headers to answers."""
+def _marking(send: Send, cookie: str | None = None) -> Send:
+    """Add the security headers to answers, and a cookie."""
 
     async def marked(message: Message) -> None:
         if message["type"] == "http.response.start":
             given: list[tuple[bytes, bytes]] = list(message["headers"])
             names = {name.lower() for name, _ in given}
             own = {**_HEADERS, "content-security-policy": _policy(given)}
+            if cookie is not None:
+                given.append((b"set-cookie", cookie.encode()))
             missing = ((k.encode(), v.encode()) for k, v in own.items() if k.encode() not in names)
             message = {**message, "headers": [*given, *missing]}
         await send(message)

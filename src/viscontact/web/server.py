@@ -7,16 +7,21 @@ import socket
 import threading
 import time as clock
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import ExitStack, closing
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import uvicorn
 
 from viscontact.runs.directory.lock import locked
+from viscontact.web.access import kept_token, open_page
 from viscontact.web.app import new_app
 from viscontact.web.calculator import IDLE_INTERVAL, Calculator
+from viscontact.web.connections import LimitedConnection
 from viscontact.web.runs.queue import usual_at_once
 from viscontact.web.workspace.folder import Folder, usual_folder
+from viscontact.web.workspace.privacy import owner_only
 
 HOST = "127.0.0.1"
 
@@ -24,7 +29,7 @@ HOST = "127.0.0.1"
 USUAL_PORTS = range(8377, 8387)
 
 #: Time for unfinished answers when the server ends [s].
-_LAST_ANSWERS = 5
+_LAST_ANSWERS = 4
 
 
 class PortError(Exception):
@@ -43,25 +48,41 @@ def listening(port: int | None) -> socket.socket:
     return _bound(0)
 
 
-def address_of(listener: socket.socket) -> str:
-    """Return the address to type into a browser."""
-    return f"http://{HOST}:{listener.getsockname()[1]}/"
+@dataclass(frozen=True)
+class Service:
+    """Server of a folder: its socket, its number of runs at the same time, its need of a token."""
+
+    path: Path
+    listener: socket.socket
+    at_once: int | None = None
+    needs_token: bool = True
+
+    def address(self, token: str) -> str:
+        """Return the address to type into a browser."""
+        page = f"http://{HOST}:{self.listener.getsockname()[1]}/"
+        return f"{page}?token={token}" if token else page
 
 
 def serve(
-    path: Path,
-    listener: socket.socket,
-    at_once: int | None,
-    is_to_stop: Callable[[], bool],
-    on_start: Callable[[], None],
+    service: Service, is_to_stop: Callable[[], bool], on_start: Callable[[str], None]
 ) -> None:
-    """Serve the page until `is_to_stop()`, and until the active runs have saved."""
-    path.mkdir(parents=True, exist_ok=True)
-    with locked(path) as check, closing(listener):
-        calculator = Calculator(Folder(path), at_once or usual_at_once(), keeps_spare=True)
+    """Serve the page until `is_to_stop()`, and until the active runs have saved.
+
+    `on_start` gets the address of the page.
+    """
+    path = service.path
+    with ExitStack() as opened:
+        opened.enter_context(closing(service.listener))
+        opened.enter_context(owner_only())
+        path.mkdir(parents=True, exist_ok=True)
+        check = opened.enter_context(locked(path))
+        folder = Folder(path)
+        token = kept_token(path) if service.needs_token else ""
+        calculator = Calculator(folder, service.at_once or usual_at_once(), keeps_spare=True)
         config = uvicorn.Config(
-            new_app(calculator),
-            log_level="warning",
+            new_app(calculator, token),
+            http=LimitedConnection,
+            log_level="error",  # warnings are about what clients send
             access_log=False,
             server_header=False,
             proxy_headers=False,
@@ -73,7 +94,8 @@ def serve(
             check()  # LockLost, once another server has taken the folder over
             return is_to_stop()
 
-        _run(uvicorn.Server(config), listener, calculator, is_over, on_start)
+        started = partial(on_start, service.address(token))
+        _run(uvicorn.Server(config), service.listener, calculator, is_over, started)
 
 
 def _run(
@@ -113,4 +135,4 @@ def _bound(port: int) -> socket.socket:
     return listener
 
 
-__all__ = ["PortError", "address_of", "listening", "serve", "usual_folder"]
+__all__ = ["PortError", "Service", "listening", "open_page", "serve", "usual_folder"]

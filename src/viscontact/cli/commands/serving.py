@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-import webbrowser
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import put, refuse, say
 
-_NEEDED = ("fastapi", "starlette", "uvicorn", "anyio", "matplotlib", "plotly")
+_NO_TOKEN = (
+    "without a token, every user and program of this machine can see, change and delete the runs "
+    "and files"
+)
+_NEEDED = ("fastapi", "starlette", "uvicorn", "h11", "anyio", "matplotlib", "plotly")
 
 
 def serve(
@@ -44,11 +47,20 @@ def serve(
     browser: Annotated[
         bool, typer.Option("--open/--no-open", help="Open the page in the browser.")
     ] = True,
+    no_token: Annotated[
+        bool,
+        typer.Option(
+            "--no-token",
+            help="Ask for no token: every user and program of this machine can then see, change "
+            "and delete runs and files.",
+        ),
+    ] = False,
 ) -> None:
     """Serve the calculator page to this machine only, until Ctrl-C.
 
-    Ctrl-C ends it with exit code 0; active runs finish their step and save first. When the page is
-    served from the same DIR again, they can be continued.
+    The printed address contains a token; only who has it can use the page. Ctrl-C ends it with
+    exit code 0; active runs finish their step and save first. When the page is served from the same
+    DIR again, they can be continued.
     """
     with watched_interruption() as interruption:
         with interruption.postponed():
@@ -56,17 +68,20 @@ def serve(
         folder = directory or server.usual_folder()
         with _refusing(port, folder):
             listener = server.listening(port)
-        address = server.address_of(listener)
 
-        def announce() -> None:
+        def announce(address: str) -> None:
             put(f"{address}  (Ctrl-C ends it; runs and files are in {folder})", flush=True)
+            if no_token:
+                say(_NO_TOKEN)
             if browser and _has_display():
-                webbrowser.open(address)
+                server.open_page(folder, address)
 
+        service = server.Service(folder, listener, jobs, needs_token=not no_token)
         with _refusing(port, folder), interruption.marching(), suppress(KeyboardInterrupt):
-            server.serve(folder, listener, jobs, lambda: interruption.requested, announce)
+            server.serve(service, lambda: interruption.requested, announce)
         interruption.over = True
         say("ended")
+        _end_at_once()
 
 
 @contextmanager
@@ -85,6 +100,14 @@ def _refusing(port: int | None, folder: Path) -> Iterator[None]:
         # The message of the lock names an option of `run`.
         cause = error.__cause__ if isinstance(error.__cause__, OSError) else error
         refuse(f"{folder}: cannot be used: {cause.strerror or cause}; choose another --dir DIR")
+
+
+def _end_at_once() -> NoReturn:
+    """End the process: Python would wait for its threads, and tear down all that was imported."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(0)
 
 
 def _server() -> Any:

@@ -80,7 +80,7 @@ class Child:
     def __init__(self, job: Job, spare: RunProcess | None = None) -> None:
         self.job = job
         self.course = RunProgress(job)
-        self._stopping = False
+        self._stopping = self._killed = False
         words = list(replace(job.request, output=job.directory, quiet=True).words())
         if spare is not None and not spare.begin(words):
             spare.close()
@@ -96,6 +96,11 @@ class Child:
         # reached the process too, it counts as one request.
         self._stopping = True
         self._run.end_input()
+
+    def kill(self) -> None:
+        """End the process at once: what it has saved remains."""
+        self._stopping = self._killed = True
+        self._run.process.kill()
 
     def ended(self) -> Ended | None:
         """Return how the run has ended; None while it continues."""
@@ -114,7 +119,8 @@ class Child:
             return Ended(self.job, "done", DONE)
         # Until the process handles signals, they end it at once.
         by_request = {INTERRUPTED, -signal.SIGINT, -signal.SIGTERM}
-        if code == INTERRUPTED or (self._stopping and code in by_request):
+        is_requested = self._killed or (self._stopping and code in by_request)
+        if code == INTERRUPTED or is_requested:
             return Ended(self.job, "interrupted", INTERRUPTED)
         if code < 0:
             why = f"{self.job.directory}: the run was killed by signal {-code}"

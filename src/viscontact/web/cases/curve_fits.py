@@ -32,7 +32,7 @@ from viscontact.identification.instrument_curves import is_instrument_file, spli
 from viscontact.tables import Table, read_table, split_sheet
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity
-from viscontact.web.cases.case_reader import form_values
+from viscontact.web.cases.case_reader import CaseReader, form_values
 from viscontact.web.workspace.problems import InputProblem, RequestError, without_folder
 
 #: Tips by their names, with the dimension of their size.
@@ -87,6 +87,11 @@ def fitted_curve(request: CurveFitRequest, folder: Path, look: Look) -> dict[str
         "yaml": section,
         "material": form_values(section, folder)["material"],
     }
+
+
+def fit_of_upload(cases: CaseReader, request: CurveFitRequest, look: Look) -> dict[str, Any]:
+    """Return the fit to a file that cases may name."""
+    return fitted_curve(request, cases.folder.case.parent, look)
 
 
 def _quantities(request: CurveFitRequest) -> dict[str, float | None]:

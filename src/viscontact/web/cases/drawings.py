@@ -26,6 +26,7 @@ from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.web.cases.case_reader import CaseReader
+from viscontact.web.workspace.pictures import PictureChoice, picture
 from viscontact.web.workspace.problems import RequestError, case_problems
 
 
@@ -48,6 +49,18 @@ def drawings(
         if alone is None:
             raise
         return [Captioned(alone)]
+
+
+def drawn_as_svg(
+    cases: CaseReader, text: str, choice: PictureChoice, width: Width | None
+) -> list[dict[str, str]]:
+    """Draw a part of a case, as captions and SVG; empty where there is a caption only."""
+    found = drawings(cases, text, choice.name, width)
+    return [{"caption": each.caption, "svg": _svg(each, choice)} for each in found]
+
+
+def _svg(drawn: Captioned, choice: PictureChoice) -> str:
+    return "" if drawn.figure is None else picture(drawn.figure, choice).decode()
 
 
 def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> list[Captioned]:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel
 
 from viscontact import __version__
@@ -24,12 +25,12 @@ from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import unit_ladder
 from viscontact.units.systems import AUTOMATIC, SYSTEM_NAMES, SYSTEMS
 from viscontact.web.calculator import Calculator
-from viscontact.web.cases.case_reader import filled, form_values
-from viscontact.web.cases.curve_fits import CurveFitRequest, fitted_curve
-from viscontact.web.cases.drawings import Captioned, drawings
+from viscontact.web.cases.case_reader import CaseReader, filled, form_values
+from viscontact.web.cases.curve_fits import CurveFitRequest, fit_of_upload
+from viscontact.web.cases.drawings import drawn_as_svg
 from viscontact.web.runs.run_figures import look_of
 from viscontact.web.workspace.naming import suggested_title
-from viscontact.web.workspace.pictures import PictureChoice, picture
+from viscontact.web.workspace.pictures import PictureChoice
 from viscontact.web.workspace.problems import RequestError
 
 router = APIRouter(prefix="/api")
@@ -165,7 +166,7 @@ def as_values(body: CaseText, calculator: AppCalculator) -> dict[str, Any]:
 @router.post("/check")
 async def check(body: CaseText, calculator: AppCalculator, request: Request) -> dict[str, Any]:
     """Check a case."""
-    return await calculator.do(lambda: calculator.cases.check(body.yaml, body.quality), request)
+    return await calculator.about_case(request, CaseReader.check, body.yaml, body.quality)
 
 
 @router.post("/drawing")
@@ -175,16 +176,7 @@ async def draw(
     """Draw a part of a case: figures as SVG, empty where there is a caption only."""
     choice = PictureChoice(body.what, is_dark=body.dark)
     width: Width | None = "single" if body.narrow else None
-
-    def made() -> list[dict[str, str]]:
-        found = drawings(calculator.cases, body.yaml, body.what, width)
-        return [{"caption": each.caption, "svg": _svg(each, choice)} for each in found]
-
-    return await calculator.do(made, request)
-
-
-def _svg(drawn: Captioned, choice: PictureChoice) -> str:
-    return "" if drawn.figure is None else picture(drawn.figure, choice).decode()
+    return await calculator.about_case(request, drawn_as_svg, body.yaml, choice, width)
 
 
 @router.post("/fit")
@@ -193,8 +185,8 @@ async def fit(
     dark: bool = False, units: str = AUTOMATIC,
 ) -> Response:  # fmt: skip
     """Fit a law to an uploaded force curve or indentation record."""
-    look, folder = look_of(units, dark=dark), calculator.folder.case.parent
-    found = await calculator.do(lambda: fitted_curve(body, folder, look), request)
+    look = look_of(units, dark=dark)
+    found = await calculator.about_case(request, fit_of_upload, body, look)
     return Response(json.dumps(found, allow_nan=False), media_type="application/json")
 
 
@@ -209,9 +201,11 @@ async def put_file(
     calculator: AppCalculator, request: Request, name: Annotated[str, Query(max_length=200)]
 ) -> dict[str, Any]:
     """Store a file for cases to read."""
-    content = await request.body()
-    await calculator.do(lambda: calculator.folder.put_file(name, content))
-    return {"name": name, "size": len(content)}
+    with calculator.folder.receiving(name) as upload:
+        async for part in request.stream():
+            upload.write(part)
+        await run_in_threadpool(upload.keep)
+    return {"name": name, "size": upload.size}
 
 
 @router.delete("/files/{name}", status_code=204)

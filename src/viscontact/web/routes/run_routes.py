@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import io
 import json
 from contextlib import ExitStack, suppress
@@ -19,6 +20,7 @@ from viscontact.report.run_data import run_data
 from viscontact.results.history_csv import write_history
 from viscontact.results.run_files import CASE_NAME, RESULT_NAME
 from viscontact.units.systems import AUTOMATIC
+from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.guard import REPORT_POLICY
 from viscontact.web.routes.case_routes import AppCalculator, CaseText
 from viscontact.web.runs.live_scalars import grown
@@ -53,6 +55,8 @@ async def _picture_choice(
 Choice = Annotated[PictureChoice, Depends(_picture_choice)]
 
 _NO_CASE = "the case of this run is no longer in the folder; delete the run here"
+#: Time that an answer about a run waits for the summary of its result [s].
+_PATIENCE = 0.5
 #: Largest number of runs in one figure.
 _MOST_COMPARED = 8
 
@@ -60,7 +64,8 @@ _MOST_COMPARED = 8
 @router.get("/runs")
 async def runs(calculator: AppCalculator) -> list[dict[str, Any]]:
     """Return the status of all runs."""
-    return [await calculator.status(run) for run in calculator.queue.runs]
+    found = [calculator.status(run, _PATIENCE) for run in calculator.queue.runs]
+    return await asyncio.gather(*found)
 
 
 @router.post("/runs", status_code=201)
@@ -69,16 +74,18 @@ async def begin(body: CaseText, calculator: AppCalculator, request: Request) -> 
     if calculator.queue.is_closing:
         raise RequestError(503, "the server is about to end")
     others = [(run.name, run.entry) for run in reversed(calculator.queue.runs)]
-    new = await calculator.do(
-        lambda: calculator.cases.new_run(body.yaml, body.quality, others), request
-    )
-    return await calculator.status(calculator.queue.add(*new))
+    with calculator.queue.place():
+        new = await calculator.about_case(
+            request, CaseReader.new_run, body.yaml, body.quality, others
+        )
+        run = calculator.queue.add(*new)
+    return await calculator.status(run, _PATIENCE)
 
 
 @router.get("/runs/{name}")
 async def status(calculator: AppCalculator, name: str) -> dict[str, Any]:
     """Return the status of a run."""
-    return await calculator.status(calculator.queue.run(name))
+    return await calculator.status(calculator.queue.run(name), _PATIENCE)
 
 
 @router.delete("/runs/{name}", status_code=204)
@@ -92,7 +99,7 @@ async def cancel(calculator: AppCalculator, name: str) -> dict[str, Any]:
     """Stop a run after its current step; its results are kept."""
     run = calculator.queue.run(name)
     calculator.queue.cancel(run)
-    return await calculator.status(run)
+    return await calculator.status(run, _PATIENCE)
 
 
 @router.post("/runs/{name}/resume")
@@ -100,7 +107,7 @@ async def resume(calculator: AppCalculator, name: str) -> dict[str, Any]:
     """Continue a run that stopped early."""
     run = calculator.queue.run(name)
     calculator.queue.resume(run)
-    return await calculator.status(run)
+    return await calculator.status(run, _PATIENCE)
 
 
 @router.get("/runs/{name}/events")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
@@ -19,6 +21,12 @@ _UNDISTURBED = 5.0
 _LEAST_AT_ONCE = 2
 
 
+#: Largest number of runs that wait.
+MOST_WAITING = 50
+#: Time until the next run may begin: if unknown, and at most [s].
+_UNKNOWN_END, _LATEST_END = 10, 600
+
+
 def usual_at_once() -> int:
     """Return the default number of runs at the same time."""
     return max(_LEAST_AT_ONCE, usable_cores() - 1)
@@ -29,7 +37,7 @@ class RunQueue:
 
     def __init__(self, folder: Folder, at_once: int, *, keeps_spare: bool = False) -> None:
         self._folder, self.at_once, self.is_closing = folder, at_once, False
-        self._keeps_spare = keeps_spare
+        self._keeps_spare, self._entering = keeps_spare, 0
         self._spare: RunProcess | None = None
         self._runs = {name: ManagedRun(folder, name, entry) for name, entry in folder.runs()}
         for run in self._runs.values():
@@ -52,6 +60,29 @@ class RunQueue:
             raise RequestError(404, f"there is no run {name[:40]!r}; it may have been removed")
         return run
 
+    @contextmanager
+    def place(self) -> Iterator[None]:
+        """Keep a place for a run that is added within the block; RequestError if too many wait."""
+        waiting = sum(run.entry.state == "waiting" for run in self._runs.values())
+        if waiting + self._entering >= MOST_WAITING:
+            raise RequestError(
+                429,
+                f"{MOST_WAITING} runs are waiting already; wait until one of them has begun, or "
+                "cancel some",
+                retry_after=self._next_end(),
+            )
+        self._entering += 1
+        try:
+            yield
+        finally:
+            self._entering -= 1
+
+    def _next_end(self) -> int:
+        """Predicted time until the next run may begin [s]."""
+        left = (run.seconds_left for run in self._runs.values() if run.is_at_work)
+        known = [seconds for seconds in left if seconds is not None]
+        return min(max(math.ceil(min(known, default=_UNKNOWN_END)), 1), _LATEST_END)
+
     def add(self, name: str, entry: RunEntry) -> ManagedRun:
         """Add a run to the queue."""
         self._runs[name] = run = ManagedRun(self._folder, name, entry)
@@ -72,7 +103,8 @@ class RunQueue:
         """Continue a run that stopped early."""
         if not run.is_resumable:
             raise RequestError(409, f"this run is {run.entry.state}; it cannot be continued")
-        run.set_state("waiting")
+        with self.place():
+            run.set_state("waiting")
         self.poll()
 
     def delete(self, run: ManagedRun) -> None:
@@ -122,9 +154,16 @@ class RunQueue:
             if not run.is_over:
                 run.stop("interrupted")
 
+    @property
+    def has_processes(self) -> bool:
+        """True if a process of this server computes a run."""
+        return any(run.has_process for run in self._runs.values())
+
     def close(self) -> None:
-        """Wait until the active runs have ended."""
+        """End the processes of runs that have not yet ended; these continue from what is saved."""
         self.end()
+        for run in self._runs.values():
+            run.kill()
         for run in list(self._runs.values()):
             run.wait()
         self.poll()

@@ -114,6 +114,17 @@ class ManagedRun:
             self._stop_state = self._stop_state or state
             self._child.ask_to_stop()
 
+    @property
+    def has_process(self) -> bool:
+        """True if a process of this server computes it."""
+        return self._child is not None
+
+    def kill(self) -> None:
+        """End the process at once; the run can be continued."""
+        if self._child is not None:
+            self._stop_state = self._stop_state or "interrupted"
+            self._child.kill()
+
     def wait(self) -> None:
         """Wait for the end of the process."""
         if self._child is not None:

@@ -34,12 +34,13 @@ _COMMANDS = ("continue with:", "with that changed,", "after correcting that:", "
 _WITHOUT_COMMAND = re.compile(r"^the run: (?=the run )|; [^;]*--overwrite[^;]*$")
 
 
-def status_of(run: ManagedRun, found: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the status of a run, with the summary of its result once it is over."""
+def status_of(run: ManagedRun, summary: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Return the status of a run, with the summary of its result once that has been read."""
     entry, course, left = run.entry, run.course, run.seconds_left
+    found = summary or {}
     problems = _problems(run)
     # The message of a failed run is more specific.
-    is_readable = not run.is_over or "table" in found or entry.state == "failed"
+    is_readable = summary is None or "table" in found or entry.state == "failed"
     is_damaged = course.instants > 0 and not is_readable
     table = found.get("table") or _table(course.first, course.last)
     return {

@@ -231,8 +231,13 @@ export function fileEntry(path, input) {
   chosen.addEventListener("change", async () => {
     const file = chosen.files[0];
     if (!file) return;
-    input.value = (await upload(file)).name;
-    input.dispatchEvent(new Event("input"));
+    chosen.value = "";
+    try {
+      input.value = (await upload(file)).name;
+      input.dispatchEvent(new Event("input"));
+    } catch (detail) {
+      input.dispatchEvent(new CustomEvent("refused", { bubbles: true, detail }));
+    }
   });
   const button = make("button", { type: "button", textContent: "Upload…", onclick: () => chosen.click() });
   return make("div", { class: "file" }, input, button, chosen);

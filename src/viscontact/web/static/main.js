@@ -15,7 +15,7 @@ import { drawList, drawProgress, setUpProgress } from "./progress.js";
 import { drawResults } from "./results.js";
 import { findAgain, list, refer, runs, start, state } from "./runs.js";
 import { useSchema } from "./schema.js";
-import { connection, get } from "./server.js";
+import { connection, get, isAboutCase } from "./server.js";
 import { onTheme, setUpTheme } from "./theme.js";
 import { systemNames, useSystem, useUnits } from "./units.js";
 
@@ -80,7 +80,7 @@ async function begin(quality) {
     arriving = true;
     if (!narrow.matches) place("answer").scrollIntoView({ behavior: "smooth", block: "start" });
   } catch (error) {
-    refuse(error);
+    if (isAboutCase(error)) refuse(error);
     complain(error);
   }
 }
@@ -184,16 +184,21 @@ function setUpRuns() {
 }
 
 function setUpConnection() {
-  connection.addEventListener("gone", () => { place("offline").hidden = false; });
+  const notices = { gone: "offline", locked: "locked" };
+  const only = (how) => { for (const [each, id] of Object.entries(notices)) place(id).hidden = each !== how; };
+  for (const how of Object.keys(notices)) connection.addEventListener(how, () => only(how));
   connection.addEventListener("back", () => {
-    place("offline").hidden = true;
+    only("");
     look();
     draw();
   });
 }
 
 async function open() {
+  // The browser has a cookie now: the token is not kept in its history and bookmarks.
+  if (location.search) history.replaceState(null, "", location.pathname + location.hash);
   setUpConnection();
+  document.body.addEventListener("refused", ({ detail }) => complain(detail));
   const answers = ["schema", "examples", "materials", "units"].map((name) => get(`/api/${name}`));
   const [schema, shipped, materials, units] = await Promise.all(answers);
   examples = shipped;
@@ -219,7 +224,7 @@ async function open() {
 }
 
 open().catch((error) => {
-  place("offline").hidden = false;
+  if (error.status !== 401) place("offline").hidden = false;
   if (!error.problems) throw error;
   connection.addEventListener("back", () => location.reload());
 });

@@ -14,7 +14,7 @@ const notify = (what) => runs.dispatchEvent(new Event(what));
 function remember() {
   const names = { run: state.active?.id, shown: state.shown?.id, ref: state.reference?.id };
   const parts = Object.entries(names).filter(([, id]) => id).map(([name, id]) => `${name}=${id}`);
-  history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname);
+  history.replaceState(null, "", location.pathname + (parts.length ? `#${parts.join("&")}` : ""));
 }
 
 export async function findAgain() {

@@ -8,15 +8,15 @@ class Refused extends Error {
   }
 }
 
-// Dispatches "gone" and "back".
+// Dispatches "gone" (no answer), "locked" (the server asks for its token) and "back".
 export const connection = new EventTarget();
-let reachable = true;
+let missing = ""; // "gone" or "locked"
 let waiting = null;
 
-function lost() {
-  if (reachable) {
-    reachable = false;
-    connection.dispatchEvent(new Event("gone"));
+function lost(how) {
+  if (missing !== how) {
+    missing = how;
+    connection.dispatchEvent(new Event(how));
   }
   if (waiting === null) waiting = setTimeout(look, 1000);
 }
@@ -25,16 +25,17 @@ async function look() {
   waiting = null;
   try {
     const answer = await fetch("/api/version", { cache: "no-store" });
+    if (answer.status === 401) { lost("locked"); return; }
     if (!answer.ok) throw new TypeError("not yet");
     found();
   } catch {
-    lost();
+    lost("gone");
   }
 }
 
 function found() {
-  if (reachable) return;
-  reachable = true;
+  if (!missing) return;
+  missing = "";
   connection.dispatchEvent(new Event("back"));
 }
 
@@ -44,15 +45,27 @@ async function request(path, options) {
     answer = await fetch(path, options);
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    lost();
-    throw new Refused(0, [{ path: "", line: null, message: "The server does not answer." }]);
+    lost("gone");
+    throw refused(0, "The server does not answer.");
+  }
+  if (answer.status === 401) {
+    lost("locked");
+    throw refused(401, "The server asks for its token, see above.");
   }
   found();
   if (answer.ok) return answer;
   const body = await answer.json().catch(() => ({}));
-  const unknown = [{ path: "", line: null, message: `${answer.status} ${answer.statusText}` }];
-  throw new Refused(answer.status, body.problems ?? unknown);
+  throw body.problems ? new Refused(answer.status, body.problems) : refused(answer.status, statusText(answer));
 }
+
+const refused = (status, message) => new Refused(status, [{ path: "", line: null, message }]);
+
+// Answers of the server that do not say why.
+const statusText = ({ status, statusText: text }) =>
+  status === 503 ? "The server has too much to do; try it again later." : `The server refused this: ${status} ${text}`;
+
+// True if an error is about the case, and not about the server.
+export const isAboutCase = ({ status }) => status === 400 || status === 422;
 
 export async function get(path) {
   return (await request(path, { cache: "no-store" })).json();
@@ -70,7 +83,14 @@ export async function remove(path) {
   await request(path, { method: "DELETE" });
 }
 
+// Largest file that the server takes [bytes].
+const LARGEST = 64e6;
+
 export async function upload(file) {
+  if (file.size > LARGEST) {
+    const size = Math.ceil(file.size / 1e6);
+    throw refused(413, `${file.name} has ${size} MB; files of up to ${LARGEST / 1e6} MB can be uploaded`);
+  }
   const path = `/api/files?name=${encodeURIComponent(file.name)}`;
   return (await request(path, { method: "POST", body: file })).json();
 }

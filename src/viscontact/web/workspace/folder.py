@@ -9,7 +9,7 @@ import shutil
 import sys
 import time as clock
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
 from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -18,12 +18,16 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from viscontact.case.data_file import is_plain_name
-from viscontact.results.run_files import CASE_NAME
+from viscontact.results.run_files import CASE_NAME, LOCK_NAME
 from viscontact.runs.directory.atomic_files import put_in_place
+from viscontact.web.workspace.privacy import make_private
 from viscontact.web.workspace.problems import RequestError
+from viscontact.web.workspace.uploads import Upload, Uploads
 
 _FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
 _ENTRY_NAME, _SUMMARY_NAME = "request.json", "summary.json"
+#: Other files of a server in its folder.
+_BESIDE = (LOCK_NAME, "token", "open.html")
 
 
 #: Suffixes of shipped files that examples read.
@@ -61,11 +65,20 @@ class Folder:
         self.path = path.absolute()
         for part in (_FILES, _RUNS):
             (self.path / part).mkdir(parents=True, exist_ok=True)
+        self._make_private()
         for earlier, name in (("asked.json", _ENTRY_NAME), ("found.json", _SUMMARY_NAME)):
             for file in (self.path / _RUNS).glob(f"*/{earlier}"):
                 with suppress(OSError):  # a linked run that cannot be written to
                     file.replace(file.with_name(name))
         self._put_shipped_files()
+        self._uploads = Uploads(self.path / _FILES)
+
+    def _make_private(self) -> None:
+        """Take the folder from other users; of one with other content, only its parts."""
+        for part in (_FILES, _RUNS):
+            make_private(self.path / part)
+        if {each.name for each in self.path.iterdir()} <= {_FILES, _RUNS, *_BESIDE}:
+            make_private(self.path)
 
     @property
     def case(self) -> Path:
@@ -81,14 +94,9 @@ class Folder:
             if path.is_file() and is_plain_name(path.name)
         ]
 
-    def put_file(self, name: str, content: bytes) -> None:
-        """Store a file, in place of one of the same name."""
-        path = self._file(name)
-        try:
-            _write(path, content)
-        except OSError as error:
-            why = f"{name} cannot be stored: {error.strerror or error}"
-            raise RequestError(507, why) from error
+    def receiving(self, name: str) -> AbstractContextManager[Upload]:
+        """Receive a file, in place of one of the same name."""
+        return self._uploads.receiving(self._file(name))
 
     def remove_file(self, name: str) -> None:
         """Remove a file."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +27,17 @@ class InputProblem:
 class RequestError(Exception):
     """Refused request, with its problems as the body of the answer."""
 
-    def __init__(self, status: int, *problems: InputProblem | str) -> None:
+    def __init__(
+        self, status: int, *problems: InputProblem | str, retry_after: int | None = None
+    ) -> None:
         super().__init__(*problems)
-        self.status = status
+        self.status, self.retry_after = status, retry_after  # time after which to try again [s]
         found = (InputProblem(each) if isinstance(each, str) else each for each in problems)
         self.body: dict[str, Any] = {"problems": [asdict(each) for each in found]}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Send it from a process to another one with its status."""
+        return partial(RequestError, retry_after=self.retry_after), (self.status, *self.args)
 
 
 def case_problems(error: CaseError, path: Path) -> RequestError:
