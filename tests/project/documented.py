@@ -49,6 +49,7 @@ NOT_RUN = {
     "./go build": "a task of the project; tests/project/test_go.py",
     "./go lock": "needs the network; tests/project/test_go.py",
     "viscontact serve": "goes on until it is stopped; it has tests of its own",
+    "curl": "needs a server; tests/web/test_web_access.py",
     "viscontact verify": "takes a minute; tests/verify/test_verify.py and tests/verification",
     "dask scheduler": "goes on until it is stopped; tests/studies/executors/test_cluster.py",
     "dask worker": "goes on until it is stopped; tests/studies/executors/test_cluster.py",

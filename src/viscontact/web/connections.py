@@ -50,7 +50,9 @@ class LimitedConnection(H11Protocol):
             return
         idle = [each for each in self._others() if each.is_idle]
         if idle:
-            min(idle, key=lambda each: each._since).transport.abort()
+            longest = min(idle, key=lambda each: each._since)
+            self.connections.discard(longest)  # it is lost a moment later
+            longest.transport.abort()
         else:
             transport.write(_FULL)
             transport.close()

@@ -30,6 +30,8 @@ USUAL_PORTS = range(8377, 8387)
 
 #: Time for unfinished answers when the server ends [s].
 _LAST_ANSWERS = 4
+#: Connections that wait to be accepted, and that are accepted at once.
+_BACKLOG = 100
 
 
 class PortError(Exception):
@@ -82,6 +84,7 @@ def serve(
         config = uvicorn.Config(
             new_app(calculator, token),
             http=LimitedConnection,
+            backlog=_BACKLOG,
             log_level="error",  # warnings are about what clients send
             access_log=False,
             server_header=False,

@@ -68,6 +68,8 @@ class CaseProcess:
         process.start()
         other.close()  # so that the end of either process is seen by the other one
         self._pipe, self._process = own, process
+        if self._is_closed:  # meanwhile
+            process.kill()
         return own
 
     def _forget(self) -> None:

@@ -9,6 +9,9 @@ let text = "";
 let latest = 0;
 // Whether the values agree with the text; false while the text is not valid.
 let read = false;
+// Number of changes of the values, and of those that the text has; fewer after a failed request.
+let changes = 0;
+let written = 0;
 
 // Origin of the title: "own" was typed, "given" belongs to an unchanged example, "made" is derived
 // from the case and changes with it.
@@ -42,6 +45,7 @@ export function setValue(path, value) {
   if (path.length === 1 && path[0] === "title") naming = isEmpty(value) ? "made" : "own";
   else if (naming === "given") naming = "made";
   put(values, path, value);
+  changes += 1;
   changed("values");
 }
 
@@ -65,6 +69,7 @@ export async function replaceText(yaml, { edited = false } = {}) {
   const request = ++latest, before = values.title;
   text = yaml;
   read = false;
+  written = changes;
   keep();
   draft.dispatchEvent(new Event("text"));
   const found = await post("/api/case", { yaml });
@@ -80,12 +85,13 @@ export async function replaceText(yaml, { edited = false } = {}) {
 
 // Writes the text of the values.
 export async function writeText() {
-  const request = ++latest;
+  const request = ++latest, upTo = changes;
   const titled = naming !== "made";
-  const written = await post("/api/yaml", { case: values, yaml: text, titled });
+  const found = await post("/api/yaml", { case: values, yaml: text, titled });
   if (request !== latest) return false;
-  text = written.yaml;
-  suggested = written.suggested_title;
+  written = upTo;
+  text = found.yaml;
+  suggested = found.suggested_title;
   if (!titled) {
     values.title = suggested;
     draft.dispatchEvent(new Event("titled"));
@@ -95,9 +101,10 @@ export async function writeText() {
   return true;
 }
 
-// A case that was edited as text may still have its earlier title.
+// The text may lack values that were typed while the server did not answer, and a case that was edited
+// as text may still have its earlier title.
 export async function renew() {
-  if (read && naming === "made" && values.title !== suggested) await writeText();
+  if (read && (written < changes || (naming === "made" && values.title !== suggested))) await writeText();
 }
 
 export function changed(what) {

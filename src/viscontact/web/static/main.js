@@ -189,8 +189,7 @@ function setUpConnection() {
   for (const how of Object.keys(notices)) connection.addEventListener(how, () => only(how));
   connection.addEventListener("back", () => {
     only("");
-    look();
-    draw();
+    renew().then(() => Promise.all([look(), draw()])).catch(refuse);
   });
 }
 
