@@ -212,6 +212,11 @@ def test_two_temperatures_are_refused(tmp_path: Path) -> None:
     assert "material.layers[1].temperature: is 30 °C" in said
 
 
+def test_temperature_over_time_is_that_of_all_bodies(tmp_path: Path) -> None:
+    said = problem(tmp_path, material={**WARMED, "temperature": {"points": HELD}})
+    assert "material.temperature: a temperature over time is that of all bodies" in said
+
+
 def test_material_that_creeps_needs_a_shift_where_the_temperature_varies(tmp_path: Path) -> None:
     assert "material: creeps, and needs a shift" in refusal(
         tmp_path, {"points": HELD}, material=FLUID

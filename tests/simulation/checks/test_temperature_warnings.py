@@ -87,6 +87,12 @@ def test_temperature_below_the_glass_transition() -> None:
     assert said(arrhenius, cold) == ""
 
 
+def test_temperature_outside_the_shift_is_refused_at_its_argument() -> None:
+    for wrong in (150.0, vc.TemperatureHistory([0.0, 1.0], [150.0, 290.0])):
+        with pytest.raises(ValueError, match=r"^temperature: WLF: must be used above"):
+            said(vc.Material(LAW, 0.4, shift=WLF), wrong)
+
+
 def test_vertical_shift_that_varies_is_left_out() -> None:
     shift = vc.TabulatedShift([283.15, 323.15], [10.0, 0.1], [0.95, 1.05])
     found = said(vc.Material(LAW, 0.4, shift=shift))

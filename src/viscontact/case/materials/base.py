@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from viscontact.bodies.laws import Law, Shift
 from viscontact.bodies.materials.material import Material
@@ -24,6 +25,17 @@ from viscontact.case.quantities import (
     Section,
     Temperature,
 )
+
+
+def _not_over_time(given: Any) -> Any:
+    """Refuse a section, which describes a temperature over time."""
+    if isinstance(given, dict):
+        why = (
+            "a temperature over time is that of all bodies; write it at the top of the case, and "
+            "leave this one out"
+        )
+        raise PydanticCustomError("quantity", "{why}", {"why": why})
+    return given
 
 
 class Medium(Section):
@@ -47,7 +59,7 @@ class Medium(Section):
         description="of the body; it is computed as a half-space, and a run whose contact has a "
         "half width beyond a fifth of it warns",
     )
-    temperature: Temperature | None = Field(
+    temperature: Annotated[Temperature, BeforeValidator(_not_over_time)] | None = Field(
         default=None,
         description="temperature of this material, to which its shift takes the law; write that of "
         "all bodies at the top of the case",

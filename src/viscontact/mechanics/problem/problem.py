@@ -144,7 +144,10 @@ class Problem:
         given = tuple(body for body in both if body is not None)
         if self.temperature is None or not self.temperature.is_constant:
             return given
-        return tuple(at_temperature(body, self.temperature.range[0]) for body in given)
+        try:
+            return tuple(at_temperature(body, self.temperature.range[0]) for body in given)
+        except ValueError as error:
+            raise ValueError(f"temperature: {error}") from None
 
     @property
     def constant_temperature(self) -> float | None:
