@@ -10,6 +10,8 @@ import pytest
 
 from closeness import close_to
 from viscontact import reference
+from viscontact.bodies.loads.clock import ReducedTime
+from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.material import Material
 from viscontact.case import read_material
 from viscontact.cli import main
@@ -426,3 +428,58 @@ def test_names_of_the_columns_are_given_where_a_table_has_none(tmp_path, capsys)
     assert main(["material", str(headed), *body, *meant]) == 0
     assert main(["material", "pmma-paper", *meant]) == 2
     assert "to which --columns does not apply" in capsys.readouterr().err
+
+
+SLOW = RelaxationSeries(1e9, [2e9, 1e9], [300.0, 9000.0])
+
+
+@pytest.fixture
+def stepped(tmp_path: Path) -> Path:
+    """Relaxation at 20 °C for 1000 s, then at 27 and 34 °C: the law is SLOW at 20 °C."""
+    times = np.arange(10.0, 3010.0, 10.0)
+    celsius = 20.0 + 7.0 * ((times > 1000.0).astype(float) + (times > 2000.0))
+    # From row to row the temperature is linear.
+    clock = ReducedTime(TemperatureHistory(times, celsius + 273.15), RULE)
+    modulus = SLOW.relaxation(clock.reduced(times)) / 1e6
+    heads = ("time [s]", "E [MPa]", "T [°C]")
+    return written(tmp_path / "stepped.csv", heads, times, modulus, celsius)
+
+
+def test_law_and_shift_of_a_test_under_a_varying_temperature(stepped, tmp_path, capsys):
+    out = tmp_path / "m.yaml"
+    command = ["fit", str(stepped), "--poisson-ratio", "0.3", "--shift", "wlf"]
+    assert main([*command, "--yaml", str(out)]) == 0
+    printed = capsys.readouterr().out
+    assert "Shift: WLF" in printed
+    assert "the law is that at 20 °C" in printed
+    material = read_material(out)
+    later = np.geomspace(10.0, 3000.0, 9)
+    np.testing.assert_allclose(
+        material.law.relaxation(later), SLOW.relaxation(later) / 2.6, rtol=0.01
+    )
+    assert abs(np.log10(material.shift.factor(307.15) / RULE.factor(307.15))) < 0.02
+    assert main([*command, "--temperature", "34 degC", "--yaml", str(out)]) == 0
+    warm = read_material(out).law.relaxation(later * RULE.factor(307.15))
+    np.testing.assert_allclose(warm, SLOW.relaxation(later) / 2.6, rtol=0.02)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--shift", "power"], "--shift must be one of arrhenius, wlf, table"),
+        (["--vertical", "rubber"], "--vertical does not go with one test"),
+        (["--thermal-strain"], "--thermal-strain goes with a creep test"),
+    ],
+)
+def test_options_that_do_not_go_with_a_varying_temperature_are_refused(
+    options, said, stepped, capsys
+):
+    assert main(["fit", str(stepped), "--poisson-ratio", "0.3", *options]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_shift_goes_with_a_varying_temperature_only(relaxation, sets, capsys):
+    for file in (relaxation, sets):
+        command = ["fit", str(file), "--poisson-ratio", "0.3", "--shift", "wlf"]
+        assert main(command) == 2
+        assert "--shift goes with a test whose temperature varies" in capsys.readouterr().err

@@ -48,6 +48,10 @@ RUN = {"indenter": BALL, "material": RUBBER, "grid": vc.Grid((16, 16), (2.4e-3, 
 ROWS = np.arange(1.0, 25.0).tolist()
 CREEP = {"times": [1.0, 2.0, 4.0, 8.0], "compliance": [1e-9, 2e-9, 3e-9, 4e-9]}
 RELAXED = {"times": [1.0, 2.0, 4.0, 8.0], "modulus": [4e6, 3e6, 2e6, 1e6]}
+HEATED = {
+    **{"data": "shear", "temperature": [293.0, 293.0, 303.0, 303.0]},
+    "shift": vc.Arrhenius(293.15, 80e3),
+}
 CREEP_SERIES = {"instant": 1e-9, "times": [1.0, 2.0], "amplitudes": [1e-9, 2e-9]}
 PRONY = {"equilibrium": 1e6, "times": [1.0, 2.0], "moduli": [1e6, 2e6]}
 MAP, LINE, DROPS = [[0.0, 1e-6], [0.0, 2e-6]], [0.0, 1e-3, 2e-3], [0.0, 1e-6, 2e-6]
@@ -107,14 +111,14 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     ),
     "creep_curve": ({"law": RUBBER.law, "times": [1.0, 2.0]},),
     "draw_indenter": ({"indenter": BALL, "size": (1e-3, 2e-3), "contact": (0.0, 0.0, 1e-4, 2e-4)},),
-    "fit_creep": ({**CREEP, "data": "shear"},),
+    "fit_creep": ({**CREEP, "data": "shear"}, {**CREEP, **HEATED}),
     "fit_dynamic": (
         {
             **{"angular_frequency": [1.0, 2.0, 4.0], "data": "shear"},
             **{"storage": [1e6, 2e6, 3e6], "loss": [1e6, 1e6, 1e6]},
         },
     ),
-    "fit_relaxation": ({**RELAXED, "data": "shear"},),
+    "fit_relaxation": ({**RELAXED, "data": "shear"}, {**RELAXED, **HEATED}),
     "march": ({**RUN, "load": vc.ramp(0.1, 1.0), "times": [0.0, 1.0], "fields": [1.0]},),
     "material_curves": ({"law": RUBBER.law, "times": (1.0, 9.0), "measured": (1.0, 9.0)},),
     "press_axisymmetric": tuple(

@@ -10,7 +10,7 @@ import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.bodies.materials.clock import TIME, ReducedTime
+from viscontact.bodies.loads.clock import TIME, ReducedTime
 from viscontact.drawing.content.exact_history import exact_history, exact_panels
 from viscontact.results.recorded_case import (
     recorded_clock,

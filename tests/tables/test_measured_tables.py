@@ -271,6 +271,25 @@ def test_sets_without_numbers_are_separated_by_gaps_in_temperature(tmp_path: Pat
     assert alone.set_number is None
 
 
+def test_one_test_under_a_varying_temperature_is_no_set_of_isotherms(tmp_path: Path) -> None:
+    def of(
+        times: list[float], celsius: list[float], heads: str = "t [s],J [1/MPa],T [degC]"
+    ) -> Table:
+        rows = "".join(f"{t},{1 + t},{T}\n" for t, T in zip(times, celsius, strict=True))
+        return table(tmp_path, f"{heads}\n{rows}")
+
+    steps = [20.0, 20.0, 20.0, 27.0, 27.0, 27.0]
+    one = of([1, 2, 3, 4, 5, 6], steps)
+    assert one.has_varying_temperature
+    with pytest.raises(ValueError, match="is one test whose temperature varies from 20 to 27 °C"):
+        one.sets()
+    # Times that begin again, sets that take turns, and oscillations are sets.
+    assert len(of([1, 2, 3, 1, 2, 3], steps).sets()) == 2
+    assert len(of([1, 2, 3, 4, 5, 6], [20.0, 27.0] * 3).sets()) == 2
+    assert not of([1, 2, 3, 4, 5, 6], steps, "t [s],G' [MPa],T [degC]").has_varying_temperature
+    assert not of([1, 2, 3, 4, 5, 6], [20.0, 20.4, 20.2] * 2).has_varying_temperature
+
+
 def test_refusal_of_a_row_names_its_line(tmp_path: Path) -> None:
     found = table(tmp_path, "time [s], J [1/Pa]\n# here is a comment\n1, 2\n2, 3\n3, 1\n")
     with pytest.raises(ValueError, match="row 2") as refusal:

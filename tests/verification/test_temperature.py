@@ -12,7 +12,7 @@ import pytest
 import viscontact as vc
 from closeness import close_to
 from viscontact import reference
-from viscontact.bodies.materials.clock import ReducedTime
+from viscontact.bodies.loads.clock import ReducedTime
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps, step_ends
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")

@@ -1,6 +1,7 @@
 """Identification of laws from creep, relaxation, oscillation and indentation measurements."""
 
 from viscontact.bodies.series_fits.fit import Fit
+from viscontact.bodies.series_fits.found_shift import FoundShift
 from viscontact.bodies.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.bodies.series_fits.quality import Misfit, Reason
 from viscontact.identification.contact_point import ContactPoint, find_contact
@@ -26,6 +27,7 @@ __all__ = [
     "Fit",
     "FittedContact",
     "ForceCurve",
+    "FoundShift",
     "IndentationFit",
     "IndentationRecord",
     "Isotherm",

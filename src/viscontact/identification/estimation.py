@@ -12,8 +12,8 @@ from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.series_fits.residual_noise import Noise, noise_of
 from viscontact.identification.candidates import Candidate
-from viscontact.identification.residual_noise import Noise, noise_of
 
 _STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
 _REACH = np.log(1e8)  # largest change of ln p from its start

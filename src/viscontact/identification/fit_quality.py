@@ -9,8 +9,8 @@ from scipy.signal import detrend
 
 from viscontact.backend.arrays import Bools
 from viscontact.bodies.series_fits.quality import LARGEST_LIMIT, RMS_LIMIT, Misfit, Reason
+from viscontact.bodies.series_fits.residual_noise import noise_of
 from viscontact.identification.indentation_fit import IndentationFit
-from viscontact.identification.residual_noise import noise_of
 from viscontact.reference import SphereProfile
 from viscontact.units.formatting import format_quantity
 

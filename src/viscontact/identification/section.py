@@ -38,7 +38,8 @@ def material_section(
         From `fit_creep`, `fit_relaxation`, `fit_dynamic` or `fit_indentation`.
     curve : MasterCurve, optional
         The master curve that was fitted: its shift factors are written, so that a case may ask for
-        another temperature, and its warnings.
+        another temperature, and its warnings. A fit to a test under a temperature that varied
+        has its own.
     temperature : float, optional
         Temperature of the law of `fit` [K]; that of the curve if left out.
 
@@ -71,10 +72,23 @@ def material_section(
     else:
         law, data = fit.series, fit.data
         volume = _volume(fit.poisson_ratio, fit.bulk_modulus)
-    doubts = () if curve is None else curve.warnings
-    shift = [] if curve is None else shift_lines(curve, temperature)
+    doubts, shift = _shift_of(fit, curve, temperature)
     lines = [*_warning(fit, doubts), *_law(law), f"data: {data}", volume, *shift]
     return "\n".join(["material:", *(f"  {line}" for line in lines)])
+
+
+def _shift_of(
+    fit: Fit | IndentationFit, curve: MasterCurve | None, temperature: float | None
+) -> tuple[Sequence[str], list[str]]:
+    """Doubts about the shift of a fit, and the lines of it; none without a shift."""
+    if curve is not None:
+        reference = curve.reference_temperature if temperature is None else temperature
+        return curve.warnings, shift_lines(curve.shift, reference)
+    found = None if isinstance(fit, IndentationFit) else fit.found_shift
+    if found is None:
+        return (), []
+    reference = found.reference_temperature if temperature is None else temperature
+    return found.warnings, shift_lines(found.shift, reference)
 
 
 def _warning(fit: Fit | IndentationFit, doubts: Sequence[str]) -> list[str]:

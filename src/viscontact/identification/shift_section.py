@@ -1,21 +1,18 @@
-"""The `shift:` of a material section, with the factors of a master curve."""
+"""The `shift:` of a material section, with a rule or factors."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.laws import WLF, Arrhenius, TabulatedShift
-from viscontact.identification.master_curve import MasterCurve
+from viscontact.bodies.laws import WLF, Arrhenius, Shift, TabulatedShift
 from viscontact.units.temperatures import in_celsius
 
 _DIGITS = 6
 
 
-def shift_lines(curve: MasterCurve, temperature: float | None = None) -> list[str]:
-    """Lines of the shift relative to a temperature [K], by default that of the curve."""
-    reference = curve.reference_temperature if temperature is None else temperature
-    shift = curve.shift
+def shift_lines(shift: Shift, reference: float) -> list[str]:
+    """Lines of a shift relative to a reference temperature [K]."""
     at_reference = f"temperature: {_degrees(reference)}"
     if isinstance(shift, WLF):
         # Another reference changes both constants: Ferry (1980), section 11.A.

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import TemperatureHistory
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered, at_temperature
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.surface import clock_of

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress

@@ -16,6 +16,8 @@ from viscontact.units.temperatures import in_celsius
 
 # Chambers keep a temperature within some tenths of a kelvin; tests change it by several.
 _SAME_TEMPERATURE, _WIDEST_SET = 1.0, 5.0
+# Fewest rows of a test under a varying temperature, and rows between two jumps of it.
+_LEAST_ROWS, _ROWS_PER_JUMP = 6, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +111,23 @@ class Table:
         numbers = np.unique(self["set"])
         return float(numbers[0]) if numbers.size == 1 else None
 
+    @property
+    def has_varying_temperature(self) -> bool:
+        """True of creep or relaxation during which the temperature varied, not of several sets.
+
+        Its times, from row to row, go on where the temperature changes, and it seldom jumps.
+        """
+        over_time = any(each in self for each in ("creep_compliance", "relaxation_modulus"))
+        if not over_time or "angular_frequency" in self or "set" in self:
+            return False
+        if "time" not in self or "temperature" not in self:
+            return False
+        times, values = self["time"], self["temperature"]
+        if len(self) < _LEAST_ROWS or np.ptp(values) <= _SAME_TEMPERATURE:
+            return False
+        jumps = int(np.count_nonzero(np.abs(np.diff(values)) > _SAME_TEMPERATURE))
+        return bool(np.all(np.diff(times) > 0)) and jumps <= len(self) / _ROWS_PER_JUMP
+
     def sets(self) -> tuple[Table, ...]:
         """Return the sets of rows that belong together.
 
@@ -122,13 +141,22 @@ class Table:
         Raises
         ------
         ValueError
-            If temperatures creep on without a gap over more than 5 K.
+            If temperatures creep on without a gap over more than 5 K, or the table is one test
+            under a temperature that varies.
         """
         if "set" in self:
             numbers, first = np.unique(self["set"], return_index=True)
             return tuple(self._rows(self["set"] == n) for n in numbers[np.argsort(first)])
         if "temperature" not in self:
             return (self,)
+        if self.has_varying_temperature:
+            low, high = (float(in_celsius(each(self["temperature"]))) for each in (np.min, np.max))
+            raise ValueError(
+                f"{self.source.name}: is one test whose temperature varies from {low:.4g} to "
+                f"{high:.4g} °C; find law and shift by `viscontact fit {self.source.name} --yaml "
+                "law.yaml`, and give file: law.yaml. If these are tests at several temperatures, "
+                "number the sets in a column Set"
+            )
         return self._isotherms()
 
     def _isotherms(self) -> tuple[Table, ...]:

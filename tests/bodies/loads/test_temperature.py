@@ -8,7 +8,7 @@ import scipy
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.bodies.materials.clock import ReducedTime
+from viscontact.bodies.loads.clock import ReducedTime
 from viscontact.results.descriptions import describe, rebuild
 
 DAY = vc.HarmonicTemperature(288.15, 10.0, 86400.0, 3, 0.4)

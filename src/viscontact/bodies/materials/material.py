@@ -17,8 +17,8 @@ from viscontact.bodies.laws import (
 )
 from viscontact.bodies.laws.interconversion.series import relaxation_from_creep
 from viscontact.bodies.laws.parameter_checks import compressibility
+from viscontact.bodies.loads.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.loads.temperature import TemperatureHistory
-from viscontact.bodies.materials.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.materials.compliance import (
     ContactCompliance,
     LawCompliance,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import CreepSeries, RelaxationSeries
+from viscontact.bodies.series_fits.found_shift import FoundShift
 from viscontact.bodies.series_fits.quality import Misfit
 from viscontact.units.display import Displayable
 
@@ -43,6 +44,9 @@ class Fit(Displayable):
         column; None for a fit within these limits.
     poisson_ratio, bulk_modulus : float or None
         Bulk behaviour used to convert uniaxial data [-, Pa].
+    found_shift : FoundShift or None
+        Shift of a test under a temperature that varied: the law is that at its reference
+        temperature, and `points` are reduced times; None of a test at one temperature.
 
     Examples
     --------
@@ -62,6 +66,7 @@ class Fit(Displayable):
     misfit: Misfit | None = None
     poisson_ratio: float | None = None
     bulk_modulus: float | None = None
+    found_shift: FoundShift | None = None
 
     @property
     def terms(self) -> int:
@@ -122,6 +127,7 @@ class Fit(Displayable):
             f"largest {largest:.2e} ({column}, row {row})\n"
             f"{self._weights()}"
             f"     {_in_short(self.law)}"
+            f"{'' if self.found_shift is None else f'{chr(10)}{self.found_shift!r}'}"
         )
 
     def _weights(self) -> str:

@@ -11,11 +11,13 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.bodies.laws import CreepSeries, RelaxationSeries
+from viscontact.bodies.laws import CreepSeries, RelaxationSeries, Shift
+from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.series_fits.columns import positive_column, require_rows, require_trend
 from viscontact.bodies.series_fits.conventions import CREEP, MODULI, bulk_arguments, shear_law
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.quality import Misfit, misfit_of
+from viscontact.bodies.series_fits.reduced_record import ShiftOptions, reduced_record
 from viscontact.bodies.series_fits.responses import (
     CreepResponse,
     DynamicResponse,
@@ -59,6 +61,10 @@ def fit_creep(  # noqa: PLR0913
     terms: int | None = None,
     excess: float = _EXCESS,
     tolerance: float = _TOLERANCE,
+    temperature: ArrayLike | TemperatureHistory | None = None,
+    shift: str | Shift | None = None,
+    reference_temperature: float | None = None,
+    thermal_strain: bool | None = None,
 ) -> Fit:
     """Fit the creep series of fewest terms to a creep test.
 
@@ -84,29 +90,44 @@ def fit_creep(  # noqa: PLR0913
         1.05 if left out.
     tolerance : float, optional
         A relative residual that is good enough in any case; 1e-3 if left out.
+    temperature : array_like, shape (n,), or TemperatureHistory, optional
+        Temperature at each row, or over time, of a test in which it varied, such as by the
+        stepped isothermal method [K]. The shift is then found with the law.
+    shift : {"arrhenius", "wlf", "table"} or Shift, optional
+        Rule of the shift that goes with `temperature`: by name to be found, a table with a factor
+        for each temperature that is held; or known. Arrhenius or WLF, by an information
+        criterion, if left out.
+    reference_temperature : float, optional
+        Temperature of the law [K]; the first one that is held if left out.
+    thermal_strain : bool, optional
+        True to find a strain proportional to the change of temperature, the thermal expansion,
+        False if there is none; by an information criterion if left out.
 
     Returns
     -------
     Fit
-        The law and how well it fits.
+        The law and how well it fits; with a temperature its points are the reduced times, and
+        `Fit.found_shift` is the shift.
 
     Raises
     ------
     ValueError
         If a value is no positive number, naming its row; if the compliance falls as a whole; if
-        an option is out of range.
+        an option is out of range; if temperature and time cannot be told apart, as along one ramp.
 
     Warns
     -----
     AccuracyWarning
         If the series misses the data by more than 10 % (root mean square) or 25 % (largest), with
-        the reason; `Fit.misfit` keeps it.
+        the reason; `Fit.misfit` keeps it. If the shift is uncertain, or a thermal strain was
+        found.
 
     Notes
     -----
     Phi(t) = J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t with J_0, J_i, φ >= 0 minimises the sum of
     squares of the *relative* residuals. The choice of the terms is described in
-    `viscontact.bodies.series_fits.spectrum`.
+    `viscontact.bodies.series_fits.spectrum`. With a temperature, t is the reduced time
+    ξ(t) = ∫ dt'/a_T(T(t')); see `viscontact.bodies.series_fits.joint_fit`.
 
     Examples
     --------
@@ -118,6 +139,16 @@ def fit_creep(  # noqa: PLR0913
     """
     owner = "fit_creep"
     instants, values = _over_time(owner, times, ("compliance", compliance, "1/Pa"), rises=True)
+    on_clock = ShiftOptions(
+        temperature=temperature, shift=shift, reference_temperature=reference_temperature
+    )
+    instants, values, found_shift = reduced_record(
+        *(owner, instants, values),
+        rises=True,
+        fluid=fluid,
+        thermal_strain=thermal_strain,
+        **on_clock,
+    )
     make = shear_law(owner, CREEP, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(CreepResponse(instants, fluid), values)
@@ -128,7 +159,8 @@ def fit_creep(  # noqa: PLR0913
     )
     law = make(series.instant, series.amplitudes, series.times, series.fluidity, **volume)
     measured, weights = {"compliance": values}, {"compliance": 1.0}
-    return Fit(law, series, data, instants, measured, weights, misfit, **volume)
+    bulk = volume.get("poisson_ratio"), volume.get("bulk_modulus")
+    return Fit(law, series, data, instants, measured, weights, misfit, *bulk, found_shift)
 
 
 def fit_relaxation(  # noqa: PLR0913
@@ -142,6 +174,9 @@ def fit_relaxation(  # noqa: PLR0913
     terms: int | None = None,
     excess: float = _EXCESS,
     tolerance: float = _TOLERANCE,
+    temperature: ArrayLike | TemperatureHistory | None = None,
+    shift: str | Shift | None = None,
+    reference_temperature: float | None = None,
 ) -> Fit:
     """Fit the Prony series of fewest terms to a relaxation test.
 
@@ -157,7 +192,7 @@ def fit_relaxation(  # noqa: PLR0913
         As in `fit_creep`.
     fluid : bool, optional
         True for an equilibrium modulus of zero.
-    terms, excess, tolerance
+    terms, excess, tolerance, temperature, shift, reference_temperature
         As in `fit_creep`.
 
     Returns
@@ -190,6 +225,12 @@ def fit_relaxation(  # noqa: PLR0913
     """
     owner = "fit_relaxation"
     instants, values = _over_time(owner, times, ("modulus", modulus, "Pa"), rises=False)
+    on_clock = ShiftOptions(
+        temperature=temperature, shift=shift, reference_temperature=reference_temperature
+    )
+    instants, values, found_shift = reduced_record(
+        owner, instants, values, rises=False, fluid=fluid, **on_clock
+    )
     make = shear_law(owner, MODULI, data)
     volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     observed = unweighted(RelaxationResponse(instants, fluid), values)
@@ -197,7 +238,8 @@ def fit_relaxation(  # noqa: PLR0913
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     measured, weights = {"modulus": values}, {"modulus": 1.0}
-    return Fit(law, series, data, instants, measured, weights, misfit, **volume)
+    bulk = volume.get("poisson_ratio"), volume.get("bulk_modulus")
+    return Fit(law, series, data, instants, measured, weights, misfit, *bulk, found_shift)
 
 
 def fit_dynamic(  # noqa: PLR0913
@@ -285,7 +327,8 @@ def fit_dynamic(  # noqa: PLR0913
     found, misfit = _fitted_spectrum(owner, observed, names, terms, excess, tolerance)
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
-    return Fit(law, series, data, frequencies, columns, used, misfit, **volume)
+    bulk = volume.get("poisson_ratio"), volume.get("bulk_modulus")
+    return Fit(law, series, data, frequencies, columns, used, misfit, *bulk)
 
 
 def _over_time(

@@ -44,6 +44,19 @@ class CreepResponse:
 
 
 @dataclass(frozen=True, eq=False)
+class ExpandingCreepResponse(CreepResponse):
+    """Creep with a strain proportional to the change of temperature, of either sign."""
+
+    warmer: Floats  # temperature above that of no such strain [K]
+
+    @property
+    def constants(self) -> Floats:
+        """Columns of creep, and those of thermal expansion and contraction."""
+        thermal = np.stack([self.warmer, -self.warmer], axis=1)
+        return np.concatenate([super().constants, thermal], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
 class RelaxationResponse:
     """Relaxation at times [s] under constant strain: G_inf (0: fluid) + sum G_i exp(-t/τ_i)."""
 

@@ -26,7 +26,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.series_fits.responses import Response
 
 # Ten per decade: fits any other times to far below the scatter of a measurement.
-_CANDIDATES_PER_DECADE = 10
+CANDIDATES_PER_DECADE = 10
 # Relative gain at which a descent ends: while the number of terms is sought, and finally.
 _COARSE, _FINE = 1e-4, 1e-12
 _FEW = 8  # terms up to which a second start is tried
@@ -94,8 +94,8 @@ def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float
 def dense_spectrum(observed: Observed) -> Spectrum:
     """Non-negative least-squares fit over a dense series of fixed times."""
     first, last = observed.response.reach
-    count = 1 + round(_CANDIDATES_PER_DECADE * np.log10(last / first))
-    return _strengths(observed, np.geomspace(first, last, max(count, 3)))[0]
+    count = 1 + round(CANDIDATES_PER_DECADE * np.log10(last / first))
+    return strengths_at(observed, np.geomspace(first, last, max(count, 3)))[0]
 
 
 def spectrum_of(observed: Observed, count: int) -> Spectrum:
@@ -110,7 +110,7 @@ def _nearby_fit(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
     lowest, highest = np.log(observed.response.reach)
     starts = []
     if count <= dense.times.size:
-        starts.append(_merged_neighbours(observed, dense, count))
+        starts.append(merged_neighbours(observed, dense, count))
     if not starts or count <= _FEW:  # few terms may end in a local minimum
         starts.append(lowest + (highest - lowest) * (np.arange(count) + 0.5) / max(count, 1))
     found = [_descend(observed, start, _COARSE) for start in starts]
@@ -119,10 +119,10 @@ def _nearby_fit(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
 
 def _descend(observed: Observed, start: Floats, gain: float) -> Spectrum:
     if start.size == 0:
-        return _strengths(observed, np.exp(start))[0]
+        return strengths_at(observed, np.exp(start))[0]
     lowest, highest = np.log(observed.response.reach)
     ended = scipy.optimize.least_squares(
-        lambda log_times: _strengths(observed, np.exp(log_times))[1],
+        lambda log_times: strengths_at(observed, np.exp(log_times))[1],
         start,
         jac=lambda log_times: _jacobian(observed, log_times),
         bounds=(lowest - 1e-9, highest + 1e-9),
@@ -131,10 +131,10 @@ def _descend(observed: Observed, start: Floats, gain: float) -> Spectrum:
         gtol=1e-14,
         max_nfev=100,
     )
-    return _strengths(observed, np.sort(np.exp(ended.x)))[0]
+    return strengths_at(observed, np.sort(np.exp(ended.x)))[0]
 
 
-def _strengths(observed: Observed, times: Floats) -> tuple[Spectrum, Floats]:
+def strengths_at(observed: Observed, times: Floats) -> tuple[Spectrum, Floats]:
     """Spectrum of the best non-negative strengths at given times, and the residuals."""
     columns = observed.columns(times)
     lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
@@ -152,7 +152,7 @@ def _strengths(observed: Observed, times: Floats) -> tuple[Spectrum, Floats]:
 def _jacobian(observed: Observed, log_times: Floats) -> Floats:
     """Kaufman's Jacobian: the effect of moving a time, orthogonal to that of the strengths."""
     times = np.exp(log_times)
-    spectrum, _ = _strengths(observed, times)
+    spectrum, _ = strengths_at(observed, times)
     present = np.isin(times, spectrum.times)
     strengths = np.zeros(times.size)
     strengths[present] = spectrum.strengths
@@ -162,7 +162,7 @@ def _jacobian(observed: Observed, log_times: Floats) -> Floats:
     return np.asarray(slopes - across @ (across.T @ slopes))
 
 
-def _merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Floats:
+def merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Floats:
     """Logarithms ln τ of the dense fit's terms, neighbours merged until `count` are left."""
     # Ward's criterion: the pair with the least w1 w2/(w1 + w2) times the squared distance is merged
     # first, where a weight is the contribution of the term to the fit.

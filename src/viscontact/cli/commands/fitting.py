@@ -78,7 +78,8 @@ Reference = Annotated[
     typer.Option(
         "--reference",
         metavar="T",
-        help="Temperature of the master curve, e.g. '23 degC'; by default the set nearest 20 degC.",
+        help="Temperature of the master curve, e.g. '23 degC'; by default the set nearest 20 degC, "
+        "or the first temperature of a test in which it varied.",
     ),
 ]
 Temperature = Annotated[
@@ -100,6 +101,23 @@ Expansion = Annotated[
         "--expansion",
         metavar="X",
         help="Thermal expansion in volume, for the density of --vertical rubber [1/K].",
+    ),
+]
+Shift = Annotated[
+    str | None,
+    typer.Option(
+        "--shift",
+        metavar="arrhenius|wlf|table",
+        help="Rule of the shift of a test whose temperature varies; by default Arrhenius or WLF, "
+        "whichever describes it better.",
+    ),
+]
+ThermalStrain = Annotated[
+    bool | None,
+    typer.Option(
+        "--thermal-strain/--no-thermal-strain",
+        help="Find thermal expansion in the strain of such a creep test, or take none; by default "
+        "where the strain shows it.",
     ),
 ]
 Body = Annotated[
@@ -257,6 +275,8 @@ def fit(
     temperature: Temperature = None,
     vertical: Vertical = None,
     expansion: Expansion = None,
+    shift: Shift = None,
+    thermal_strain: ThermalStrain = None,
     indenter: Body = None,
     spring_constant: SpringConstant = None,
     sensitivity: Sensitivity = None,
@@ -284,8 +304,9 @@ def fit(
     """Fit a law to measured creep, relaxation, oscillation or indentation.
 
     Measurements at several temperatures are joined to a master curve, and the shift factors are
-    printed. In a force curve, contact point and baseline are found together with the law. With
-    --case, values of a case are fitted to records by runs of the case.
+    printed; of a test whose temperature varied, law and shift are found together. In a force curve,
+    contact point and baseline are found together with the law. With --case, values of a case are
+    fitted to records by runs of the case.
     """
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit

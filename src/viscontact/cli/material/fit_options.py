@@ -7,8 +7,11 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Self
 
+from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
+from viscontact.bodies.series_fits.reduced_record import ShiftOptions
+from viscontact.bodies.series_fits.shift_rules import RULES
 from viscontact.identification import ForceCurve, read_force_curve
 from viscontact.identification.fitted_part import PARTS
 from viscontact.identification.force_curve import tabulated_curve
@@ -40,6 +43,8 @@ class FitArguments:
     expansion: float | None = None
     reach: float | None = None
     until: str | None = None
+    shift: str | None = None
+    thermal_strain: bool | None = None
 
     @classmethod
     def of(cls, typed: Mapping[str, Any]) -> Self:
@@ -93,6 +98,34 @@ class FitArguments:
                 raise ValueError(
                     f"{name}: --{key} goes with several temperatures; there is one set"
                 )
+        self.refuse_of_varying(name)
+
+    def refuse_of_varying(self, name: str) -> None:
+        """Refuse options that go with a temperature that varies during a test."""
+        for key in ("shift", "thermal_strain"):
+            if getattr(self, key) is not None:
+                raise ValueError(
+                    f"{name}: --{key.replace('_', '-')} goes with a test whose temperature varies "
+                    "over its times; there is none"
+                )
+
+    def refuse_of_sets(self, name: str) -> None:
+        """Refuse options that go with sets at several temperatures."""
+        for key in ("vertical", "expansion", "weight"):
+            if getattr(self, key):
+                raise ValueError(
+                    f"{name}: --{key} does not go with one test whose temperature varies; leave it "
+                    "out"
+                )
+
+    def on_clock(self, temperature: Floats) -> ShiftOptions:
+        """Return the options for a test under a temperature that varies, that of its rows [K]."""
+        if self.shift not in (None, *RULES):
+            raise ValueError(f"--shift must be one of {', '.join(RULES)}, got {self.shift!r}")
+        options = ShiftOptions(temperature=temperature, shift=self.shift)
+        if self.reference is not None:
+            options["reference_temperature"] = read_kelvin("--reference", self.reference)
+        return options
 
     def volume(self) -> tuple[float | None, float | None]:
         """Return Poisson's ratio [-] and the bulk modulus [Pa], None where not given."""
@@ -172,6 +205,8 @@ class FitArguments:
             "--vertical": self.vertical is not None,
             "--expansion": self.expansion is not None,
             "--weight": bool(self.weight),
+            "--shift": self.shift is not None,
+            "--thermal-strain": self.thermal_strain is not None,
         }
         idle = [option for option, given in options.items() if given]
         if idle:

@@ -11,6 +11,7 @@ from pathlib import Path
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits.prony import fit_creep, fit_relaxation
 from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.material.shift_table import celsius, print_shifts
@@ -114,6 +115,8 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
             f"{table.source.name}: --indenter goes with columns time, approach and force; there "
             f"are {', '.join(table.columns)}"
         )
+    if table.has_varying_temperature:
+        return _from_varying_temperature(table, arguments)
     sets = table.sets()
     if len(sets) > 1:
         return _from_sets(table, sets, arguments)
@@ -129,10 +132,39 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
     return material_section(fit), DeferredFigure("fitted_series", fit)
 
 
+def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
+    """Find law and shift of a test during which the temperature varied."""
+    arguments.refuse_of_sets(table.source.name)
+    points, measured = measured_columns(table)
+    options, on_clock = arguments.options(table), arguments.on_clock(table["temperature"])
+    strain = arguments.thermal_strain
+    if strain is not None and "compliance" not in measured:
+        raise ValueError(f"{table.source.name}: --thermal-strain goes with a creep test")
+    with _warnings_said(table.located):
+        if "compliance" in measured:
+            creep = measured["compliance"]
+            fit = fit_creep(points, creep, **options, **on_clock, thermal_strain=strain)
+        else:
+            fit = fit_relaxation(points, measured["modulus"], **options, **on_clock)
+    put(table.located(repr(fit)))
+    fit = _with_volume(_with_lines(fit, table), arguments)
+    assert fit.found_shift is not None
+    drawing = DeferredFigure("fitted_series", fit)
+    if arguments.temperature is None:
+        return material_section(fit), drawing
+    wanted = read_kelvin("--temperature", arguments.temperature)
+    factor = fit.found_shift.shift.factor(wanted)
+    put(f"At {celsius(wanted)} all times are {factor:.4g} times as long.")
+    law, series = (each.slowed(factor) for each in (fit.law, fit.series))
+    moved = dataclasses.replace(fit, law=law, series=series)
+    return material_section(moved, temperature=wanted), drawing
+
+
 def _from_sets(
     table: Table, sets: tuple[Table, ...], arguments: FitArguments
 ) -> tuple[str, DeferredFigure]:
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
+    arguments.refuse_of_varying(table.source.name)
     options = arguments.options(table)
     isotherms = [_isotherm(one) for one in sets]
     temperatures = [isotherm.temperature for isotherm in isotherms]

@@ -19,8 +19,8 @@ from viscontact.studies.calibration.result import CaseFit
 #: Options of other fits, and of fits to runs, by their parameters.
 _OF_TABLES = (
     *("data", "poisson_ratio", "bulk_modulus", "terms", "fluid", "weight", "stress"),
-    *("reference", "temperature", "vertical", "expansion", "indenter"),
-    *("spring_constant", "sensitivity", "reach", "until"),
+    *("reference", "temperature", "vertical", "expansion", "indenter", "shift"),
+    *("spring_constant", "sensitivity", "reach", "until", "thermal_strain"),
 )
 _OF_RUNS = (
     "change",

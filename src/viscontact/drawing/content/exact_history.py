@@ -14,7 +14,7 @@ from viscontact.backend.arrays import Floats, Integers
 from viscontact.bodies.indenters import Indenter, Paraboloid, Sphere
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.loads import ApproachHistory, ForceHistory
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.drawing.content.panel import FAINT, TEXT, Axis, Curve, Ink, Mark, Panel
 from viscontact.reference import (

@@ -14,11 +14,11 @@ from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Law
 from viscontact.bodies.loads import LoadHistory, LoadPoint
+from viscontact.bodies.loads.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.loads.largest_load import largest_load
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.temperature import TemperatureHistory
-from viscontact.bodies.materials.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.bodies.materials.layers import Layered, at_temperature, materials_of
 from viscontact.bodies.materials.material import Material

@@ -19,8 +19,8 @@ from itertools import repeat
 
 import numpy as np
 
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.loads.temperature import TemperatureHistory
-from viscontact.bodies.materials.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import (
     ClockedCompliance,
     ContactCompliance,

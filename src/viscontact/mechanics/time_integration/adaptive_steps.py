@@ -18,7 +18,7 @@ import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.materials.clock import Clock
+from viscontact.bodies.loads.clock import Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep, snap_to_kink
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes

@@ -13,7 +13,7 @@ from math import isclose
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryIntegral,

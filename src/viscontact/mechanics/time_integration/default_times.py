@@ -14,7 +14,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.materials.clock import TIME
+from viscontact.bodies.loads.clock import TIME
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.materials.clock import Clock
+from viscontact.bodies.loads.clock import Clock
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData

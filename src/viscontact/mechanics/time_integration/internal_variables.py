@@ -16,7 +16,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.mechanics.time_integration.hereditary_integral import (

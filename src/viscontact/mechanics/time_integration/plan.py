@@ -9,7 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import (
     ClockedCompliance,
     ContactCompliance,

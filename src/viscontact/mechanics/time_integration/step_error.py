@@ -20,7 +20,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.loads import LoadHistory, LoadPoint
-from viscontact.bodies.materials.clock import TIME
+from viscontact.bodies.loads.clock import TIME
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryResponse,

@@ -9,7 +9,7 @@ from itertools import chain, repeat
 
 import numpy as np
 
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.units.formatting import format_quantity

@@ -8,7 +8,7 @@ import numpy as np
 
 from viscontact.bodies.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.materials.clock import TIME
+from viscontact.bodies.loads.clock import TIME
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem import DataTimes
 from viscontact.units.formatting import format_quantity

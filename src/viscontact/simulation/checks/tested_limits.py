@@ -17,7 +17,7 @@ from functools import partial
 import numpy as np
 
 from viscontact.bodies.loads import LoadHistory, TemperatureHistory
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.default_times import (
     MAX_LOAD_STEPS,

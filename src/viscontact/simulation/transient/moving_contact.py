@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from viscontact.bodies.materials.clock import Clock
+from viscontact.bodies.loads.clock import Clock
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.mechanics.contact.resistance import (
     is_even,

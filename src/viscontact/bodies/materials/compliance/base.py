@@ -8,7 +8,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws.creep_function import CreepFunction
-from viscontact.bodies.materials.clock import TIME, Clock
+from viscontact.bodies.loads.clock import TIME, Clock
 
 
 class ContactCompliance(CreepFunction):

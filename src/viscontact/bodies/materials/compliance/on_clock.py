@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.materials.clock import Clock
+from viscontact.bodies.loads.clock import Clock
 from viscontact.bodies.materials.compliance.base import ContactCompliance
 from viscontact.units.numbers import store
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri
+import scipy
 
 from viscontact.backend.arrays import Floats
 
@@ -90,7 +90,7 @@ def _power(residuals: Floats, variance: float) -> _Power:
         power[band] = mean
     power[0] = power[1]
     # A mean over n/2 frequencies is chi-square of n degrees of freedom over n.
-    if np.all(means <= chdtri(degrees, _CHANCE / len(bands)) / degrees):
+    if np.all(means <= scipy.special.chdtri(degrees, _CHANCE / len(bands)) / degrees):
         return _Power(frequencies, power, True)
     # The fit has taken up most of the lowest band: its power is that of the next one, continued
     # as steeply as that one rises above its successor.

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.bodies.materials.clock import STEP_CHANGE, TIME, ReducedTime
+from viscontact.bodies.loads.clock import STEP_CHANGE, TIME, ReducedTime
 
 WLF = vc.WLF(293.15, 8.86, 101.6)
 WARM = vc.TemperatureHistory([0.0, 60.0, 60.0, 3600.0], [283.15, 313.15, 293.15, 273.15])
