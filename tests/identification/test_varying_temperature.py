@@ -64,6 +64,7 @@ def test_exact_relaxation_gives_law_and_shift_and_the_criterion_its_rule():
     np.testing.assert_allclose(fit.law.moduli, RELAXATION.moduli, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_table_has_a_factor_for_each_temperature_that_is_held():
     times, temperature, creep = stepped(CREEP, WLF)
     fit = vc.fit_creep(times, creep, data="deviatoric", temperature=temperature, shift="table")
@@ -96,7 +97,7 @@ def coverage(name, shift, seeds):
 
 
 def test_intervals_contain_the_shift_of_noisy_tests():
-    assert coverage("arrhenius", ARRHENIUS, range(4)).min() >= 0.75
+    assert coverage("arrhenius", ARRHENIUS, range(3)).min() >= 2 / 3
 
 
 @pytest.mark.slow
@@ -105,6 +106,20 @@ def test_intervals_contain_the_shift_of_most_noisy_tests(name, shift):
     assert coverage(name, shift, range(40)).min() >= 0.875  # 95 % nominally
 
 
+def test_thermal_expansion_is_found_where_it_is_sought():
+    times, temperature, creep = stepped(CREEP, ARRHENIUS, noise=0.003)
+    found = vc.fit_creep(
+        *(times, creep + 2e-11 * (temperature - FIRST)),
+        data="deviatoric",
+        temperature=temperature,
+        shift="arrhenius",
+        thermal_strain=True,
+    ).found_shift
+    assert found.warnings == ()
+    assert abs(found.expansion - 2e-11) <= found.expansion_error < 2e-12
+
+
+@pytest.mark.slow
 def test_thermal_expansion_is_found_with_the_law():
     times, temperature, creep = stepped(CREEP, ARRHENIUS, noise=0.003)
     expanding = creep + 2e-11 * (temperature - FIRST)
