@@ -96,11 +96,13 @@ def coverage(name, shift, seeds):
     return np.mean(within, axis=0)
 
 
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 def test_intervals_contain_the_shift_of_noisy_tests():
     assert coverage("arrhenius", ARRHENIUS, range(3)).min() >= 2 / 3
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 @pytest.mark.parametrize(("name", "shift"), [("arrhenius", ARRHENIUS), ("wlf", WLF)])
 def test_intervals_contain_the_shift_of_most_noisy_tests(name, shift):
     assert coverage(name, shift, range(40)).min() >= 0.875  # 95 % nominally

@@ -45,6 +45,20 @@ def test_a_fitted_series_shows_measured_values_and_residuals_in_per_cent(tmp_pat
     save_figure(figure, tmp_path / "fit.png")
 
 
+def test_a_test_under_a_varying_temperature_is_drawn_over_the_reduced_time():
+    shift, held = WLF(293.15, 8.86, 101.6), T > 10.0
+    fit = fit_creep(
+        *(T, 2 - np.exp(-T / 5.0)),
+        data="shear",
+        temperature=np.where(held, 303.15, 293.15),
+        shift=shift,
+    )
+    above, below = fitted_series(fit).axes
+    assert below.get_xlabel() == r"Reduced time $\xi$ [s]"
+    last = float(np.diff(T)[-1]) / shift.factor(303.15)
+    assert float(np.diff(np.sort(above.lines[0].get_xdata()))[-1]) == close_to(last, rel=1e-9)
+
+
 def test_the_instant_of_the_step_is_left_off_the_logarithmic_axis():
     t = np.concatenate([[0.0], T])
     above, _ = fitted_series(fit_creep(t, 2 - np.exp(-t), data="deviatoric")).axes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -51,6 +52,8 @@ def fit_panels(fit: Fit) -> tuple[Panel, Panel]:
     note = f"{_count_of_terms(fit)} (ticks), residual {_residual_note(fit)}"
     reach = 1.15 * fit.largest_residual or 0.01
     x = _abscissa(fit.measured)
+    if fit.found_shift is not None:
+        x = replace(x, quantity=r"Reduced time $\xi$")
     return (
         Panel(
             *(x, _values_axis(fit.measured, f" {_symbol(fit)}"), tuple(above)),
