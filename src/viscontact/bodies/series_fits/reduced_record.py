@@ -29,6 +29,7 @@ from viscontact.bodies.series_fits.thermal_record import (
     ThermalRecord,
     require_steps,
 )
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import positive
 
 #: Probability of the intervals.
@@ -123,7 +124,7 @@ def _history(
     for row in np.flatnonzero(np.diff(times) <= 0)[:1]:
         raise ValueError(
             f"{owner}: times, row {int(order[row + 1])}: two rows of a record under a temperature "
-            f"have the same time, {times[row]:.6g} s; leave one out"
+            f"have the same time, {format_quantity(times[row], 's', 6)}; leave one out"
         )
     if isinstance(given, TemperatureHistory):
         return given
