@@ -72,13 +72,7 @@ class JointLikelihood:
         # Derivatives of the curves by ln a are minus those by ln(time).
         shared = inverse @ weighted.T
         rows = sets.log_times.size
-        moves = np.zeros((len(design), moved.shape[1]))
-        turned = np.zeros(len(design))
-        for column in range(sets.columns):
-            own = slice(column * splines.count, (column + 1) * splines.count)
-            at = slice(column * rows, (column + 1) * rows)
-            moves[at] = -(slopes @ solved[own])[:, None] * moved
-            turned[at] = np.sum(slopes * shared[own, at].T, axis=1)
+        moves, turned = self._moves(slopes, solved, shared)
         pull = moves.T @ (self._weights * residuals)
         bend = sum(turned.reshape(sets.columns, rows)) @ moved
         crossed = shared @ moves
@@ -94,6 +88,17 @@ class JointLikelihood:
             -crossed[self._of_b],
             inverse[self._of_b, self._of_b],
         )
+
+    def _moves(self, slopes: Floats, solved: Floats, shared: Floats) -> tuple[Floats, Floats]:
+        """Derivatives of the curves by ln a, and of their design by the own one, of all columns."""
+        rows, count = self.sets.log_times.size, self.splines.count
+        moves, turned = [], []
+        for column in range(self.sets.columns):
+            own = slice(column * count, (column + 1) * count)
+            moves.append(-(slopes @ solved[own])[:, None] * self._moved)
+            at = slice(column * rows, (column + 1) * rows)
+            turned.append(np.sum(slopes * shared[own, at].T, axis=1))
+        return np.concatenate(moves), np.concatenate(turned)
 
     @property
     def _of_b(self) -> slice:

@@ -62,7 +62,8 @@ class Lane:
     def _note_end(self, done: asyncio.Future[T]) -> None:
         self.is_busy = False
         if not done.cancelled():
-            done.exception()  # of a task that nobody waits for
+            # Python reports an exception that no one has read when the task is deleted.
+            done.exception()
 
     @contextmanager
     def _place(self) -> Iterator[None]:

@@ -39,9 +39,15 @@ _NODES, _WEIGHTS = leggauss(8)
 class Clock:
     """The time itself: the clock of a body at a constant temperature that does not age."""
 
-    #: Instants of kinks and jumps of the rate, and of its jumps alone [s].
-    kinks: Floats = np.zeros(0)
-    jumps: Floats = np.zeros(0)
+    @property
+    def kinks(self) -> Floats:
+        """Instants of kinks and jumps of the rate [s]."""
+        return np.zeros(0)
+
+    @property
+    def jumps(self) -> Floats:
+        """Instants of jumps of the rate [s]."""
+        return np.zeros(0)
 
     def reduced(self, times: Floats) -> Floats:
         """Reduced times since time 0 [s]."""
@@ -86,12 +92,12 @@ class ReducedTime(Clock):
     ageing: Ageing | None = None
 
     @property
-    def kinks(self) -> Floats:  # type: ignore[override]
+    def kinks(self) -> Floats:
         """Instants of kinks and jumps of the rate [s]."""
         return np.zeros(0) if self.temperature is None else self.temperature.kinks
 
     @property
-    def jumps(self) -> Floats:  # type: ignore[override]
+    def jumps(self) -> Floats:
         """Instants of jumps of the rate [s]."""
         return np.zeros(0) if self.temperature is None else self.temperature.jumps
 

@@ -11,8 +11,8 @@ from scipy.optimize import brentq, minimize_scalar
 from viscontact.backend.arrays import Floats
 from viscontact.results.heating.power_curve import PowerCurve
 
-#: Least temperature rise that is told from none [K], samples of the rise, and factor on the largest
-#: speed up to which the runaway is looked for.
+#: Least temperature rise that counts [K], samples of the rise, and the highest speed at which the
+#: runaway is sought, over the largest speed of the curve.
 _LEAST, _SAMPLES, _FURTHER = 1e-4, 400, 10.0
 
 

@@ -64,17 +64,24 @@ def _eccentricities(contact: SteadyContact, force: float) -> tuple[float, float]
     return offset_x, centre_y * float(whole.sum(axis=0) @ grid.y) / force
 
 
+def _resistances(
+    problem: SteadyProblem, contact: SteadyContact, against: Resistance
+) -> list[float]:
+    """Forces of the half-space on the body against +x and +y [N]."""
+    forces = [against.value, against.value]
+    forces[1 - problem.axis] = force_across(problem, contact)
+    return forces
+
+
 def state_of(
     problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
 ) -> ContactState:
     """State of a contact; time and cumulative values are NaN, without `datum` also the approach."""
     grid, solution, axis = contact.grid, contact.solution, problem.axis
-    grown = problem.contact.thickening_at(0.0)
     pressure, motion = contact.pressure, solution.motion
     force, peak = float((pressure * grid.cell_area).sum()), float(pressure.max())
     area, load = max(rim.area, force / peak), line_load(pressure, grid)
-    forces = [against.value, against.value]
-    forces[1 - axis] = force_across(problem, contact)
+    forces = _resistances(problem, contact, against)
     offset_x, offset_y = _eccentricities(contact, force)
     return ContactState(
         time=math.nan,
@@ -87,7 +94,7 @@ def state_of(
         force=force,
         eccentricity_x=offset_x,
         eccentricity_y=offset_y,
-        approach=float(motion[0]) - grown if datum else math.nan,
+        approach=float(motion[0]) - problem.contact.thickening_at(0.0) if datum else math.nan,
         tilt_x=float(motion[1]),
         tilt_y=float(motion[2]),
         contact_area=area,
