@@ -43,7 +43,7 @@ class IndentationFit(Displayable):
     given : str
         Quantity taken as exact, ``"approach"`` or ``"force"``; the other is fitted.
     fitted : ndarray, shape (n,)
-        The other quantity from the law [N or m]; NaN beyond `until`.
+        The other quantity from the law [N or m]; NaN beyond ``until``.
     units : tuple of str
         Units of the parameters, in their order.
     until : float

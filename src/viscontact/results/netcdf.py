@@ -61,7 +61,7 @@ def open_results(path: str | Path) -> xr.Dataset:
 
     Notes
     -----
-    A file without digests, such as one of `xarray.Dataset.to_netcdf`, is opened and a line of the
+    A file without digests, such as one of ``xarray.Dataset.to_netcdf``, is opened and a line of the
     log says so.
 
     Examples

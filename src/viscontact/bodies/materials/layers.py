@@ -29,7 +29,7 @@ class Layer(Displayable):
         Coefficient of linear thermal expansion [1/K]. Under the temperature of a run it makes the
         layer thicker, and so the gap smaller; without it the thickness is constant.
     expansion_from : float, optional
-        Absolute temperature at which the layer has its thickness [K]; it goes with `expansion`.
+        Absolute temperature at which the layer has its thickness [K]; it goes with ``expansion``.
 
     Raises
     ------

@@ -24,7 +24,7 @@ class MeasuredRange(Displayable):
         Largest stress of a uniaxial test [Pa].
     first : float
         First time after a change of load for which the law was measured [s]; 0 if also the response
-        at once was. The last one is `Material.measured_until`.
+        at once was. The last one is ``Material.measured_until``.
     temperatures : pair of float, optional
         Lowest and highest temperature of the tests [K].
     used_at : float, optional

@@ -127,7 +127,7 @@ def fit_creep(  # noqa: PLR0913
     Phi(t) = J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t with J_0, J_i, φ >= 0 minimises the sum of
     squares of the *relative* residuals. The choice of the terms is described in
     `viscontact.bodies.series_fits.spectrum`. With a temperature, t is the reduced time
-    ξ(t) = ∫ dt'/a_T(T(t')); see `viscontact.bodies.series_fits.joint_fit`.
+    ξ(t) = ∫ dt'/a_T(T(t')); see ``viscontact.bodies.series_fits.joint_fit``.
 
     Examples
     --------
