@@ -17,6 +17,7 @@ from viscontact.cli.studies import case_fit
 from viscontact.studies.calibration.fit_case import fit_case
 
 COMMAND = ("fit", "a.csv", "--case", "ball.yaml")
+OF_RUNS = (("--rows", "9"), ("--jobs", "1"), ("--resume",), ("--quiet",), ("--overwrite",))
 MODULUS = ("--change", "material.shear_modulus=0.5 MPa:9 MPa:log")
 
 
@@ -89,6 +90,9 @@ def test_an_interrupted_fit_goes_on_with_resume_only(
         ((*COMMAND, *MODULUS, "--contact-point", "1 N:2 N"), "--contact-point: cannot read"),
         ((*COMMAND, *MODULUS, "--runs", "1"), "--runs: 1 are too few for this fit"),
         ((*COMMAND, *MODULUS, "--indenter", "sphere 5 mm"), "--indenter does not go with --case"),
+        ((*COMMAND, *MODULUS, "--law", "zener"), "--law does not go with --case"),
+        ((*COMMAND, *MODULUS, "--no-thermal-strain"), "--thermal-strain does not go with --case"),
+        *((("fit", "a.csv", *typed), f"{typed[0]}: needs --case CASE.yaml") for typed in OF_RUNS),
         (("fit", "a.csv", *MODULUS), "--change: needs --case CASE.yaml"),
         (("fit", "a.csv", "--report", "a.html"), "--report: needs --case CASE.yaml"),
         (("fit", "a.csv", "a.csv"), "2 tables: needs --case CASE.yaml"),

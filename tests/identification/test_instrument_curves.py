@@ -159,8 +159,11 @@ def test_fit_takes_the_file_of_an_instrument(tmp_path, capsys):
     said = capsys.readouterr()
     assert "ContactPoint: at -18.055 µm" in said.out
     assert "law: elastic" in written_to.read_text(encoding="utf-8")
-    assert main(["fit", str(CELL), *options, "--sensitivity", "50 nm/V"]) == 2
-    assert "--sensitivity does not go with this file" in capsys.readouterr().err
+    for idle in (["--sensitivity", "50 nm/V"], ["--stress", "5 MPa"], ["--columns", "time [s]"]):
+        assert main(["fit", str(CELL), *options, *idle]) == 2
+        said = capsys.readouterr().err
+        assert f"cell.jpk-force: {idle[0]} goes with " in said
+        assert f"this is a force curve in a file of an instrument; leave {idle[0]} out" in said
     assert main(["fit", str(CELL), "--poisson-ratio", "0.5"]) == 2
     assert "cell.jpk-force: an indentation record needs --indenter" in capsys.readouterr().err
 

@@ -117,7 +117,10 @@ def _at_stress(
     levels = [column.stress for column in columns if column.stress is not None]
     if not levels:
         if stress is not None and not any(_is_of_creep_test(c.meaning) for c in columns):
-            raise ValueError(f"{source}: has no strain of a creep test; leave the stress out")
+            found = ", ".join(repr(column.heading) for column in columns)
+            raise ValueError(
+                f"{source}: has no strain of a creep test; there are {found}; leave the stress out"
+            )
         return columns, stress
     level = chosen_level(source, sorted(set(levels)), stress)
     return tuple(column for column in columns if column.stress in (None, level)), level

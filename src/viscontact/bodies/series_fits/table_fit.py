@@ -31,7 +31,8 @@ def measured_columns(table: Table) -> tuple[Floats, dict[str, Floats]]:
             return table["time"], {name: table[quantity]}
     raise ValueError(
         f"{table.source.name}: needs a relaxation modulus or a creep compliance over time, or "
-        "storage (and loss) modulus over frequency, or force and approach over time; "
+        "storage (and loss) modulus over frequency, or force and approach, or position and "
+        "deflection, over time; "
         f"{table.contents}"
     )
 

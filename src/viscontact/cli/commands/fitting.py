@@ -166,12 +166,12 @@ Until = Annotated[
     ),
 ]
 LawName = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--law",
         metavar="LAW",
         help="Law for an indentation record: elastic, maxwell, zener, burgers, creep-series, "
-        "power-law or power-law-with-instant.",
+        "power-law or power-law-with-instant; by default zener.",
     ),
 ]
 Figure = Annotated[
@@ -233,12 +233,13 @@ MachineStiffness = Annotated[
     ),
 ]
 Rows = Annotated[
-    int,
+    int | None,
     typer.Option(
         "--rows",
         min=5,
         metavar="N",
-        help="Most rows of a record, and steps of its run; longer ones are averaged.",
+        help="Most rows of a record, and steps of its run; longer ones are averaged. By default "
+        "60.",
         rich_help_panel=_BY_RUNS,
     ),
 ]
@@ -282,7 +283,7 @@ def fit(
     sensitivity: Sensitivity = None,
     reach: Reach = None,
     until: Until = None,
-    law: LawName = "zener",
+    law: LawName = None,
     output: Figure = None,
     width: Width = None,
     section: Section = None,
@@ -292,7 +293,7 @@ def fit(
     contact_point: ContactPoint = None,
     machine_stiffness: MachineStiffness = None,
     settings: Settings = None,
-    rows: Rows = 60,
+    rows: Rows = None,
     runs: Runs = None,
     report: Report = None,
     jobs: Jobs = None,

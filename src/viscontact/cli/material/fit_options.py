@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from pathlib import Path
 from typing import Any, Self
 
 from viscontact.backend.arrays import Floats
@@ -12,7 +11,8 @@ from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.bodies.series_fits.reduced_record import ShiftOptions
 from viscontact.bodies.series_fits.shift_rules import RULES
-from viscontact.identification import ForceCurve, read_force_curve
+from viscontact.identification import ForceCurve
+from viscontact.identification.candidates import CANDIDATES
 from viscontact.identification.fitted_part import PARTS
 from viscontact.identification.force_curve import tabulated_curve
 from viscontact.identification.master_curve import SuperpositionOptions
@@ -20,20 +20,22 @@ from viscontact.identification.vertical_shift import VERTICALS
 from viscontact.tables import Table
 from viscontact.units.parsing import parse_quantity
 
+_USUAL_LAW, _SERIES = "zener", "creep-series"
+
 
 @dataclass(frozen=True)
 class FitArguments:
     """Arguments of `fit`, as typed."""
 
-    data: str | None
-    poisson_ratio: float | None
-    bulk_modulus: str | None
-    terms: int | None
-    fluid: bool
-    reference: str | None
-    temperature: str | None
-    indenter: str | None
-    law: str
+    data: str | None = None
+    poisson_ratio: float | None = None
+    bulk_modulus: str | None = None
+    terms: int | None = None
+    fluid: bool = False
+    reference: str | None = None
+    temperature: str | None = None
+    indenter: str | None = None
+    law: str | None = None
     weight: Sequence[str] = ()
     stress: str | None = None
     columns: str | None = None
@@ -53,9 +55,19 @@ class FitArguments:
         return cls(**{**given, "weight": given["weight"] or ()})
 
     @property
+    def given(self) -> list[str]:
+        """Names of the arguments that were typed."""
+        return [each.name for each in fields(self) if getattr(self, each.name) != each.default]
+
+    @property
     def weights(self) -> dict[str, float] | None:
         """Weights of storage and loss; None if none are given."""
         return dict(map(read_weight, self.weight)) or None
+
+    @property
+    def indented_law(self) -> str:
+        """Law of an indentation record."""
+        return _USUAL_LAW if self.law is None else self.law
 
     def options(self, table: Table) -> FitOptions:
         """Return the options for the fit of a series to a table."""
@@ -91,33 +103,6 @@ class FitArguments:
             options["expansion"] = self.expansion
         return options
 
-    def refuse_of_several(self, name: str) -> None:
-        """Refuse options that go with several temperatures."""
-        for key in ("reference", "temperature", "vertical", "expansion"):
-            if getattr(self, key) is not None:
-                raise ValueError(
-                    f"{name}: --{key} goes with several temperatures; there is one set"
-                )
-        self.refuse_of_varying(name)
-
-    def refuse_of_varying(self, name: str) -> None:
-        """Refuse options that go with a temperature that varies during a test."""
-        for key in ("shift", "thermal_strain"):
-            if getattr(self, key) is not None:
-                raise ValueError(
-                    f"{name}: --{key.replace('_', '-')} goes with a test whose temperature varies "
-                    "over its times; there is none"
-                )
-
-    def refuse_of_sets(self, name: str) -> None:
-        """Refuse options that go with sets at several temperatures."""
-        for key in ("vertical", "expansion", "weight"):
-            if getattr(self, key):
-                raise ValueError(
-                    f"{name}: --{key} does not go with one test whose temperature varies; leave it "
-                    "out"
-                )
-
     def on_clock(self, temperature: Floats) -> ShiftOptions:
         """Return the options for a test under a temperature that varies, that of its rows [K]."""
         if self.shift not in (None, *RULES):
@@ -144,7 +129,7 @@ class FitArguments:
                 f"{name}: an indentation record needs --poisson-ratio, such as 0.4, "
                 "or --bulk-modulus"
             )
-        self._refuse_idle(name)
+        self._refuse_terms_of_another_law(name)
         return read_indenter(self.indenter)
 
     def force_curve(self, table: Table) -> ForceCurve:
@@ -153,10 +138,6 @@ class FitArguments:
         if stiffness is None:
             raise ValueError(
                 f"{table.source.name}: a force curve needs --spring-constant, such as '0.1 N/m'"
-            )
-        if "signal" not in table and self.sensitivity is not None:
-            raise ValueError(
-                f"{table.source.name}: --sensitivity goes with a deflection in volts; leave it out"
             )
         if "signal" in table and self.sensitivity is None:
             raise ValueError(
@@ -184,35 +165,13 @@ class FitArguments:
                 f"--until: must be loading, hold, end or a time such as '2.5 s', got {self.until!r}"
             ) from None
 
-    def instrument_curve(self, file: Path) -> ForceCurve:
-        """Return a force curve of a file of an instrument."""
-        idle = {
-            "--stress": self.stress,
-            "--sensitivity": self.sensitivity,
-            "--columns": self.columns,
-        }
-        for option in (option for option, given in idle.items() if given is not None):
-            raise ValueError(f"{file.name}: {option} does not go with this file; leave it out")
-        return read_force_curve(file, spring_constant=self.stiffness())
-
-    def _refuse_idle(self, name: str) -> None:
-        """Refuse options that do not apply to an indentation record."""
-        options = {
-            "--data": self.data is not None,
-            "--fluid": self.fluid,
-            "--reference": self.reference is not None,
-            "--temperature": self.temperature is not None,
-            "--vertical": self.vertical is not None,
-            "--expansion": self.expansion is not None,
-            "--weight": bool(self.weight),
-            "--shift": self.shift is not None,
-            "--thermal-strain": self.thermal_strain is not None,
-        }
-        idle = [option for option, given in options.items() if given]
-        if idle:
+    def _refuse_terms_of_another_law(self, name: str) -> None:
+        """Refuse a number of terms for an indentation whose law has none."""
+        law = self.indented_law
+        if self.terms is not None and law in CANDIDATES and law != _SERIES:
             raise ValueError(
-                f"{name}: {', '.join(idle)} does not go with an indentation record; "
-                "leave it out (its law is chosen by --law)"
+                f"{name}: --terms goes with --law {_SERIES}; the law of this indentation is {law}; "
+                f"leave --terms out, or choose --law {_SERIES}"
             )
 
 

@@ -13,6 +13,8 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.prony import fit_creep, fit_relaxation
 from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
+from viscontact.cli.material import fit_kinds
+from viscontact.cli.material.fit_kinds import Kind
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.material.shift_table import celsius, print_shifts
 from viscontact.cli.material.table_choice import as_option, say_chosen
@@ -30,6 +32,7 @@ from viscontact.identification import (
     fit_indentation,
     fit_master_curve,
     material_section,
+    read_force_curve,
 )
 from viscontact.identification.instrument_curves import is_instrument_file
 from viscontact.tables import Table, read_table
@@ -74,8 +77,10 @@ def _from_table(file: Path, arguments: FitArguments) -> tuple[str, DeferredFigur
 
 def _from_instrument(file: Path, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     try:
+        fit_kinds.INSTRUMENT_CURVE.refuse_idle(file.name, arguments.given)
         indenter = arguments.indenter_of(file.name)
-        return _from_force_curve(arguments.instrument_curve(file), indenter, arguments)
+        curve = read_force_curve(file, spring_constant=arguments.stiffness())
+        return _from_force_curve(curve, indenter, arguments)
     except (ValueError, OSError) as error:
         refuse(str(error))
 
@@ -98,30 +103,14 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
     if "force" in table and "approach" in table:
         return _from_indentation(table, arguments)
     if "position" in table and any(c in table for c in ("deflection", "signal", "force")):
-        indenter = arguments.indenter_of(table.source.name)
-        return _from_force_curve(arguments.force_curve(table), indenter, arguments)
-    if arguments.spring_constant is not None or arguments.sensitivity is not None:
-        raise ValueError(
-            f"{table.source.name}: --spring-constant and --sensitivity go with a force curve, "
-            f"which has columns time, position, and deflection or force; {table.contents}"
-        )
-    if arguments.reach is not None or arguments.until is not None:
-        raise ValueError(
-            f"{table.source.name}: --reach and --until go with an indentation: columns time, "
-            f"position and deflection or force, or time, approach and force; {table.contents}"
-        )
-    if arguments.indenter is not None:
-        raise ValueError(
-            f"{table.source.name}: --indenter goes with columns time, approach and force; there "
-            f"are {', '.join(table.columns)}"
-        )
+        return _from_tabulated_curve(table, arguments)
     if table.has_varying_temperature:
         return _from_varying_temperature(table, arguments)
     sets = table.sets()
     if len(sets) > 1:
         return _from_sets(table, sets, arguments)
-    arguments.refuse_of_several(table.source.name)
     points, measured = measured_columns(table)
+    _refuse_idle(fit_kinds.one_set(measured), table, arguments)
     if note := loss_note(measured):
         say(f"{table.source.name}: {note}")
     options = arguments.options(table)
@@ -134,15 +123,12 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
 
 def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     """Find law and shift of a test during which the temperature varied."""
-    arguments.refuse_of_sets(table.source.name)
     points, measured = measured_columns(table)
+    _refuse_idle(fit_kinds.varying_temperature(measured), table, arguments)
     options, on_clock = arguments.options(table), arguments.on_clock(table["temperature"])
-    strain = arguments.thermal_strain
-    if strain is not None and "compliance" not in measured:
-        raise ValueError(f"{table.source.name}: --thermal-strain goes with a creep test")
     with _warnings_said(table.located):
         if "compliance" in measured:
-            creep = measured["compliance"]
+            creep, strain = measured["compliance"], arguments.thermal_strain
             fit = fit_creep(points, creep, **options, **on_clock, thermal_strain=strain)
         else:
             fit = fit_relaxation(points, measured["modulus"], **options, **on_clock)
@@ -164,7 +150,7 @@ def _from_sets(
     table: Table, sets: tuple[Table, ...], arguments: FitArguments
 ) -> tuple[str, DeferredFigure]:
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
-    arguments.refuse_of_varying(table.source.name)
+    _refuse_idle(fit_kinds.several_sets(measured_columns(table)[1]), table, arguments)
     options = arguments.options(table)
     isotherms = [_isotherm(one) for one in sets]
     temperatures = [isotherm.temperature for isotherm in isotherms]
@@ -196,19 +182,18 @@ def _from_sets(
 
 
 def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
+    _refuse_idle(fit_kinds.INDENTATION, table, arguments)
     indenter = arguments.indenter_of(table.source.name)
-    if arguments.spring_constant is not None or arguments.sensitivity is not None:
-        raise ValueError(
-            f"{table.source.name}: --spring-constant and --sensitivity do not go with an approach, "
-            "from which the bending is subtracted already; leave them out"
-        )
-    if arguments.reach is not None:
-        raise ValueError(
-            f"{table.source.name}: --reach goes with a force curve, whose contact point is "
-            "searched; leave it out"
-        )
     record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
     return _from_record(record, arguments)
+
+
+def _from_tabulated_curve(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
+    is_voltage = "signal" in table
+    kind = fit_kinds.VOLTAGE_CURVE if is_voltage else fit_kinds.FORCE_CURVE
+    _refuse_idle(kind, table, arguments)
+    indenter = arguments.indenter_of(table.source.name)
+    return _from_force_curve(arguments.force_curve(table), indenter, arguments)
 
 
 def _from_force_curve(
@@ -229,7 +214,7 @@ def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[st
     with _warnings_said():
         fit = fit_indentation(
             record,
-            arguments.law,
+            arguments.indented_law,
             terms=1 if arguments.terms is None else arguments.terms,
             poisson_ratio=poisson_ratio,
             bulk_modulus=bulk_modulus,
@@ -237,6 +222,11 @@ def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[st
         )
     put(repr(fit))
     return material_section(fit), DeferredFigure("fitted_indentation", fit)
+
+
+def _refuse_idle(kind: Kind, table: Table, arguments: FitArguments) -> None:
+    """Refuse options that do not apply to a table of a kind."""
+    kind.refuse_idle(table.source.name, arguments.given, table.contents)
 
 
 @contextmanager

@@ -23,6 +23,7 @@ def as_option(why: str) -> str:
     # Meanings of columns as Python writes them: columns={'E': 'storage_modulus'}.
     why = re.sub(r"columns=\{(['\"])(.+?)\1: '?(\w+)'?\}", _typed_meaning, why)
     why = re.sub(r"^columns: ", "--columns: ", why)
+    why = re.sub(r"leave the stress out$", "leave --stress out", why)
     return why.replace("with columns=", "with --columns").replace(
         "can be given in columns", "can be given by --columns 'time [s], ...'"
     )

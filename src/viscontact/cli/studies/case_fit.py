@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.cli.material.fit_kinds import switch
+from viscontact.cli.material.fit_options import FitArguments
 from viscontact.cli.material.fit_report import DeferredFigure, draw_fit, write_section
 from viscontact.cli.studies.execution import Records, performed, write_report
 from viscontact.cli.studies.typed_options import bounds, by_key, case_of, settings_of
@@ -16,28 +18,16 @@ from viscontact.studies.calibration.fit_case import fit_case
 from viscontact.studies.calibration.record import ContactRecord, read_record
 from viscontact.studies.calibration.result import CaseFit
 
-#: Options of other fits, and of fits to runs, by their parameters.
-_OF_TABLES = (
-    *("data", "poisson_ratio", "bulk_modulus", "terms", "fluid", "weight", "stress"),
-    *("reference", "temperature", "vertical", "expansion", "indenter", "shift"),
-    *("spring_constant", "sensitivity", "reach", "until", "thermal_strain"),
-)
+#: Options of fits to runs by their parameters.
 _OF_RUNS = (
-    "change",
-    "drive",
-    "contact_point",
-    "machine_stiffness",
-    "settings",
-    "runs",
-    "report",
-    "scheduler",
-    "overwrite",
+    *("change", "drive", "contact_point", "machine_stiffness", "settings", "rows", "runs"),
+    *("report", "jobs", "scheduler", "resume", "overwrite", "quiet"),
 )
 
 
 def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> None:
     """Fit values of a case by options of the command; print, draw and write them."""
-    if idle := _typed_options(typed, _OF_TABLES):
+    if idle := [switch(each) for each in FitArguments.of(typed).given if each != "columns"]:
         refuse(
             f"{', '.join(idle)} does not go with --case, whose file has body and law; leave it out"
         )
@@ -58,17 +48,12 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
 
 def refuse_without_case(typed: Mapping[str, Any]) -> None:
     """Refuse options of ``--case`` without it."""
-    idle, count = _typed_options(typed, _OF_RUNS), len(typed["files"])
+    given = (name for name in _OF_RUNS if typed[name] is not None and typed[name] is not False)
+    idle = ["--set" if name == "settings" else switch(name) for name in given]
+    count = len(typed["files"])
     if idle or count > 1:
         what = ", ".join(idle) or f"{count} tables"
         refuse(f"{what}: needs --case CASE.yaml, the case of the experiment")
-
-
-def _typed_options(typed: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
-    """Options of some parameters that were typed."""
-    given = (name for name in names if typed[name] is not None and typed[name] is not False)
-    options = {"settings": "--set"}
-    return [options.get(name, f"--{name.replace('_', '-')}") for name in given]
 
 
 def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
@@ -79,7 +64,7 @@ def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
     ranges = {name: typed[name] for name in ("contact_point", "machine_stiffness")}
     return {
         "case": case_of(typed),
-        **{name: typed[name] for name in ("drive", "rows", "runs")},
+        **{name: typed[name] for name in ("drive", "rows", "runs") if typed[name] is not None},
         "change": by_key("--change", typed["change"], remedy, bounds),
         **{name: text if text is None else bounds(text) for name, text in ranges.items()},
         "settings": settings_of(typed["settings"]),
