@@ -29,8 +29,8 @@ FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 
 #: Arrays of the whole grid for the trends of gap and pressure on a creeping body: two of numbers
-#: and two of marks. With symmetry planes, those after a step count besides those before it.
-ARRAYS_OF_TRENDS = 2.25
+#: and three of marks. With symmetry planes, those after a step count besides those before it.
+ARRAYS_OF_TRENDS = 2.375
 
 #: Fields that take as much memory as the tables and operators of a further term of layers.
 FIELDS_OF_TERM = 7

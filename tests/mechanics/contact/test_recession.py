@@ -57,6 +57,17 @@ def test_a_contact_recedes_where_its_pressure_falls_as_well() -> None:
     np.testing.assert_array_equal(found.falls[0], [False, True, False, False])
 
 
+def test_cells_that_were_in_contact_count_as_left_until_their_gaps_close() -> None:
+    pressed = [0.0, 0.5, 1.0, 1.0], [True, False, False, False]
+    open_again, closing = ([0.1, 0.6, 1.1, 1.1], OPEN), ([0.05, 0.5, 1.0, 1.0], OPEN)
+    left = [
+        trend_after(*steps).recession(np.zeros((1, 4))).left[0, 0]
+        for steps in ([pressed], [pressed, open_again], [pressed, open_again, closing])
+    ]
+    assert left == [True, True, False]
+    assert not trend_after(pressed, open_again).left[0, 1:].any()
+
+
 def test_trend_on_a_larger_grid_knows_nothing_of_the_new_cells() -> None:
     larger = GRID.widened((1, 6))
     trend = trend_after(([1.0] * 4, OPEN), ([2.0] * 4, OPEN)).on(GRID, larger)

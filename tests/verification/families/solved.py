@@ -13,7 +13,7 @@ from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import history_of
 from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
-from viscontact.simulation.accuracy.error_bars import error_bars_from
+from viscontact.simulation.accuracy.error_bars import ZERO_WITHOUT_CONTACT, error_bars_from
 from viscontact.simulation.transient.found_events import carried_out
 from viscontact.simulation.transient.setup import prepare_run
 from viscontact.simulation.transient.state_generator import march_run
@@ -58,7 +58,13 @@ def solve(family: str, drawn: ExactRun, *, sampled: int | None = None) -> dict[s
 
 def _add_events(record: dict[str, Any], exact: tuple[float, ...]) -> None:
     """Add the instants of events as a scalar, one after the other over the first instants."""
-    load, count = record["setup"].problem.load, len(record["history"]["time"])
+    # What an event gives its value has it whenever this is; the error is that of the instant.
+    load, times = record["setup"].problem.load, record["history"]["time"]
+    count = len(times)
+    for event in load.events:
+        given = ZERO_WITHOUT_CONTACT if event.scalar == "contact" else (event.scalar,)
+        for name in record["exact"].keys() & set(given):
+            record["exact"][name][times == event.time] = np.nan
     found = [event.time for event in load.events]
     for kind, values in (
         ("history", found),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -49,12 +50,14 @@ class ContactTrend:
 
     gap: Trend
     pressure: Trend
+    left: Bools  # cells that have been in contact since their gaps last closed
 
     @classmethod
     def at_first(cls, grid: Grid) -> ContactTrend:
         """Before the first contact."""
         gap = Trend(np.full(grid.shape, np.inf), np.zeros(grid.shape, dtype=bool))
-        return cls(gap, Trend(np.zeros(grid.shape), np.ones(grid.shape, dtype=bool)))
+        pressure = Trend(np.zeros(grid.shape), np.ones(grid.shape, dtype=bool))
+        return cls(gap, pressure, np.zeros(grid.shape, dtype=bool))
 
     def after(self, gap: Floats, pressure: Floats, in_contact: Bools, error: float) -> ContactTrend:
         """Trend after another step, with the solver's error of gaps [m]."""
@@ -65,12 +68,25 @@ class ContactTrend:
         def pressed(rows: slice) -> Floats:
             return pressure[rows]
 
-        return ContactTrend(self.gap.after(closed, error), self.pressure.after(pressed, 0.0))
+        later = self.gap.after(closed, error)
+        left = in_contact | (self.left & later.rises)
+        return ContactTrend(later, self.pressure.after(pressed, 0.0), left)
 
     def on(self, small: Grid, large: Grid) -> ContactTrend:
         """The same trends on a larger grid."""
-        return ContactTrend(self.gap.on(small, large, np.inf), self.pressure.on(small, large, 0.0))
+        gap, pressure = self.gap.on(small, large, np.inf), self.pressure.on(small, large, 0.0)
+        return ContactTrend(gap, pressure, small.embed(self.left, large).astype(bool))
+
+    def restart_data(self) -> dict[str, Any]:
+        """Return the trends as plain data."""
+        return {"gap": vars(self.gap), "pressure": vars(self.pressure), "left": self.left}
+
+    @classmethod
+    def from_restart_data(cls, data: dict[str, Any]) -> ContactTrend:
+        """Read the trends from plain data."""
+        return cls(Trend(**data["gap"]), Trend(**data["pressure"]), data["left"])
 
     def recession(self, pressure: Floats) -> Recession:
         """Where the contact recedes, under the present pressure [Pa]."""
-        return Recession(pressure, falls=~self.pressure.rises, opens=self.gap.rises)
+        falls = ~self.pressure.rises
+        return Recession(pressure, falls=falls, opens=self.gap.rises, left=self.left)

@@ -28,12 +28,15 @@ class Recession(NamedTuple):
     """Where a contact on a creeping body recedes: gaps open beside it, and pressures fall within.
 
     There the surface that it leaves is almost closed, so that its gap does not show the rim. Where
-    the contact grows over such a surface, the gap does, and the pressure less well.
+    the contact grows over such a surface, the gap does, and the pressure less well. Until the
+    contact has left a cell, both show the rim too far outside: the gap the more so, the pressure
+    the less so, the further the contact has receded.
     """
 
     pressure: Floats  # [Pa]
     falls: Bools
     opens: Bools
+    left: Bools  # cells that have been in contact
 
     def within(self, block: Any) -> Recession:
         """Return the part of a block of cells."""
@@ -73,7 +76,7 @@ def locate_rim(
     touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
     located, slope = _by_gaps(_laws(grid, 0), intervals, touches, gaps.ravel())
     if recession is not None:
-        at, *found = _where_receding(_laws(grid, 1), intervals, recession)
+        at, *found = _where_receding(_laws(grid, 1), intervals, recession, located)
         located[at], slope[at] = found
     at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
@@ -159,13 +162,14 @@ def _by_gaps(
 
 
 def _where_receding(
-    laws: tuple[EdgeLaw, EdgeLaw], intervals: _Intervals, recession: Recession
+    laws: tuple[EdgeLaw, EdgeLaw], intervals: _Intervals, recession: Recession, by_gaps: Floats
 ) -> tuple[Integers, Floats, Floats]:
-    """Intervals where the contact recedes, distances by the pressure and slopes there."""
-    pressure, falls, opens = (_pad(each, outside=0).ravel() for each in recession)
+    """Intervals where the pressure locates a receding rim, distances by it and slopes there."""
+    pressure, falls, opens, left = (_pad(each, outside=0).ravel() for each in recession)
     at = np.flatnonzero(opens[intervals.outer] & falls[intervals.inner])
     distance, slope = _by_pressures(laws, intervals.some(at), pressure)
-    known = ~np.isnan(distance)
+    known = left[(intervals.outer + intervals.outwards)[at]] | (distance < by_gaps[at])
+    known &= ~np.isnan(distance)
     return at[known], distance[known], slope[known]
 
 

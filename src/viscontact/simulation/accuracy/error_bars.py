@@ -192,7 +192,9 @@ def _bar(
     cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
     over = _quotient(by_cells, scale)
     touching = history["contact_area"] > 0
-    relative = np.where(touching, _largest_nearby(cells * over) / cells, _largest_nearby(over))
+    part = model.of_neighbours
+    nearby = _largest_nearby(cells * over, part) / cells
+    relative = np.where(touching, nearby, _largest_nearby(over, part))
     by_steps = levels.by_steps
     if not kinds.divided:
         # What is prescribed does not differ between the grids.
@@ -217,16 +219,19 @@ def _quotient(error: Floats, scale: Floats) -> Floats:
     return np.divide(error, scale, out=nothing, where=scale > 0)
 
 
-def _largest_nearby(relative: Floats) -> Floats:
-    """Largest error at an instant, the ones next to it and those that coarser runs leave out."""
-    return moving_maximum(between_known(relative), 1)
+def _largest_nearby(relative: Floats, part: float) -> Floats:
+    """Largest error at an instant and, in part, at the ones next to it; in full where unknown."""
+    known = between_known(relative)
+    nearby = moving_maximum(known, 1)
+    return np.where(np.isnan(relative), nearby, np.fmax(known, part * nearby))
 
 
 def _mean_pressure_bar(history: History, values: dict[str, Floats]) -> Floats:
     """Bar of force over area from both; that of the peak without contact, or unknown."""
     area = history["contact_area"]
     least = area - values["contact_area"]
-    error = np.hypot(values["force"], values["contact_area"] * history["mean_pressure"])
+    # A rim too far outside makes both too large.
+    error = np.fmax(values["force"], values["contact_area"] * history["mean_pressure"])
     bar = np.divide(error, least, out=np.full_like(area, np.nan), where=least > 0)
     return np.where(area > 0, bar, values["peak_pressure"])
 

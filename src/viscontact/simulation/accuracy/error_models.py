@@ -22,6 +22,9 @@ class ErrorModel:
     #: Part of the estimated time error of the pressure that counts where no third run has shown the
     #: error of the time steps: of ten runs with a third one, nine had less, in peaks four fifths.
     of_time_error: float = 0.0
+    #: Part of the errors from the cells at the instants before and after that counts at an instant:
+    #: a rim moves among the cells, and its errors change sign from instant to instant.
+    of_neighbours: float = 1.0
 
     def of(self, levels: RefinementLevels) -> Floats:
         """Error from the cells."""
@@ -30,15 +33,35 @@ class ErrorModel:
 
 #: Approach, force, its offset and work, also where a contact reaches the end of a body: pressure is
 #: singular there, and the cells approximate the end by a staircase.
-_BULK = ErrorModel(2.0, 1.2, at_end=ErrorModel(0.7, 1.2), of_time_error=0.1)
-_FORCE = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 1.2), of_time_error=0.15)
+_BULK = ErrorModel(
+    *(2.0, 1.2),
+    at_end=ErrorModel(0.7, 1.2),
+    of_time_error=0.1,
+    of_neighbours=0.8,
+)
+_FORCE = ErrorModel(
+    *(2.0, 1.05),
+    at_end=ErrorModel(0.7, 1.2),
+    of_time_error=0.15,
+    of_neighbours=0.3,
+)
 _OFFSET = ErrorModel(2.0, 1.0, at_end=ErrorModel(0.7, 0.8))
-_WORK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2), of_time_error=0.4)
+_WORK = ErrorModel(
+    *(2.0, 1.4),
+    at_end=ErrorModel(0.7, 1.2),
+    of_time_error=0.4,
+    of_neighbours=0.65,
+)
 
 #: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
 #: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
 COARSE_SPOT_CELLS = 8.0
-_AREA = ErrorModel(2.0, 1.02, of_spots=ErrorModel(1.0, 1.5), steep=ErrorModel(1.0, 0.5))
+_AREA = ErrorModel(
+    *(2.0, 1.02),
+    of_spots=ErrorModel(1.0, 1.5),
+    steep=ErrorModel(1.0, 0.5),
+    of_neighbours=0.8,
+)
 _PEAK = ErrorModel(
     *(2.0, 1.5),
     at_end=ErrorModel(1.0, 1.5),
@@ -55,7 +78,7 @@ _LINE_LOAD = ErrorModel(
     of_time_error=0.5,
 )
 
-_EXTENT = ErrorModel(2.0, 1.0, steep=ErrorModel(1.0, 0.6))
+_EXTENT = ErrorModel(2.0, 1.0, steep=ErrorModel(1.0, 0.6), of_neighbours=0.7)
 
 #: Scalars of a moving contact: of first order in steps longer than the retardation times, of
 #: second order else. Calibrated on starts, reciprocations and steps of parts of cells.

@@ -14,6 +14,7 @@ from viscontact.simulation.accuracy.rim_cells import (
     EXTENTS,
     cells_across,
     cells_along,
+    cells_of_breadth,
     cells_over_thickness,
     crest_cells,
     fills_period,
@@ -31,7 +32,7 @@ TINY = float(np.finfo(np.float64).tiny)
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
 #: the contact may end in the last cells of the body.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.024, 1.0, 1.5, 3.5, 1.5
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.019, 1.0, 1.5, 3.5, 1.5
 
 #: Cells across the contact at which the first of them is twice as large, as its rim is curved.
 FEW_CELLS = 9.0
@@ -40,9 +41,11 @@ FEW_CELLS = 9.0
 #: where the pressure is largest near the rim.
 LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.28, 0.05
 
-#: The same where a contact on a creeping body has begun to recede: neither the pressure beside its
-#: rim nor the gap is as far from it. Balls err by 2, within one cell of their largest contact.
-RECEDING_AREA_ERROR = 2.0
+#: Least error of the rim in cells, in the mean and of an extent, where a contact on a creeping body
+#: has begun to recede: neither the pressure beside its rim nor the gap is as far from it. Within a
+#: cell of their largest contact, most after a quarter of it, balls err by 0.02 in the mean of the
+#: rim, at worst by 0.07; the extent of a rounded punch by 0.3 where its contact grows again.
+RECEDING_RIM_CELLS, RECEDING_EXTENT_CELLS, LARGEST_RIM_ERROR_AT = 0.028, 0.1, 0.25
 
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
@@ -58,15 +61,15 @@ TIP_CELLS, TIP_AREA = 0.1, 0.3
 LEAST_ERRORS = {
     "approach": 0.25,
     "force": 0.3,
-    "work": 0.15,
+    "work": 0.2,
     "heat": 0.15,
     "loss_per_cycle": 0.25,
 }
 
 #: The same where the pressure drops steeply to the rim, under blunt bodies, times the cells across.
-STEEP_ERRORS = {"approach": 0.045, "force": 0.045}
+STEEP_ERRORS = {"approach": 0.045, "force": 0.045, "work": 0.045}
 
-#: Growth of the first of these with the logarithm of a contact's length over its width: Hertz's
+#: Growth of the first two of these with the logarithm of a contact's length over its width: Hertz's
 #: ellipses err by 0.15 in the mean, at most by 0.8.
 LONG_CONTACT = 0.15
 
@@ -78,7 +81,10 @@ LEAST_END_ERROR = 0.4
 #: Least error of an eccentricity, over the extent of the contact, and of a tilt, over the slope of
 #: the indentation, times the square of the cells along that axis: balls and ellipses have 0.04 in
 #: the median. A tilt of e/R is four times the slope a/(2R) where e is the extent.
-LEAST_OFFSET, LEAST_TURN = 0.04, 0.16
+LEAST_OFFSET, LEAST_TURN = 0.045, 0.18
+
+#: How many times as large they are where the pressure drops steeply to the rim.
+STEEP_OFFSETS = 2.0
 
 #: Least relative error of the tilt there: that of an eccentric round punch is up to 1.5.
 LEAST_END_TILT_ERROR = 1.0
@@ -144,7 +150,7 @@ def least_bar(
         smooth = np.maximum(_least_rim_area(run, kinds, history), _thin_area(run, history))
         return np.maximum(_least_end_area(run, kinds, history), smooth)
     if name in MOMENTS:
-        smooth = _least_moment_bar(run, name, history)
+        smooth = _least_moment_bar(run, name, kinds, history)
         return np.maximum(smooth, _least_end_tilt(run, name, kinds, history))
     if name in RESISTANCES:
         return least_resistance_bar(run, name, history)
@@ -170,6 +176,7 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     length = run.grid.cell_size[axis]
     few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
     smooth = RIM_CELLS * few + TIP_CELLS * tip_curvature(run, history)[axis]
+    smooth = smooth + RECEDING_EXTENT_CELLS * _just_receding(run, history)
     smooth = np.asarray(smooth + crest_cells(run, history, axis))
     smooth = np.maximum(smooth, 2 * thin_rim_cells(run, axis))
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth)
@@ -199,7 +206,9 @@ def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Flo
 def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
     """Least error of the area where the rim is steep, or curved within long cells [m²]."""
     across, along = np.maximum(cells_across(run, history), 1.0), cells_along(run, history)
-    smooth = (LEAST_AREA_ERROR + RECEDING_AREA_ERROR * _just_receding(run, history)) / across**2
+    smooth = LEAST_AREA_ERROR / across**2
+    breadth = np.maximum(cells_of_breadth(run, history), 1.0)
+    smooth = smooth + 4 * RECEDING_RIM_CELLS * _just_receding(run, history) / breadth
     steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
     tip = TIP_AREA * tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
     relative = np.maximum(smooth, np.maximum(steep, tip))
@@ -207,15 +216,17 @@ def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
 
 
 def _just_receding(run: RunSetup, history: History) -> Floats:
-    """1 where a contact on a creeping body begins to recede, 0 from one cell on."""
+    """1 where a contact on a creeping body has receded by part of a cell, 0 from one cell on."""
     area, largest = history["contact_area"], np.maximum.accumulate(history["contact_area"])
     if run.problem.surface.creep.is_elastic or not run.problem.motion.stands:
         return np.zeros(len(area))
     # The way of a rim, over the half width of the contact, is half the relative change of its area.
     parts = 1 - np.divide(area, largest, out=np.ones_like(area), where=largest > 0)
-    ways = parts * history["cells_across"] / 4
-    # At first it may seem to grow by this error.
-    return moving_maximum(np.where(ways > 0, np.maximum(1 - ways, 0.0), 0.0))
+    ways = parts * cells_of_breadth(run, history) / 4
+    # A contact that grows again does so over the surface that it has just left.
+    grows_again = (np.diff(area, prepend=area[0]) > 0) & (ways < 1)
+    faded = np.where(grows_again, 1.0, np.maximum(1 - ways, 0.0))
+    return moving_maximum(np.minimum(ways / LARGEST_RIM_ERROR_AT, 1.0) * faded)
 
 
 def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
@@ -227,7 +238,7 @@ def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
     return np.asarray(np.where(uncertain, relative * history["contact_area"], 0.0))
 
 
-def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
+def _least_moment_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
     """Effect of the solver's tolerance of the moments, and of a rim among the cells."""
     axis = int(name.endswith("y"))
     extent = np.nan_to_num(history[EXTENTS[axis]])
@@ -235,6 +246,7 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Floats:
     part, lever = (LEAST_OFFSET, extent) if name.startswith("eccentricity") else (LEAST_TURN, slope)
     by_solver = run.problem.solver_error * lever
     by_cells = part * lever / np.maximum(extent / run.grid.cell_size[axis], 1.0) ** 2
+    by_cells = by_cells * np.where(kinds.steep, STEEP_OFFSETS, 1.0)
     # Both grids of a symmetric contact have none.
     moved = np.abs(np.nan_to_num(history[name])) > by_solver
     return np.asarray(np.where(extent > 0, np.where(moved, by_solver + by_cells, by_solver), 0.0))
@@ -250,8 +262,9 @@ def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
 
 def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Floats:
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
-    across = cells_across(run, history)
-    least = LEAST_ERRORS[name] + (LONG_CONTACT * slenderness(history) if name == "approach" else 0)
+    across = np.minimum(cells_across(run, history), cells_of_breadth(run, history))
+    long = LONG_CONTACT * slenderness(history) if name in ("approach", "force") else 0.0
+    least = LEAST_ERRORS[name] + long
     # Cells along a line contact have no influence.
     ratios = [cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
     least = least * (1 + THIN_GROWTH * min(ratios, default=0.0) ** 2)

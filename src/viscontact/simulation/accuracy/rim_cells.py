@@ -77,6 +77,17 @@ def cells_across(run: RunSetup, history: History) -> Floats:
     return np.where(all(run.grid.periodic) & covered, np.inf, history["cells_across"])
 
 
+def cells_of_breadth(run: RunSetup, history: History) -> Floats:
+    """Cells across the breadth of a contact that may be slender and turned, as of an ellipse."""
+    # Its half axes a, b have a² + b² = x² + y² by its half extents, and a b by its area.
+    halves = [np.nan_to_num(history[name]) / 2 for name in EXTENTS]
+    squares, product = halves[0] ** 2 + halves[1] ** 2, history["contact_area"] / np.pi
+    root = np.sqrt(np.maximum(squares**2 - 4 * product**2, 0.0))
+    breadth = 2 * np.sqrt(np.maximum((squares - root) / 2, 0.0))
+    cells = breadth / min(run.grid.cell_size)
+    return np.where(cells > 0, np.minimum(cells, history["cells_across"]), history["cells_across"])
+
+
 def cells_along(run: RunSetup, history: History) -> Floats:
     """Cells on the longer extent of the contact, at least 1."""
     along = (np.nan_to_num(history[EXTENTS[k]]) / run.grid.cell_size[k] for k in (0, 1))

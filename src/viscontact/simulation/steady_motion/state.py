@@ -25,7 +25,7 @@ def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
         later(field, np.roll(field, -1, axis=problem.axis))
         for later, field in ((np.greater, contact.gap), (np.less, contact.pressure))
     )
-    recession = Recession(contact.pressure, falls=falls, opens=opens)
+    recession = Recession(contact.pressure, falls=falls, opens=opens, left=opens)
     return trace_rim(contact.grid, contact.in_contact, contact.gap, outline, recession)
 
 
