@@ -52,6 +52,7 @@ from viscontact.simulation.accuracy.refinement_levels import (
     spots_across,
 )
 from viscontact.simulation.accuracy.singular_peaks import (
+    coarse_peak_warnings,
     peak_bars,
     singular_warnings,
     unbounded_peak,
@@ -143,7 +144,9 @@ def error_bars_from(
         ):
             for name in names:
                 values[name][where] = 0.0
-    warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
+    peaks = values["peak_pressure"]
+    warnings = singular_warnings(peaks, run.problem.indenter, issued)
+    warnings += coarse_peak_warnings(peaks, history, kinds.steep)
     set_bars_at_events(values, run, history)
     return ErrorBars(values, warnings, event_errors(run, ends))
 

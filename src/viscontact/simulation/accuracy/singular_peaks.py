@@ -28,6 +28,7 @@ from viscontact.simulation.accuracy.refinement_levels import (
 )
 from viscontact.simulation.accuracy.richardson import richardson
 from viscontact.simulation.checks.singularities import DEPENDS_ON_MESH
+from viscontact.units.formatting import format_quantity
 
 #: Least growth of a peak without a limit as cells shrink by a factor e, over the mean pressure:
 #: under a wedge it is 0.64, under a cone 1. So much must be found, and possible by the body's bend:
@@ -55,6 +56,9 @@ SINGULAR = (
     "error is given as infinite; resultants converge"
 )
 
+#: Error of a finite peak over the peak that is warned of, where it is half of the run's largest.
+COARSE_PEAK_ERROR = 0.2
+
 
 def peak_bars(
     bars: Floats, history: History, results: Sequence[CoarserResult], *, left_out: bool = False
@@ -77,6 +81,21 @@ def singular_warnings(
     if is_known or not np.isinf(bars).any():
         return ()
     return (f"{SINGULAR}; {rounding_remedy(indenter)}",)
+
+
+def coarse_peak_warnings(bars: Floats, history: History, steep: Bools) -> tuple[str, ...]:
+    """Warning of a finite peak near an edge or a tip that takes few cells, by the largest part."""
+    peaks = history["peak_pressure"]
+    counts = steep & np.isfinite(bars) & (peaks >= np.max(peaks) / 2) & (peaks > 0)
+    parts = np.where(counts, bars / _positive(peaks), 0.0)
+    worst = int(np.argmax(parts))
+    if parts[worst] <= COARSE_PEAK_ERROR:
+        return ()
+    return (
+        f"the peak pressure is known to {parts[worst]:.0%} only, at "
+        f"{format_quantity(history['time'][worst], 's')}: it is next to an edge or a tip of the "
+        "body whose rounding takes few cells; use smaller cells if the peak matters",
+    )
 
 
 def unbounded_peak(history: History, results: Sequence[CoarserResult]) -> Bools:
