@@ -88,7 +88,8 @@ def test_memory_is_limited_by_the_system() -> None:
 
 
 def test_memory_is_watched_where_the_system_does_not_limit_it() -> None:
-    assert end_of(request(_grow, by_system=False)).end is End.MEMORY
+    limits = replace(SMALL, memory=200_000_000)  # 8 s
+    assert end_of(request(_grow, by_system=False, limits=limits)).end is End.MEMORY
 
 
 def _grow() -> None:
@@ -101,7 +102,8 @@ def _grow() -> None:
 
 def test_time_is_limited() -> None:
     begun = time.monotonic()
-    assert end_of(request(time.sleep, 60, limits=HASTY)).end is End.TIME
+    limits = replace(SMALL, memory=5_000_000)  # 0.2 s
+    assert end_of(request(time.sleep, 60, limits=limits)).end is End.TIME
     assert time.monotonic() - begun < 20
 
 

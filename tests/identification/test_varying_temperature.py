@@ -6,6 +6,8 @@ Trans. Soc. Rheol. 4, 233). The records are made by adaptive quadrature of 1/a_T
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson
@@ -40,12 +42,18 @@ def stepped(respond, shift, rows=225, noise=0.0, seed=0):
     return times, temperature_at(times), values * scatter
 
 
-@pytest.mark.parametrize(("name", "shift"), [("arrhenius", ARRHENIUS), ("wlf", WLF)])
-def test_exact_creep_gives_law_and_shift(name, shift):
+@functools.cache
+def exact_fit(name, shift):
+    """Fit of creep without noise, of which the tests look at different parts."""
     times, temperature, creep = stepped(CREEP, shift)
-    fit = vc.fit_creep(
+    return vc.fit_creep(
         times, creep, data="deviatoric", temperature=temperature, shift=name, tolerance=0.0
     )
+
+
+@pytest.mark.parametrize(("name", "shift"), [("arrhenius", ARRHENIUS), ("wlf", WLF)])
+def test_exact_creep_gives_law_and_shift(name, shift):
+    fit = exact_fit(name, shift)
     found = fit.found_shift
     for key, value in found.parameters.items():
         assert value == close_to(getattr(shift, key), rel=1e-6)
@@ -98,7 +106,7 @@ def coverage(name, shift, seeds):
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 def test_intervals_contain_the_shift_of_noisy_tests():
-    assert coverage("arrhenius", ARRHENIUS, range(3)).min() >= 2 / 3
+    assert coverage("arrhenius", ARRHENIUS, range(2)).min() == 1.0
 
 
 @pytest.mark.slow
@@ -169,12 +177,10 @@ def test_rows_may_be_in_any_order_and_the_law_at_any_reference():
 
 
 def test_section_of_a_case_has_the_shift(tmp_path):
-    times, temperature, creep = stepped(CREEP, WLF)
-    fit = vc.fit_creep(
-        times, creep, data="deviatoric", temperature=temperature, shift="wlf", tolerance=0.0
-    )
     path = tmp_path / "law.yaml"
-    path.write_text(material_section(fit) + "\n  poisson_ratio: 0.4\n", encoding="utf-8")
+    path.write_text(
+        material_section(exact_fit("wlf", WLF)) + "\n  poisson_ratio: 0.4\n", encoding="utf-8"
+    )
     material = read_material(path)
     assert material.shift.c1 == close_to(8.86, rel=1e-5)
     warm = material.at(FIRST + 14.0)
@@ -218,13 +224,13 @@ def test_one_small_step_is_warned_of():
         vc.fit_creep(times, noisy, data="deviatoric", temperature=history, shift="arrhenius")
 
 
-def test_record_that_has_relaxed_before_the_first_step_is_warned_of():
-    times = np.linspace(10.0, 3000.0, 150)
+@pytest.mark.parametrize("rule", ["arrhenius", "wlf", "table"])
+def test_record_that_has_relaxed_before_the_first_step_is_warned_of(rule):
+    times = np.linspace(10.0, 3000.0, 60)
     history = vc.TemperatureHistory(
         [0.0, 1000.0, 1000.0, 2000.0, 2000.0], FIRST + np.array([0, 0, 7, 7, 14])
     )
     fast = vc.RelaxationSeries(1e9, [2e9], [5.0])
-    noisy = fast.relaxation(times) * (1 + 0.01 * np.random.default_rng(2).standard_normal(150))
-    for rule in ("arrhenius", "wlf", "table"):
-        with pytest.warns(vc.AccuracyWarning, match="can hardly be told apart"):
-            vc.fit_relaxation(times, noisy, data="shear", temperature=history, shift=rule)
+    noisy = fast.relaxation(times) * (1 + 0.01 * np.random.default_rng(2).standard_normal(60))
+    with pytest.warns(vc.AccuracyWarning, match="can hardly be told apart"):
+        vc.fit_relaxation(times, noisy, data="shear", temperature=history, shift=rule)

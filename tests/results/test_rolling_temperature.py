@@ -161,37 +161,42 @@ def test_table_is_saved_and_read_again(tmp_path) -> None:
     assert "thermal runaway" in str(found) or "no runaway" in str(found)
 
 
-def test_steady_curve_of_a_case_with_a_temperature_has_the_shift(tmp_path) -> None:
+LINE = vc.Grid((1, 48), (1.0, 3e-3), periodic=(True, False))
+CREEPING = vc.Material(vc.Zener(9e6, 1e6, 1e4), 0.5, shift=vc.WLF(296.0, 8.86, 101.6))
+SPEEDS = np.geomspace(0.05, 2.0, 7)
+
+
+def rolled(material, speeds):
+    """The solved line contact of a cylinder of 10 mm radius, over speed."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", vc.AccuracyWarning)  # a line contact has no approach
+        return vc.steady(
+            *(vc.Paraboloid(np.inf, 0.01), material, vc.step(400.0, tilt_y=0.0), speeds),
+            grid=LINE,
+            errors=False,
+            fields="none",
+        )
+
+
+@pytest.fixture(scope="module")
+def solved_curve():
+    return rolled(CREEPING, SPEEDS)
+
+
+def test_steady_curve_of_a_case_with_a_temperature_has_the_shift(solved_curve) -> None:
     """The law of the run is slowed to its temperature; its shift is referred to it."""
-    speeds = np.geomspace(0.05, 2.0, 7)
-    options = {"grid": vc.Grid((1, 96), (1.0, 3e-3), periodic=(True, False))}
-    options |= {"errors": False, "fields": "none"}
-    load, ball = vc.step(400.0, tilt_y=0.0), vc.Paraboloid(np.inf, 0.01)
-    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), 0.5, shift=vc.Arrhenius(296.0, 60e3))
-    found = []
-    for temperature in (296.0, 301.0):
-        at = rubber.at(temperature)
-        scaled = speeds / rubber.shift.factor(temperature)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", vc.AccuracyWarning)  # a line contact has no approach
-            curve = vc.steady(ball, at, load, scaled, **options)
-        found.append(balanced(curve, ambient=296.0, area=0.1, speed=[0.4]))
+    warm = rolled(CREEPING.at(301.0), SPEEDS / CREEPING.shift.factor(301.0))
+    found = [
+        balanced(curve, ambient=296.0, area=0.1, speed=[0.4]) for curve in (solved_curve, warm)
+    ]
     one, other = (float(each.temperature[0, 0]) for each in found)
     assert one == close_to(other, abs=0.02)
     assert one > 299.0
 
 
-def test_contact_at_the_temperature_of_a_balance_has_the_power_that_flows_off() -> None:
+def test_contact_at_the_temperature_of_a_balance_has_the_power_that_flows_off(solved_curve) -> None:
     """The contact with the law at the balance is solved, and its dissipation is h A (T - T_a)."""
-    grid = vc.Grid((1, 96), (1.0, 3e-3), periodic=(True, False))
-    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), 0.5, shift=vc.WLF(296.0, 8.86, 101.6))
-    ball, load = vc.Paraboloid(np.inf, 0.01), vc.step(400.0, tilt_y=0.0)
-    options = {"grid": grid, "errors": False, "fields": "none"}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", vc.AccuracyWarning)  # a line contact has no approach
-        curve = vc.steady(ball, rubber, load, np.geomspace(0.05, 2.0, 9), **options)
-        found = balanced(curve, ambient=296.0, area=0.1, speed=[0.4])
-        hot = float(found.temperature[0, 0])
-        contact = vc.steady(ball, rubber.at(hot), load, 0.4, **options)
+    hot = float(balanced(solved_curve, ambient=296.0, area=0.1, speed=[0.4]).temperature[0, 0])
+    contact = rolled(CREEPING.at(hot), 0.4)
     assert hot > 300.0
     assert float(contact.dissipation[0]) == close_to(10.0 * 0.1 * (hot - 296.0), rel=2e-3)
