@@ -68,6 +68,14 @@ def test_decimal_commas_are_read_where_commas_do_not_separate(
     np.testing.assert_allclose(found["creep_compliance"], [1.25e-8, 5e-10], rtol=1e-15)
 
 
+def test_commas_before_blanks_separate(tmp_path: Path) -> None:
+    """Columns that are set below each other, with a cell that is no number."""
+    rows = "time [s],   E [MPa], remark\n1,          2.5,     5 s\n10,         2.0,     8 s\n"
+    found = table(tmp_path, rows)
+    assert found["time"].tolist() == [1.0, 10.0]
+    assert found["relaxation_modulus"].tolist() == [2.5e6, 2e6]
+
+
 def test_commas_in_headings_do_not_separate_where_semicolons_do(tmp_path: Path) -> None:
     found = table(tmp_path, "strain, total [%];t [s];D [1/MPa]\n1,5;2,5;3\n")
     assert found["time"].tolist() == [2.5]

@@ -77,6 +77,8 @@ def _share_of_numbers(line: str, mark: str) -> float:
         return 0.0  # decimal marks, more likely than separators
     cells = line.split(None if mark == _BLANKS else mark)
     filled = [cell for cell in (cell.strip().strip('"') for cell in cells) if cell]
+    if mark == _BLANKS and any(cell.endswith(",") for cell in filled):
+        return 0.0  # no decimal mark is the last of a number: the commas separate
     numbers = sum(bool(_NUMBER.fullmatch(cell)) or looks_like_number(cell) for cell in filled)
     share = numbers / max(len(filled), 1)
     # "5 N" is one cell; only numbers side by side are cells between blanks.

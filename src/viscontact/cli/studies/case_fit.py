@@ -18,10 +18,10 @@ from viscontact.studies.calibration.fit_case import fit_case
 from viscontact.studies.calibration.record import ContactRecord, read_record
 from viscontact.studies.calibration.result import CaseFit
 
-#: Options of fits to runs by their parameters.
+#: Options of fits to runs by their parameters; `quiet`, which asks for nothing, goes with all fits.
 _OF_RUNS = (
     *("change", "drive", "contact_point", "machine_stiffness", "settings", "rows", "runs"),
-    *("report", "jobs", "scheduler", "resume", "overwrite", "quiet"),
+    *("report", "jobs", "scheduler", "resume", "overwrite"),
 )
 
 
