@@ -32,6 +32,7 @@ from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.cli import main
 from viscontact.cli.run import execution
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.line_digests import DIGEST
 from viscontact.results.variables import ERRORS
 from viscontact.runs import preparation
 from viscontact.runs.directory import recorder
@@ -46,7 +47,7 @@ WATCHED = (
 KILLS = 30
 STEP = 6144  # by which the limit grows [bytes]
 #: Entries of the progress that a run adds when it ends.
-AT_THE_END = {*ERRORS, "complete", "fields"}
+AT_THE_END = {*ERRORS, "complete", "fields", DIGEST}
 
 
 def differing(result: Path, whole: xr.Dataset) -> list[str]:
