@@ -59,7 +59,7 @@ panels[0].legend(frameon=False)
 
 ds = runs["days and nights"]
 fine = np.linspace(0.0, days * day, 200_001)
-reduced = np.trapezoid(1 / shift.factor(swings.at(fine)), fine)
+reduced = float(np.trapezoid(1 / shift.factor(swings.at(fine)), fine))
 expected = float((law(reduced) / law(0.0)) ** (2 / 3))
 grown = float(ds.approach[-1] / ds.approach[0])
 

@@ -35,8 +35,8 @@ LEAST_TILT, LEAST_FORCE_ERROR = 0.5, 1.2
 
 #: Least error of the area along the motion, in cells, and of extents along it: where all creep
 #: within the contact takes many cells, and what is added where it happens within one.
-AREA_CELLS, UNRESOLVED_AREA_CELLS = 0.05, 0.15
-ALONG_CELLS, UNRESOLVED_ALONG_CELLS = 0.009, 0.491
+AREA_CELLS, UNRESOLVED_AREA_CELLS = 0.04, 0.16
+ALONG_CELLS, UNRESOLVED_ALONG_CELLS = 0.008, 0.492
 
 #: Least error of extents across the motion, in cells, and of the place of the resultant, over the
 #: extents and times the square of these cells.
@@ -51,6 +51,9 @@ FORMS = 1.25
 #: compliance, which always has retardation lengths shorter than a cell.
 FIRST_ORDER = 2.0
 OF_FIRST_ORDER = ("contact_area", "mean_pressure", "peak_pressure")
+
+#: Error of an eccentricity over the difference: its strips on half-spaces err by up to 1.5 of it.
+OF_ECCENTRICITY = 1.5
 
 #: Cells from the leading edge of the contact in which the pressure may peak as it does not on finer
 #: ones, error of such a peak over its excess over the others, and power of time with which a law
@@ -87,6 +90,8 @@ def error_bars(
         factor = 1.0 if at_once else FIRST_ORDER
         if at_once and name in OF_FIRST_ORDER:
             factor += (FIRST_ORDER - 1) * unresolved
+        if name.startswith("eccentricity"):
+            factor *= OF_ECCENTRICITY
         bars[name] = max(factor * difference, least[name])
     along_motion = f"resistance_{problem.motion.along}"
     forces = bars[along_motion]
