@@ -77,10 +77,11 @@ TIME = Clock()
 
 
 class _Pieces(NamedTuple):
-    """Ends of the pieces of time over which the rate is smooth, and reduced times there [s]."""
+    """Pieces of time over which the rate is smooth."""
 
-    ends: Floats
-    reduced: Floats
+    ends: Floats  # [s]
+    reduced: Floats  # reduced times at the ends [s]
+    rates: Floats  # of the pieces over which the rate is constant, NaN of the others [-]
 
 
 @dataclass(frozen=True)
@@ -104,16 +105,21 @@ class ReducedTime(Clock):
     def reduced(self, times: Floats) -> Floats:
         """Reduced times since time 0 [s]."""
         instants = np.minimum(times, END)
-        ends, reduced = self._pieces
+        ends, reduced, rates = self._pieces
         piece = np.clip(np.searchsorted(ends, instants, side="right") - 1, 0, ends.size - 2)
-        return np.asarray(reduced[piece] + self._within(ends[piece], instants))
+        within = rates[piece] * (instants - ends[piece])
+        if np.isnan(within).any():
+            within = np.where(np.isnan(within), self._within(ends[piece], instants), within)
+        return np.asarray(reduced[piece] + within)
 
     def passed(self, end: float, duration: float) -> float:
         """Reduced duration of a step that ends at a time [s]."""
         # Not the difference of two reduced times, which cancels.
         begin = end - duration
-        ends = self._pieces.ends
-        first, last = np.searchsorted(ends, [begin, end], side="right")
+        ends, _, rates = self._pieces
+        first, last = (int(ends.searchsorted(time, side="right")) for time in (begin, end))
+        if first == last and not math.isnan(rate := rates[first - 1]):
+            return float(rate * duration)
         inner = ends[first:last]
         marks = np.concatenate([[begin], inner[(inner > begin) & (inner < end)], [end]])
         return float(self._within(marks[:-1], marks[1:]).sum())
@@ -124,7 +130,7 @@ class ReducedTime(Clock):
 
     def time_at(self, reduced: float) -> float:
         """Time at which a reduced time is reached [s]; inf if it never is."""
-        ends, passed = self._pieces
+        ends, passed, _ = self._pieces
         piece = int(np.searchsorted(passed, reduced, side="right")) - 1
         if piece >= ends.size - 1:
             return math.inf
@@ -158,8 +164,13 @@ class ReducedTime(Clock):
         ends = np.unique(np.concatenate([[0.0, END], self.kinks, self._ends_of_ageing()]))
         if self.temperature is not None:
             ends = self._divided(ends)
-        passed = self._within(ends[:-1], ends[1:])
-        return _Pieces(ends, np.append(0.0, np.cumsum(passed)))
+        half, rates = self._at_nodes(ends[:-1], ends[1:])
+        is_constant = np.ptp(rates, axis=-1) == 0
+        return _Pieces(
+            ends,
+            np.append(0.0, np.cumsum(half * (rates @ _WEIGHTS))),
+            np.where(is_constant, rates[..., 0], np.nan),
+        )
 
     def _ends_of_ageing(self) -> Floats:
         if self.ageing is None:
@@ -180,9 +191,14 @@ class ReducedTime(Clock):
 
     def _within(self, begin: Floats, end: Floats) -> Floats:
         """Reduced durations between times of one piece, by Gauss's rule with eight points."""
-        half = (np.asarray(end) - begin) / 2
-        nodes = np.asarray(begin)[..., None] + half[..., None] * (1 + _NODES)
-        return np.asarray(half * (np.exp(self._log_rate(nodes, "right")) @ _WEIGHTS))
+        half, rates = self._at_nodes(np.asarray(begin), np.asarray(end))
+        return np.asarray(half * (rates @ _WEIGHTS))
+
+    def _at_nodes(self, begin: Floats, end: Floats) -> tuple[Floats, Floats]:
+        """Half durations between times of one piece, and the rates at the points of the rule."""
+        half = (end - begin) / 2
+        nodes = begin[..., None] + half[..., None] * (1 + _NODES)
+        return half, np.exp(self._log_rate(nodes, "right"))
 
     def _log_rate(self, times: Floats, side: str) -> Floats:
         rate = -self._log_shift(times, side)
