@@ -15,6 +15,8 @@ from viscontact.results.damage import DamagedFileError
 #: Bytes with a checksum of their own, and the number of such blocks. The structure is at the
 #: beginning of a file; in a larger file, damage to fields behind it is noticed by their digests.
 _BLOCK, _MOST = 2**20, 256
+#: Bytes that are read at a time.
+_PIECE = 2**16
 #: End of a seal: number of bytes before it, CRC-32 of the seal so far, and what a seal is known by.
 _END = struct.Struct("<QI12s")
 _MARK = b"viscontactCS"
@@ -54,7 +56,12 @@ def _checksums(file: BinaryIO, size: int | None = None) -> bytes:
     left = min(_MOST * _BLOCK, file.seek(0, 2) if size is None else size)
     file.seek(0)
     found = b""
-    while left > 0 and (block := file.read(min(_BLOCK, left))):
-        found += struct.pack("<I", zlib.crc32(block))
-        left -= len(block)
+    while left > 0:
+        wanted, digest = min(_BLOCK, left), 0
+        while wanted > 0 and (piece := file.read(min(_PIECE, wanted))):
+            digest = zlib.crc32(piece, digest)
+            wanted, left = wanted - len(piece), left - len(piece)
+        if wanted > 0:  # the file has become shorter
+            break
+        found += struct.pack("<I", digest)
     return found
