@@ -17,7 +17,7 @@ from viscontact.cli.studies import case_fit
 from viscontact.studies.calibration.fit_case import fit_case
 
 COMMAND = ("fit", "a.csv", "--case", "ball.yaml")
-OF_RUNS = (("--rows", "9"), ("--jobs", "1"), ("--resume",), ("--quiet",), ("--overwrite",))
+OF_RUNS = (("--rows", "9"), ("--jobs", "1"), ("--resume",), ("--overwrite",))
 MODULUS = ("--change", "material.shear_modulus=0.5 MPa:9 MPa:log")
 
 
