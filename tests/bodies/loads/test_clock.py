@@ -60,6 +60,23 @@ def test_short_steps_have_durations_that_do_not_cancel() -> None:
     assert found == close_to(((1e5 + 1e-6) - 1e5) * clock.rate(1e5), rel=1e-8)
 
 
+@pytest.mark.parametrize(("begin", "end"), [(0.0, 60.0), (12.5, 60.0), (3.0, 4.0), (60.0, 60.5)])
+def test_a_constant_temperature_divides_durations_by_its_shift_factor(
+    begin: float, end: float
+) -> None:
+    held = vc.TemperatureHistory(
+        [0.0, 60.0, 60.0, 100.0, 200.0], [303.15, 303.15, 313.15, 313.15, 283.15]
+    )
+    clock, kelvin = ReducedTime(held, WLF), 303.15 if end <= 60.0 else 313.15
+    # a_T in closed form, WLF's equation (1955).
+    above = kelvin - 293.15
+    rate = 10 ** (8.86 * above / (101.6 + above))
+    assert clock.passed(end, end - begin) == close_to(rate * (end - begin), rel=1e-13)
+    assert clock.divisions(begin, end).size == 0
+    if end <= 60.0:
+        assert clock.time_at(rate * end) == close_to(end, rel=1e-13)
+
+
 def test_ageing_has_struiks_effective_time_in_closed_form() -> None:
     # L. C. E. Struik 1978: at µ = 1 the effective time is t_e ln(1 + t/t_e).
     clock = ReducedTime(ageing=vc.Ageing(100.0, 1.0))

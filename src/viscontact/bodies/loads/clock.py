@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.bodies.laws import Shift
 from viscontact.bodies.laws.ageing import Ageing
 from viscontact.bodies.loads.temperature import TemperatureHistory
@@ -105,23 +105,18 @@ class ReducedTime(Clock):
     def reduced(self, times: Floats) -> Floats:
         """Reduced times since time 0 [s]."""
         instants = np.minimum(times, END)
-        ends, reduced, rates = self._pieces
+        ends, reduced, _ = self._pieces
         piece = np.clip(np.searchsorted(ends, instants, side="right") - 1, 0, ends.size - 2)
-        within = rates[piece] * (instants - ends[piece])
-        if np.isnan(within).any():
-            within = np.where(np.isnan(within), self._within(ends[piece], instants), within)
-        return np.asarray(reduced[piece] + within)
+        return np.asarray(reduced[piece] + self._since_begin(piece, instants))
 
     def passed(self, end: float, duration: float) -> float:
         """Reduced duration of a step that ends at a time [s]."""
         # Not the difference of two reduced times, which cancels.
         begin = end - duration
-        ends, _, rates = self._pieces
-        first, last = (int(ends.searchsorted(time, side="right")) for time in (begin, end))
-        if first == last and not math.isnan(rate := rates[first - 1]):
-            return float(rate * duration)
-        inner = ends[first:last]
-        marks = np.concatenate([[begin], inner[(inner > begin) & (inner < end)], [end]])
+        inner, rate = self._between(begin, end)
+        if not math.isnan(rate):
+            return rate * duration
+        marks = np.concatenate([[begin], inner, [end]])
         return float(self._within(marks[:-1], marks[1:]).sum())
 
     def rate(self, time: float) -> float:
@@ -139,7 +134,7 @@ class ReducedTime(Clock):
             middle = (low + high) / 2
             if not low < middle < high:
                 break
-            if float(passed[piece] + self._within(ends[piece], np.array(middle))) < reduced:
+            if float(passed[piece] + self._since_begin(piece, np.array(middle))) < reduced:
                 low = middle
             else:
                 high = middle
@@ -148,8 +143,9 @@ class ReducedTime(Clock):
     def divisions(self, begin: float, end: float, step_ratio: float = 1.0) -> Floats:
         """Times between two, over whose steps the rate changes little; `step_ratio` times more."""
         # Ends of pieces, which end where the rate has changed by a part of what a step may.
-        ends = self._pieces.ends
-        inner = ends[(ends > begin) & (ends < end)]
+        inner, rate = self._between(begin, end)
+        if not math.isnan(rate):
+            return np.zeros(0)
         marks = np.concatenate([[begin], inner, [end]])
         left, right = self._log_rate(marks[1:], "left"), self._log_rate(marks[:-1], "right")
         changed = np.cumsum(np.abs(left - right))
@@ -188,6 +184,21 @@ class ReducedTime(Clock):
             if not long.any():
                 return ends
             ends = np.sort(np.concatenate([ends, (ends[1:] + ends[:-1])[long] / 2]))
+
+    def _between(self, begin: float, end: float) -> tuple[Floats, float]:
+        """Ends of pieces between two times [s], and the rate there, NaN if it may vary [-]."""
+        ends, _, rates = self._pieces
+        first, last = int(ends.searchsorted(begin, "right")), int(ends.searchsorted(end, "left"))
+        is_in_one = first >= last and first < ends.size
+        return ends[first:last], float(rates[first - 1]) if is_in_one else math.nan
+
+    def _since_begin(self, piece: Integers | int, times: Floats) -> Floats:
+        """Reduced durations from the begin of a piece to times in it."""
+        begin = self._pieces.ends[piece]
+        passed = np.asarray(self._pieces.rates[piece] * (times - begin))
+        if np.isnan(passed).any():
+            passed = np.where(np.isnan(passed), self._within(begin, times), passed)
+        return passed
 
     def _within(self, begin: Floats, end: Floats) -> Floats:
         """Reduced durations between times of one piece, by Gauss's rule with eight points."""
