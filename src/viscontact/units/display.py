@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -36,9 +37,30 @@ def result_explorer(result: object, **how: Any) -> Any:
     return viscontact.figures.explore(result, **how)
 
 
-def write_study_report(kind: str, *arguments: object, **options: object) -> None:
-    """Write the report of a kind of study, by `viscontact.report`, imported when first used."""
-    getattr(viscontact.report, f"write_{kind}_report")(*arguments, **options)
+class StudyResult(ABC):
+    """Result of a study, with a report by `viscontact.report`, imported when first used."""
+
+    def report(self, path: str | PathLike[str]) -> None:
+        """Write a page of HTML with figures, tables and notes; some studies make runs for it.
+
+        Parameters
+        ----------
+        path : path-like
+            The page, by custom ending in ``.html``.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If the packages of figures are not installed.
+        OSError
+            If the file cannot be written.
+        """
+        kind, *arguments, options = self._page()
+        getattr(viscontact.report, f"write_{kind}_report")(*arguments, path, **options)
+
+    @abstractmethod
+    def _page(self) -> tuple[Any, ...]:
+        """Kind, arguments before the path, and options of a function ``write_..._report``."""
 
 
 class DisplayableGroup(Displayable, ABC):

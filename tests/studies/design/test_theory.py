@@ -10,7 +10,7 @@ import pytest
 from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
-from viscontact.studies.study_result import InfeasibleError
+from viscontact.studies.infeasible import InfeasibleError
 
 COVERED = BALL.replace(
     "{law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}",

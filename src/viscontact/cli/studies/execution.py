@@ -13,7 +13,7 @@ from viscontact.case import CaseError
 from viscontact.cli.studies.typed_options import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, put, refuse, say, stop
 from viscontact.cli.terminal.progress import counted
-from viscontact.studies.study_result import InfeasibleError
+from viscontact.studies.infeasible import InfeasibleError
 
 T = TypeVar("T")
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from os import PathLike
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from viscontact.results.heating.heat_notes import celsius
-from viscontact.units.display import write_study_report
+from viscontact.units.display import StudyResult
 from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True, eq=False)
-class RollingTemperature:
+class RollingTemperature(StudyResult):
     """Heat balances of a rolling body.
 
     Attributes
@@ -55,22 +55,8 @@ class RollingTemperature:
         """What the curve does not reach, and what is left out."""
         return tuple(str(self.table.attrs["notes"]).splitlines())
 
-    def report(self, path: str | PathLike[str]) -> None:
-        """Write a page of HTML with figures, tables and notes.
-
-        Parameters
-        ----------
-        path : path-like
-            The page, by custom ending in ``.html``.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            If the packages of figures are not installed.
-        OSError
-            If the file cannot be written.
-        """
-        write_study_report("heat", self.table, path, headline=str(self))
+    def _page(self) -> tuple[Any, ...]:
+        return "heat", self.table, {"headline": str(self)}
 
     def __str__(self) -> str:
         temperature = np.where(self.stable.values, self.temperature.values, np.nan)

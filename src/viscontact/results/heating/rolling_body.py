@@ -10,7 +10,7 @@ import xarray as xr
 
 from viscontact.bodies.indenters import Roller
 from viscontact.bodies.laws import Elastic, Shift
-from viscontact.bodies.materials.layers import Layered, at_temperature, named_parts
+from viscontact.bodies.materials.layers import Layered, named_parts
 from viscontact.bodies.materials.material import Material
 from viscontact.results.heating.power_curve import FEWEST, PowerCurve
 from viscontact.results.recorded_case import case_of, recorded_object
@@ -110,13 +110,10 @@ def _kind_of(results: object) -> str:
 def _creeping_parts(results: xr.Dataset) -> dict[str, Material]:
     """Materials of both bodies that creep, by their keys."""
     found = {}
-    history = recorded_object(results, "temperature", "curve")
     for body in _BODIES:
         recorded = recorded_object(results, body, "curve")
         if not isinstance(recorded, Material | Layered):
             continue
-        if history is not None:  # of the run; the case has the laws at their references
-            recorded = at_temperature(recorded, history.range[0])
         for part, material in named_parts(recorded).items():
             if not isinstance(material.law, Elastic):
                 found[f"{body}.{part}".rstrip(".")] = material

@@ -18,7 +18,7 @@ from viscontact.studies.calibration.response import Experiment
 from viscontact.studies.calibration.search import NoResidualsError, Optimum
 from viscontact.studies.calibration.unknowns import Unknown, case_settings
 from viscontact.studies.case_values import case_with
-from viscontact.studies.study_result import StudyResult
+from viscontact.units.display import StudyResult
 from viscontact.units.parsing import split_quantity
 
 _DIGITS = 6

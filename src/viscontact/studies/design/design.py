@@ -30,11 +30,11 @@ from viscontact.studies.design.trade_off import compromises, searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers
+from viscontact.studies.infeasible import InfeasibleError
 from viscontact.studies.journal import journal_of
 from viscontact.studies.scalars import require_instant
 from viscontact.studies.space import Space
 from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
-from viscontact.studies.study_result import InfeasibleError
 from viscontact.units.numbers import whole
 
 #: Way of the search, which another journal does not have: trials would follow on others.

@@ -22,9 +22,9 @@ from viscontact.studies.design.trade_off import costs_of, not_dominated
 from viscontact.studies.design.trials import Trial, goal_name
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
 from viscontact.studies.scalars import Value, places_of, value_columns
-from viscontact.studies.study_result import StudyResult
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
+from viscontact.units.display import StudyResult
 from viscontact.units.formatting import format_quantity
 
 #: Least remaining gain that a sentence states, relative to the best value.

@@ -11,7 +11,7 @@ import xarray as xr
 
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
-from viscontact.studies.study_result import StudyResult
+from viscontact.units.display import StudyResult
 from viscontact.units.formatting import format_quantity
 
 

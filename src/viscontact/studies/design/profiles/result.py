@@ -19,7 +19,7 @@ from viscontact.results.formatting import format_with_error
 from viscontact.runs.single import simulate
 from viscontact.studies.design.profiles.loaded_roller import LoadedRoller, case_with_table
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
-from viscontact.studies.study_result import StudyResult
+from viscontact.units.display import StudyResult
 
 #: Profiles of the table beside the named ones.
 CASE, FREE, ELASTIC = "case", "free", "free, without creep"
