@@ -142,6 +142,16 @@ def test_bad_arguments_are_refused_by_name(curve, options, said) -> None:
         balanced(curve(), **options)
 
 
+def test_a_law_that_was_referred_to_a_temperature_has_the_shift_of_one_given_there() -> None:
+    warm = OTHER.at(350.0)
+    given = dataclasses.replace(warm, shift=vc.WLF(350.0, warm.shift.c1, warm.shift.c2))
+    cover = vc.Layered([vc.Layer(8e-3, warm)], base=STEEL)
+    both = rolling_curve(material=given, indenter_material=cover)
+    alone = rolling_curve(indenter_material=cover)
+    found, expected = (balanced(each, speed=[0.1], area=0.1).temperature for each in (both, alone))
+    np.testing.assert_array_equal(found, expected)
+
+
 def test_ambient_beyond_the_shift_is_refused() -> None:
     table = vc.TabulatedShift([335.0, 400.0], [2.0, 0.01])
     cover = vc.Layered([vc.Layer(8e-3, dataclasses.replace(RUBBER, shift=table))], base=STEEL)

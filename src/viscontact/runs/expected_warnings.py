@@ -71,9 +71,7 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
         | warnings_of_covers(geometry, found.rim, found.motion, run.grid.cell_size)
         | _corner_warnings(run, geometry, found, compliance)
         | _limit_warnings(run.problem, found)
-        | diffusion_warnings(
-            run.problem.temperature, min(found.length, found.width) / 2, run.problem.end
-        )
+        | diffusion_warnings(run.problem, min(found.length, found.width) / 2)
         | map_warnings(missed, max(run.grid.cell_size), strain)
         | texture_warnings(geometry.indenter, run.grid)
     )

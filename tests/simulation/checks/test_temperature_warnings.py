@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,10 @@ import pytest
 import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.materials.measured_range import MeasuredRange
+from viscontact.cli import main
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.runs.forecast import forecast
-from viscontact.simulation.checks.temperature import diffusion_warnings, glass_transition
+from viscontact.simulation.checks.temperature import glass_transition, lag_warnings, warmed_depth
 from viscontact.simulation.transient.setup import prepare_run
 
 WLF = vc.WLF(293.15, 8.86, 101.6)
@@ -87,6 +89,53 @@ def test_temperature_below_the_glass_transition() -> None:
     assert said(arrhenius, cold) == ""
 
 
+def test_own_temperature_of_a_material_below_its_glass_transition() -> None:
+    """As under the same temperature of the run; not at the one that the law was given at."""
+    material = vc.Material(LAW, 0.4, shift=WLF)
+    under_run = said(material, 233.15)
+    assert "the material is used at -40 °C, below about -30 °C" in under_run
+    assert said(material.at(233.15), None) == under_run
+    assert said(material.at(253.15).at(233.15), None) == under_run
+    assert said(material.at(253.15), None) == ""
+    assert said(material.at(233.15).at(293.15), None) == ""
+    # Given below the estimate, for which its tests vouch there.
+    referred = WLF.referred_to(233.15)
+    cold = vc.Material(LAW, 0.4, shift=vc.WLF(233.15, referred.c1, referred.c2))
+    assert said(cold, None) == said(cold.at(233.15), None) == ""
+    assert said(cold.at(293.15).at(233.15), None) == ""
+    tested = MeasuredRange(temperatures=(233.15, 293.15))
+    known = vc.Material(LAW, 0.4, shift=WLF, measured_range=tested)
+    assert said(known.at(233.15), None) == ""
+    arrhenius = vc.Material(LAW, 0.4, shift=vc.Arrhenius(293.15, 80e3))
+    assert said(arrhenius.at(233.15), None) == ""
+
+
+def test_key_temperature_of_a_material_in_a_case_is_warned_of(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "cold.yaml"
+    case.write_text(
+        """
+indenter: {shape: sphere, radius: 10 mm}
+material:
+  law: zener
+  poisson_ratio: 0.4
+  shear_modulus: 1 MPa
+  delayed_modulus: 20 MPa
+  viscosity: 10 GPa s
+  shift: {kind: wlf, reference_temperature: 20 degC, c1: 8.86, c2: 101.6 K}
+  temperature: -40 degC
+load: {kind: step, force: 0.1 N}
+time: {end: 600 s, steps: 3}
+grid: {shape: [24, 24], size: [3 mm, 3 mm]}
+""",
+        encoding="utf-8",
+    )
+    assert main(["check", str(case)]) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    assert "the material is used at -40 °C, below about -30 °C" in words
+
+
 def test_temperature_outside_the_shift_is_refused_at_its_argument() -> None:
     for wrong in (150.0, vc.TemperatureHistory([0.0, 1.0], [150.0, 290.0])):
         with pytest.raises(ValueError, match=r"^temperature: WLF: must be used above"):
@@ -113,13 +162,46 @@ def test_temperature_changes_faster_than_heat_diffuses() -> None:
     assert "changes faster than heat diffuses over the contact" in found
     # Over a half width of 10 mm heat takes 1000 s: at 1 K in 100 s it lags by 10 K.
     slow = vc.TemperatureHistory([0.0, 1e4], [293.15, 393.15])
-    [text] = diffusion_warnings(slow, 0.01, 1e4).values()
+    [text] = lag_warnings(slow, 0.01, 1e4).values()
     assert "this takes about 1000 s" in text
     assert "by about 10 K" in text
-    assert diffusion_warnings(slow, 0.001, 1e4) == {}
+    assert lag_warnings(slow, 0.001, 1e4) == {}
     # A jump after the end of the run changes nothing.
     later = vc.TemperatureHistory([0.0, 50.0, 50.0], [293.15, 293.15, 393.15])
-    assert diffusion_warnings(later, 0.01, 40.0) == {}
+    assert lag_warnings(later, 0.01, 40.0) == {}
+
+
+def test_heat_has_a_thin_layer_to_pass_only() -> None:
+    """A slab of thickness h is even after h²/α (Carslaw and Jaeger 1959, section 3.4)."""
+    slow = vc.TemperatureHistory([0.0, 1e4], [293.15, 393.15])
+    # Over a half width of 10 mm 1000 s, but through 5 mm a quarter of this.
+    [text] = lag_warnings(slow, 0.01, 1e4, 0.005).values()
+    assert "through the body: over its 5 mm this takes about 250 s" in text
+    assert "by about 2.5 K" in text
+    assert lag_warnings(slow, 0.01, 1e4, 0.004) == {}
+    assert lag_warnings(slow, 0.01, 1e4, 0.02) == lag_warnings(slow, 0.01, 1e4)
+
+
+def test_depth_that_heat_has_to_reach_is_that_of_what_depends_on_temperature() -> None:
+    rubber = vc.Material(LAW, 0.4, shift=WLF)
+    steel = vc.Material(vc.Elastic(80e9), 0.3)
+    cover, plate = vc.Layer(2e-3, rubber), vc.Layer(3e-3, steel)
+    growing = vc.Layer(3e-3, steel, expansion=1e-5, expansion_from=293.15)
+    for layers, base, depth in (
+        *(([cover], "rigid", 2e-3), ([cover, plate], steel, 2e-3), ([cover], rubber, np.inf)),
+        *(([plate, cover], steel, 5e-3), ([cover, growing], "rigid", 5e-3), ([plate], steel, 0.0)),
+    ):
+        assert warmed_depth(vc.Layered(layers, base=base)) == close_to(depth)
+    assert warmed_depth(rubber) == np.inf
+    assert warmed_depth(steel) == 0.0
+
+
+def test_a_cover_thinner_than_the_contact_warms_faster() -> None:
+    rubber, run = vc.Material(LAW, 0.4, shift=WLF), {"grid": vc.Grid((48, 48), (2e-3, 2e-3))}
+    quick = vc.TemperatureHistory([0.0, 6.0, 36000.0], [293.15, 313.15, 313.15])
+    assert "than heat diffuses over the contact" in said(rubber, quick, **run)
+    cover = vc.Layered([vc.Layer(2e-4, rubber)], base="rigid")
+    assert "than heat diffuses" not in said(cover, quick, **run)
 
 
 def test_warnings_name_the_body() -> None:

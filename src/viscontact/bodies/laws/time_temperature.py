@@ -139,6 +139,9 @@ class WLF(Shift):
         Constant C_1 > 0, of the decimal logarithm [-].
     c2 : float
         Constant C_2 > 0 [K].
+    given_at : float, optional
+        Reference temperature at which the constants were given, if the rule was referred to another
+        one [K]; set by `referred_to`, and left out where two rules are compared.
 
     Raises
     ------
@@ -166,9 +169,12 @@ class WLF(Shift):
     reference_temperature: float = field(metadata={"unit": "K"})
     c1: float = field(metadata={"unit": "1"})
     c2: float = field(metadata={"unit": "K"})
+    given_at: float | None = field(
+        default=None, compare=False, metadata={"unit": "K", "recorded": "if given"}
+    )
 
     def __post_init__(self) -> None:
-        check_fields(self, "reference_temperature", "c1", "c2")
+        check_fields(self, "reference_temperature", "c1", "c2", "given_at")
 
     def referred_to(self, temperature: float) -> WLF:
         """Return the same rule with another reference temperature, see `Shift.referred_to`."""
@@ -177,7 +183,8 @@ class WLF(Shift):
             return self
         # Ferry, Viscoelastic Properties of Polymers, 3rd ed., 1980, eq. 11-22 and 11-23.
         c2 = self.c2 + temperature - self.reference_temperature
-        return WLF(float(temperature), self.c1 * self.c2 / c2, c2)
+        given_at = self.reference_temperature if self.given_at is None else self.given_at
+        return WLF(float(temperature), self.c1 * self.c2 / c2, c2, given_at)
 
     def _log_factor(self, temperature: Floats) -> Floats:
         above = temperature - self.reference_temperature

@@ -8,6 +8,7 @@ import numpy as np
 
 from viscontact.bodies.laws import WLF, Elastic
 from viscontact.bodies.loads import TemperatureHistory
+from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
@@ -32,21 +33,22 @@ _SAMPLES = 50
 
 def shift_warnings(problem: Problem) -> dict[str, str]:
     """Warn of materials whose shift does not cover the temperature of a run, or is missing."""
-    temperature = problem.temperature
-    if temperature is None:
-        return {}
     found: dict[str, str] = {}
     for body, name in zip(problem.given_materials, problem.body_names, strict=True):
         for material in body:
-            for kind, text in _of_material(material, name, temperature):
+            for kind, text in _of_material(material, name, problem.temperature):
                 found.setdefault(kind, text)
     return found
 
 
 def _of_material(
-    material: Material, whose: str, temperature: TemperatureHistory
+    material: Material, whose: str, temperature: TemperatureHistory | None
 ) -> Iterator[tuple[str, str]]:
     if isinstance(material.law, Elastic):
+        return
+    if isinstance(material.shift, WLF):
+        yield from _below_transition(material, material.shift, whose, temperature)
+    if temperature is None:
         return
     if material.shift is None:
         yield (
@@ -55,8 +57,6 @@ def _of_material(
             "it a shift (WLF, Arrhenius or factors), or leave the temperature out",
         )
         return
-    if isinstance(material.shift, WLF):
-        yield from _below_transition(material, material.shift, whose, temperature)
     factors = material.shift.vertical_factor(np.linspace(*temperature.range, _SAMPLES))
     low, high = float(factors.min()), float(factors.max())
     if not temperature.is_constant and high > (1 + NOTABLE_FACTOR) * low:
@@ -69,17 +69,22 @@ def _of_material(
 
 
 def _below_transition(
-    material: Material, shift: WLF, whose: str, temperature: TemperatureHistory
+    material: Material, shift: WLF, whose: str, temperature: TemperatureHistory | None
 ) -> Iterator[tuple[str, str]]:
     """Warn of the WLF equation below the glass transition that its constants let expect."""
-    transition, lowest = glass_transition(shift), temperature.range[0]
+    # Without a temperature of the run, a law is used at the reference temperature of its shift,
+    # which is its own temperature if the constants were given at another one.
+    reference, transition = shift.reference_temperature, glass_transition(shift)
+    lowest = reference if temperature is None else temperature.range[0]
+    given = reference if shift.given_at is None else shift.given_at
     tested = material.measured_range
     measured = np.inf if tested is None or tested.temperatures is None else tested.temperatures[0]
-    known = min(shift.reference_temperature, measured)
-    if lowest < min(transition, known) - NOTABLE:
+    if lowest < min(transition, given, measured) - NOTABLE:
+        varies = temperature is not None and not temperature.is_constant
+        falls = "the temperature falls to" if varies else f"the {whose} is used at"
         yield (
             "glass transition",
-            f"the temperature falls to {_celsius(lowest)}, below about "
+            f"{falls} {_celsius(lowest)}, below about "
             f"{in_celsius(transition):.0f} °C, where the constants of the {whose}'s WLF equation "
             "become those of many polymers at their glass transition "
             f"(C1 = {UNIVERSAL_C1}, C2 = {UNIVERSAL_C2} K); below it the "
@@ -93,12 +98,34 @@ def glass_transition(shift: WLF) -> float:
     return shift.reference_temperature + shift.c1 * shift.c2 / UNIVERSAL_C1 - shift.c2
 
 
-def diffusion_warnings(
-    temperature: TemperatureHistory | None, half_width: float, end: float
+def diffusion_warnings(problem: Problem, half_width: float) -> dict[str, str]:
+    """Warn of a temperature that changes faster than heat diffuses over a contact [m]."""
+    if problem.temperature is None:
+        return {}
+    depth = max(map(warmed_depth, problem.bodies))
+    return lag_warnings(problem.temperature, half_width, problem.end, depth)
+
+
+def warmed_depth(body: Material | Layered) -> float:
+    """Depth down to which a body depends on its temperature [m]: it creeps or expands there."""
+    if isinstance(body, Material):
+        return 0.0 if isinstance(body.law, Elastic) else body.thickness or np.inf
+    if not isinstance(body.base, str) and not isinstance(body.base.law, Elastic):
+        return np.inf
+    bottoms = np.cumsum([layer.thickness for layer in body.layers])
+    depends = [each.expands or not isinstance(each.material.law, Elastic) for each in body.layers]
+    return float(bottoms.max(initial=0.0, where=depends))
+
+
+def lag_warnings(
+    temperature: TemperatureHistory, half_width: float, end: float, depth: float = np.inf
 ) -> dict[str, str]:
-    """Warn of a temperature that changes faster than heat diffuses over a contact [m, s]."""
-    takes = half_width**2 / DIFFUSIVITY
-    if temperature is None or not temperature.steepest * takes > NOTABLE:
+    """Warn of a temperature that changes faster than heat diffuses over a contact [m, s].
+
+    A body that depends on its temperature down to a depth only is warmed from below as well [m].
+    """
+    takes = min(half_width, depth) ** 2 / DIFFUSIVITY
+    if not temperature.steepest * takes > NOTABLE:
         return {}
     kinks = temperature.kinks
     times = np.append(kinks[kinks < end], end)
@@ -106,10 +133,12 @@ def diffusion_warnings(
     lag = min(temperature.steepest * takes, float(np.ptp(values)))
     if lag <= NOTABLE:
         return {}
+    way = f"over the contact: over its half width of {format_quantity(half_width, 'm', 2)}"
+    if depth < half_width:
+        way = f"through the body: over its {format_quantity(depth, 'm', 2)}"
     return {
         "diffusion": (
-            f"the temperature changes faster than heat diffuses over the contact: over its half "
-            f"width of {format_quantity(half_width, 'm', 2)} this takes about "
+            f"the temperature changes faster than heat diffuses {way} this takes about "
             f"{format_quantity(takes, 's', 2)} in a polymer, in which the temperature lags behind "
             f"by about {lag:.2g} K; the run takes it as even in the bodies"
         )

@@ -221,7 +221,7 @@ class Observer:
             load, measured = problem.contact_load, problem.data_times
             found = early_warnings(measured, load, step.time, step.side) | found
             half_width = min(rim.length, rim.width) / 2
-            found = diffusion_warnings(problem.temperature, half_width, problem.end) | found
+            found = diffusion_warnings(problem, half_width) | found
             if self._limited:
                 found = self._limit_warnings(step.time, solution, rim) | found
         found = loading_warnings(self._run, step, self._before, solution) | found
