@@ -2,8 +2,9 @@
 
 A sphere on 128 x 128 cells under a force that rises and is held, in 60 steps, on a law of three
 exponentials: at a constant temperature, given as a number; on the clock of a temperature that does
-not vary before the end of the run; and under one that rises by 10 K. Times are of one thread, the
-least of some repetitions that take turns.
+not vary before the end of the run; under one that rises by 10 K; and the law itself in steps that
+are as unequal as those of this clock, whose weights are computed for each. Times are of one thread,
+the least of some repetitions that take turns.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import warnings
 from collections.abc import Callable
 from functools import partial
 
+import numpy as np
+
 import viscontact as vc
 
 WARM, END = 303.15, 100.0
@@ -21,15 +24,22 @@ LAW = vc.CreepSeries(5e-7, [1e-7, 2e-7, 4e-7], [1.0, 10.0, 100.0])
 MATERIAL = vc.Material(LAW, 0.5, shift=vc.WLF(293.15, 8.86, 101.6))
 LATER = vc.TemperatureHistory([0.0, 2 * END, 3 * END], [WARM, WARM, WARM + 10.0])
 RISING = vc.TemperatureHistory([0.0, END], [WARM - 5.0, WARM + 5.0])
+UNIFORM = vc.uniform_times(END, 60)
 
 
-def run(material: vc.Material, temperature: object) -> None:
+def unequal_times() -> np.ndarray:
+    """Times whose steps are as long as the uniform ones on the clock of the rising temperature."""
+    reduced = MATERIAL.clock(RISING).reduced(UNIFORM)
+    return END * reduced / reduced[-1]
+
+
+def run(material: vc.Material, temperature: object, times: np.ndarray = UNIFORM) -> None:
     """Run the contact."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", vc.AccuracyWarning)
         vc.simulate(
             *(vc.Sphere(0.01), material, vc.ramp(0.5, END / 4), vc.Grid((128, 128), (5e-3, 5e-3))),
-            vc.uniform_times(END, 60),
+            times,
             temperature=temperature,
             fields="none",
             errors=False,
@@ -41,6 +51,7 @@ RUNS: dict[str, Callable[[], None]] = {
     "constant temperature": partial(run, MATERIAL, WARM),
     "constant so far, on the clock": partial(run, MATERIAL, LATER),
     "rising by 10 K": partial(run, MATERIAL, RISING),
+    "law in unequal steps": partial(run, MATERIAL.at(WARM), None, unequal_times()),
 }
 
 

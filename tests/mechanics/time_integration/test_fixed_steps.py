@@ -1,13 +1,16 @@
 """Every instant asked for is met once, and no kink or jump of the load is stepped over."""
 
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.loads import harmonic
+from viscontact.bodies.loads.clock import TIME, ReducedTime
 from viscontact.loads import ApproachHistory, ForceHistory, ramp, step
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps
 
@@ -113,3 +116,31 @@ def test_the_ends_of_cycles_are_met_without_a_request():
     assert taken[1.4].requested is None
     after = min(time for time in taken if time > 1.4)
     assert taken[after].smooth  # they are no kinks
+
+
+def test_a_step_asks_each_clock_once() -> None:
+    """Memories of all terms and the estimate of the error share its integral."""
+    history = vc.TemperatureHistory([0.0, 4.0], [293.15, 303.15])
+    clocks = [_CountingClock(history, shift) for shift in (SLOW, QUICK)]
+    [_, *steps] = plan_steps(np.array([1.0, 4.0]), step(1.0))
+    for each in steps:
+        for clock, shift in 3 * [*zip(clocks, (SLOW, QUICK), strict=True)]:
+            expected = ReducedTime(history, shift).passed(each.time, each.duration)
+            assert each.duration_on(clock) == expected
+        assert each.duration_on(TIME) == each.duration
+    assert [clock.asked for clock in clocks] == 2 * [[each.time for each in steps]]
+
+
+SLOW, QUICK = vc.WLF(293.15, 8.86, 101.6), vc.Arrhenius(293.15, 80e3)
+
+
+class _CountingClock(ReducedTime):
+    """Clock that keeps the ends of the steps that it was asked for."""
+
+    @cached_property
+    def asked(self) -> list[float]:
+        return []
+
+    def passed(self, end: float, duration: float) -> float:
+        self.asked.append(end)
+        return super().passed(end, duration)

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -44,6 +45,17 @@ class TimeStep:
     def side(self) -> str:
         """Side of the step's end on which the load is read."""
         return "left" if self.before_jump else "right"
+
+    def duration_on(self, clock: Clock) -> float:
+        """Duration of the step on a clock [s]."""
+        # Several memories and the estimate of the error ask for it, and it is an integral.
+        if clock not in self._durations_on:
+            self._durations_on[clock] = clock.passed(self.time, self.duration)
+        return self._durations_on[clock]
+
+    @cached_property
+    def _durations_on(self) -> dict[Clock, float]:
+        return {}
 
 
 def plan_steps(

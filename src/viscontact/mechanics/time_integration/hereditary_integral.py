@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
 
@@ -100,14 +99,8 @@ def response_to(step: TimeStep, memory: HereditaryIntegral) -> HereditaryRespons
     """Response of a hereditary integral to a jump or to a step in time."""
     if step.is_jump:
         return memory.jump()
-    passed = partial(reduced_duration, step)
-    others = tuple((each.over_reduced_time, passed(each.clock)) for each in memory.others)
-    return memory.ramp(passed(memory.clock), smooth=step.smooth, others=others)
-
-
-def reduced_duration(step: TimeStep, clock: Clock) -> float:
-    """Duration of a step on a clock [s]."""
-    return clock.passed(step.time, step.duration)
+    others = tuple((each.over_reduced_time, step.duration_on(each.clock)) for each in memory.others)
+    return memory.ramp(step.duration_on(memory.clock), smooth=step.smooth, others=others)
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:

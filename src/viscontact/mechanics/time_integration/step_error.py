@@ -22,10 +22,7 @@ from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.bodies.loads.clock import TIME
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
-from viscontact.mechanics.time_integration.hereditary_integral import (
-    HereditaryResponse,
-    reduced_duration,
-)
+from viscontact.mechanics.time_integration.hereditary_integral import HereditaryResponse
 from viscontact.mechanics.time_integration.internal_variables import ramp_weights
 from viscontact.mechanics.time_integration.plan import HereditaryPlan
 from viscontact.mechanics.time_integration.restart_data import RestartData
@@ -182,7 +179,7 @@ class TimeErrors:
         """The step with its reduced duration."""
         if self._clock is TIME or step.is_jump:
             return step
-        return replace(step, duration=reduced_duration(step, self._clock))
+        return replace(step, duration=step.duration_on(self._clock))
 
     def _growth_to_come(self, level: float) -> float:
         """Least factor by which the pressure still grows with the load."""
