@@ -141,7 +141,8 @@ class WLF(Shift):
         Constant C_2 > 0 [K].
     given_at : float, optional
         Reference temperature at which the constants were given, if the rule was referred to another
-        one [K]; set by `referred_to`, and left out where two rules are compared.
+        one [K]. `referred_to` sets it, for the warning below the glass transition; two rules are
+        equal without it.
 
     Raises
     ------
@@ -170,7 +171,11 @@ class WLF(Shift):
     c1: float = field(metadata={"unit": "1"})
     c2: float = field(metadata={"unit": "K"})
     given_at: float | None = field(
-        default=None, compare=False, metadata={"unit": "K", "recorded": "if given"}
+        default=None,
+        kw_only=True,
+        compare=False,
+        repr=False,
+        metadata={"unit": "K", "recorded": "if given"},
     )
 
     def __post_init__(self) -> None:
@@ -184,7 +189,7 @@ class WLF(Shift):
         # Ferry, Viscoelastic Properties of Polymers, 3rd ed., 1980, eq. 11-22 and 11-23.
         c2 = self.c2 + temperature - self.reference_temperature
         given_at = self.reference_temperature if self.given_at is None else self.given_at
-        return WLF(float(temperature), self.c1 * self.c2 / c2, c2, given_at)
+        return WLF(float(temperature), self.c1 * self.c2 / c2, c2, given_at=given_at)
 
     def _log_factor(self, temperature: Floats) -> Floats:
         above = temperature - self.reference_temperature

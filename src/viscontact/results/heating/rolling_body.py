@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 import xarray as xr
@@ -143,13 +143,14 @@ def _common_shift(creeping: dict[str, Material]) -> Shift:
 
 
 def _are_equal(one: Shift, other: Shift | None) -> bool:
+    """True if the fields that shifts are compared by differ by rounding only."""
     if type(one) is not type(other):
         return False
     mine, its = (
         [
-            np.ravel(value).astype(float)
-            for name, value in vars(each).items()
-            if name != "given_at" and value is not None
+            np.ravel(getattr(each, item.name)).astype(float)
+            for item in fields(each)  # type: ignore[arg-type]  # every shift is a dataclass
+            if item.compare and getattr(each, item.name) is not None
         ]
         for each in (one, other)
     )
