@@ -101,7 +101,7 @@ def rolling_temperature(  # noqa: PLR0913
     References
     ----------
     .. [1] H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, 2nd ed., Oxford 1959,
-       section 3.14.
+       chapter 3.
 
     Examples
     --------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -102,29 +102,52 @@ def diffusion_warnings(problem: Problem, half_width: float) -> dict[str, str]:
     """Warn of a temperature that changes faster than heat diffuses over a contact [m]."""
     if problem.temperature is None:
         return {}
-    depth = max(map(warmed_depth, problem.bodies))
-    return lag_warnings(problem.temperature, half_width, problem.end, depth)
+    ways = heat_ways(problem.bodies, half_width)
+    return lag_warnings(problem.temperature, *max(ways, key=lambda way: way[0]), problem.end)
 
 
-def warmed_depth(body: Material | Layered) -> float:
-    """Depth down to which a body depends on its temperature [m]: it creeps or expands there."""
+def heat_ways(
+    bodies: Sequence[Material | Layered], half_width: float
+) -> Iterator[tuple[float, str]]:
+    """Lengths over which heat has to diffuse before the run is right, with a name for each [m]."""
+    # The pressure feels the law about as deep as the contact is wide, but the thickness grows by
+    # the mean temperature of the layer, however narrow the contact.
+    creeping = max(map(creeping_depth, bodies))
+    if creeping < half_width:
+        yield creeping, f"through the body: over its {format_quantity(creeping, 'm', 2)}"
+    else:
+        width = format_quantity(half_width, "m", 2)
+        yield half_width, f"over the contact: over its half width of {width}"
+    for depth in map(expanding_depth, bodies):
+        thick = format_quantity(depth, "m", 2)
+        yield depth, f"through the layers that expand: over their {thick}"
+
+
+def creeping_depth(body: Material | Layered) -> float:
+    """Depth down to which a body creeps, as far as it depends on its temperature [m]."""
     if isinstance(body, Material):
         return 0.0 if isinstance(body.law, Elastic) else body.thickness or np.inf
     if not isinstance(body.base, str) and not isinstance(body.base.law, Elastic):
         return np.inf
+    return _lowest(body, [not isinstance(each.material.law, Elastic) for each in body.layers])
+
+
+def expanding_depth(body: Material | Layered) -> float:
+    """Depth down to which a body becomes thicker with its temperature [m]."""
+    return 0.0 if isinstance(body, Material) else _lowest(body, [x.expands for x in body.layers])
+
+
+def _lowest(body: Layered, of: list[bool]) -> float:
+    """Depth of the bottom of the lowest of some layers [m], 0 without any."""
     bottoms = np.cumsum([layer.thickness for layer in body.layers])
-    depends = [each.expands or not isinstance(each.material.law, Elastic) for each in body.layers]
-    return float(bottoms.max(initial=0.0, where=depends))
+    return float(bottoms.max(initial=0.0, where=of))
 
 
 def lag_warnings(
-    temperature: TemperatureHistory, half_width: float, end: float, depth: float = np.inf
+    temperature: TemperatureHistory, length: float, way: str, end: float
 ) -> dict[str, str]:
-    """Warn of a temperature that changes faster than heat diffuses over a contact [m, s].
-
-    A body that depends on its temperature down to a depth only is warmed from below as well [m].
-    """
-    takes = min(half_width, depth) ** 2 / DIFFUSIVITY
+    """Warn of a temperature that changes faster than heat diffuses over a length [m] until [s]."""
+    takes = length**2 / DIFFUSIVITY
     if not temperature.steepest * takes > NOTABLE:
         return {}
     kinks = temperature.kinks
@@ -133,9 +156,6 @@ def lag_warnings(
     lag = min(temperature.steepest * takes, float(np.ptp(values)))
     if lag <= NOTABLE:
         return {}
-    way = f"over the contact: over its half width of {format_quantity(half_width, 'm', 2)}"
-    if depth < half_width:
-        way = f"through the body: over its {format_quantity(depth, 'm', 2)}"
     return {
         "diffusion": (
             f"the temperature changes faster than heat diffuses {way} this takes about "
