@@ -83,6 +83,36 @@ def test_ageing_has_struiks_effective_time_in_closed_form() -> None:
     assert clock.reduced(np.array(1e7)) == close_to(100 * math.log1p(1e5), rel=1e-12)
 
 
+def test_a_table_that_is_passed_at_its_kinks_has_the_integral_of_its_exponentials() -> None:
+    """While T and ln a_T over T are linear, 1/a_T is an exponential of time."""
+    kelvin, factors = [273.15, 290.0, 297.0, 320.0], [200.0, 30.0, 1.0, 0.5]
+    clock = ReducedTime(
+        vc.TemperatureHistory([0.0, 100.0, 150.0], [274.0, 314.0, 294.0]),
+        vc.TabulatedShift(kelvin, factors),
+    )
+    # Instants of 274, 290, 297, 314, 297 and 294 K.
+    marks = np.array([0.0, 40.0, 57.5, 100.0, 142.5, 150.0])
+    logs = -np.interp([274.0, 290.0, 297.0, 314.0, 297.0, 294.0], kelvin, np.log(factors))
+    changes = np.diff(logs)
+    pieces = np.diff(marks) * np.exp(logs[:-1]) * np.expm1(changes) / changes
+    np.testing.assert_allclose(clock.reduced(marks[1:]), np.cumsum(pieces), rtol=1e-13)
+    assert clock.passed(150.0, 145.0) == close_to(pieces.sum() - clock.reduced(np.array(5.0)))
+
+
+def test_a_swing_over_the_kinks_of_a_table_is_integrated_exactly() -> None:
+    day = vc.HarmonicTemperature(mean=293.15, amplitude=10.0, period=100.0, cycles=2, phase=0.3)
+    clock = ReducedTime(day, vc.TabulatedShift([280.0, 291.0, 296.0, 305.0], [60.0, 9.0, 1.0, 0.9]))
+    turns = [math.asin((kelvin - 293.15) / 10.0) for kelvin in (291.0, 296.0)]
+    passages = [(way - 0.3) / (2 * math.pi) * 100.0 for s in turns for way in (s, math.pi - s)]
+    marks = np.unique([0.0, 130.0, *(p + k * 100.0 for p in passages for k in (-1, 0, 1, 2))])
+    marks = marks[(marks >= 0) & (marks <= 130.0)]
+    expected = sum(
+        scipy.integrate.quad(lambda t: 1 / slowness(clock, t), a, b, epsabs=0, epsrel=1e-12)[0]
+        for a, b in itertools.pairwise(marks)
+    )
+    assert clock.reduced(np.array(130.0)) == close_to(expected, rel=1e-11)
+
+
 @pytest.mark.parametrize("name", CLOCKS)
 def test_steps_are_divided_where_the_rate_changes_by_more_than_two(name: str) -> None:
     clock = CLOCKS[name]

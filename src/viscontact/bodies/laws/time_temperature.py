@@ -98,6 +98,11 @@ class Shift(Displayable, ABC):
         factors = np.exp(self._log_vertical(T))
         return float(factors) if T.ndim == 0 else factors
 
+    @property
+    def kinks(self) -> Sequence[float]:
+        """Temperatures at which the slope of ln a_T jumps [K]; none of a formula."""
+        return ()
+
     @abstractmethod
     def referred_to(self, temperature: float) -> Shift:
         """Return the same rule with another reference temperature.
@@ -298,6 +303,11 @@ class TabulatedShift(Shift):
             )
         for i in range(1, len(temperatures)):
             self._require_order(i, temperatures, factors)
+
+    @property
+    def kinks(self) -> Sequence[float]:
+        """Temperatures of the table, between which ln a_T is linear [K]."""
+        return self.temperatures
 
     def referred_to(self, temperature: float) -> TabulatedShift:
         """Return the same rule with another reference temperature, see `Shift.referred_to`."""

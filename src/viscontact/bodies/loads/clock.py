@@ -33,6 +33,9 @@ STEP_CHANGE = math.log(2.0)
 #: End of the times that a clock is made for [s].
 END = 1e30
 
+#: Bisections of a time between two kinks, to rounding.
+BISECTIONS = 60
+
 _NODES, _WEIGHTS = leggauss(8)
 
 
@@ -157,7 +160,8 @@ class ReducedTime(Clock):
 
     @cached_property
     def _pieces(self) -> _Pieces:
-        ends = np.unique(np.concatenate([[0.0, END], self.kinks, self._ends_of_ageing()]))
+        inner = self.kinks, self._passages(), self._ends_of_ageing()
+        ends = np.unique(np.concatenate([[0.0, END], *inner]))
         if self.temperature is not None:
             ends = self._divided(ends)
         half, rates = self._at_nodes(ends[:-1], ends[1:])
@@ -167,6 +171,22 @@ class ReducedTime(Clock):
             np.append(0.0, np.cumsum(half * (rates @ _WEIGHTS))),
             np.where(is_constant, rates[..., 0], np.nan),
         )
+
+    def _passages(self) -> Floats:
+        """Instants between kinks of the temperature at which it passes one of the shift [s]."""
+        if self.temperature is None or self.shift is None:
+            return np.zeros(0)
+        temperature, kinks = self.temperature, self.kinks
+        levels = np.array(self.shift.kinks)[:, None]
+        # It rises or falls all the way from one of its kinks to the next.
+        above = temperature.at(kinks[:-1]) - levels
+        row, begin = np.nonzero(above * (temperature.at(kinks[1:], side="left") - levels) < 0)
+        low, high = kinks[begin], kinks[begin + 1]
+        for _ in range(BISECTIONS):
+            middle = (low + high) / 2
+            is_before = (temperature.at(middle) - levels[row, 0]) * above[row, begin] > 0
+            low, high = np.where(is_before, middle, low), np.where(is_before, high, middle)
+        return high
 
     def _ends_of_ageing(self) -> Floats:
         if self.ageing is None:
