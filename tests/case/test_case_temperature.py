@@ -151,8 +151,10 @@ def test_form_has_the_longest_spelling(tmp_path: Path) -> None:
         ("40 mm", "temperature: cannot read '40 mm' as a temperature (got a length)"),
         ("40", "temperature: 40 has no unit"),
         (40, "temperature: 40 has no unit"),
-        ("-300 degC", "temperature: must be more than zero"),
-        ([1], "temperature: cannot read [1] as a temperature; write e.g. '25 degC'"),
+        ("-300 degC", "temperature: must be above absolute zero, -273.15 °C, got '-300 degC'"),
+        ("40 delta_degC", "'delta_degC' is a unit of differences"),
+        ("40 Δ°C", "is a unit of differences"),
+        ([["0 s", "20 degC"]], "temperature: is a list; write e.g. 'points: [[0 s, 23 degC]"),
         ({}, "temperature: give points (e.g."),
         ({"points": []}, "temperature.points: is empty"),
         ({"points": [["0 s", "20 mm"]]}, "temperature.points[1][2]: cannot read '20 mm'"),
@@ -189,6 +191,22 @@ def test_form_has_the_longest_spelling(tmp_path: Path) -> None:
 )  # fmt: skip
 def test_mistakes_are_named_at_their_keys(tmp_path: Path, temperature: object, said: str) -> None:
     assert said in refusal(tmp_path, temperature)
+
+
+@pytest.mark.parametrize(
+    ("lists", "said"),
+    [
+        ({"temperatures": ["20 degC", "10 degC"]}, "shift.temperatures[2]: must be above the one"),
+        ({"factors": [1, 10]}, "shift.factors[2]: must not be above the one before"),
+        ({"factors": [1]}, "material.shift: temperatures and factors must have equal lengths"),
+        ({"vertical": [1]}, "material.shift: vertical must have one factor for each"),
+    ],
+)
+def test_mistakes_in_the_factors_of_a_shift_are_named_at_their_entries(
+    tmp_path: Path, lists: dict[str, object], said: str
+) -> None:
+    shift = {"kind": "factors", "temperatures": ["10 degC", "20 degC"], "factors": [10, 1]}
+    assert said in refusal(tmp_path, "15 degC", material={**WARMED, "shift": shift | lists})
 
 
 def test_columns_of_a_table_are_required(tmp_path: Path) -> None:

@@ -36,6 +36,8 @@ _MOST_CELLS, _MOST_STEPS, _MOST_SPEEDS = 10**9, 10**5, 1000
 #: Word for a radius of curvature without end.
 INFINITE = "infinite"
 
+_ABSOLUTE_ZERO = "above absolute zero, -273.15 °C"
+
 ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 
 
@@ -64,7 +66,8 @@ class WithUnit:
             )
         refused = {ANY: False, NOT_NEGATIVE: value < 0, POSITIVE: value <= 0}[self.sign]
         if refused:
-            raise _problem(f"must be {self.sign}, got {given!r}; write e.g. {wanted.example!r}")
+            least = _ABSOLUTE_ZERO if self.dimension == "temperature" else self.sign
+            raise _problem(f"must be {least}, got {given!r}; write e.g. {wanted.example!r}")
         return value
 
     def __get_pydantic_core_schema__(

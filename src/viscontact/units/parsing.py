@@ -23,6 +23,9 @@ _DEGREES = {
     **dict.fromkeys(("f", "fahrenheit", "degf", "°f", "℉"), (5 / 9, 459.67 * 5 / 9)),
 }
 
+#: Beginnings of units that only differences of temperatures have.
+_DIFFERENCES = ("delta", "Δ".lower(), "∆")
+
 _OFFSET = " above another zero"
 
 #: Units of a plain ratio.
@@ -140,6 +143,11 @@ def _scale(unit: str, text: str, dimension: str) -> UnitScale:
         degrees = _DEGREES.get(unit.lower())
         if degrees is not None:
             return UnitScale(degrees[0], degrees[1] if dimension == "temperature" else 0.0)
+        if dimension == "temperature" and unit.lower().startswith(_DIFFERENCES):
+            raise ValueError(
+                f"cannot read {quoted(text)} as {wanted.name}: {quoted(unit)} is a unit of "
+                f"differences; write e.g. {wanted.example!r}"
+            )
     return UnitScale(_factor(unit, text, wanted))
 
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, model_validator
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.bodies import loads
 from viscontact.bodies.loads import TemperatureHistory
@@ -220,6 +220,10 @@ class _OrQuantity:
         def read(given: Any, section: Callable[[Any], TemperatureSection]) -> TemperatureSection:
             if isinstance(given, TemperatureSection):
                 return given
+            if isinstance(given, list):
+                raise PydanticCustomError(
+                    "quantity", "is a list; write e.g. 'points: [[0 s, 23 degC], [2 h, 60 degC]]'"
+                )
             if not isinstance(given, dict):
                 _QUANTITY.read(given)  # refused at the key of the section
             return section(spelled_temperature(given))

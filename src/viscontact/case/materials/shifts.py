@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
 from typing import Annotated, Literal
 
@@ -97,9 +98,21 @@ class Factors(Rule):
                 "'{kind: factors, temperatures: [20 degC, 40 degC], factors: [1, 0.01]}'"
             )
         else:
-            shift = laws.TabulatedShift(self.temperatures, self.factors, self.vertical)
+            shift = self._of_lists(self.temperatures, self.factors)
         self._require_reference(shift)
         return shift
+
+    def _of_lists(self, temperatures: list[float], factors: list[float]) -> laws.Shift:
+        try:
+            return laws.TabulatedShift(temperatures, factors, self.vertical)
+        except ValueError as error:
+            why = str(error).removeprefix("TabulatedShift: ")
+            # Entries of a file are counted from 1.
+            entry = re.match(r"(\w+)\[(\d+)\] ", why)
+            if entry is None:
+                raise ValueError(f"shift: {why}") from error
+            place = f"shift.{entry[1]}[{int(entry[2]) + 1}]"
+            raise ValueError(f"{place}: {why[entry.end() :]}") from error
 
     def _require_reference(self, shift: laws.Shift) -> None:
         if self.reference_temperature is None:
