@@ -224,6 +224,16 @@ def test_one_small_step_is_warned_of():
         vc.fit_creep(times, noisy, data="deviatoric", temperature=history, shift="arrhenius")
 
 
+def test_shift_at_the_end_of_the_search_is_warned_of():
+    shift, warmer = vc.Arrhenius(FIRST, 1.05e6), FIRST + 4.0
+    history = vc.TemperatureHistory([0.0, 1e4, 1e4], [FIRST, FIRST, warmer])
+    times = np.linspace(200.0, 2e4, 60)
+    reduced = times + np.maximum(times - 1e4, 0.0) * (1 / shift.factor(warmer) - 1)
+    options = {"data": "deviatoric", "shift": "arrhenius", "thermal_strain": False}
+    with pytest.warns(vc.AccuracyWarning, match="energy of 1050 kJ/mol, where the search ends"):
+        vc.fit_creep(times, CREEP(reduced), temperature=history, **options)
+
+
 @pytest.mark.parametrize("rule", ["arrhenius", "wlf", "table"])
 def test_record_that_has_relaxed_before_the_first_step_is_warned_of(rule):
     times = np.linspace(10.0, 3000.0, 60)

@@ -86,6 +86,9 @@ def test_what_the_curve_does_not_reach_is_named_and_not_a_number() -> None:
     with pytest.warns(vc.AccuracyWarning, match=r"at 1 m/s the curve gives no power of the cold"):
         found = vc.rolling_temperature(short, **AIR, speed=[0.1, 1.0])
     assert "compute the curve up to 3.01 m/s" in found.notes[0]
+    # At 380 K the shift factor is exp(150e3/R (1/380 - 1/340)) = 3.75e-3: the curve is too fast.
+    with pytest.raises(ValueError, match=r"compute the curve down to 372 µm/s, which is the speed"):
+        vc.rolling_temperature(short, **AIR | {"ambient": 380.0}, speed=[0.1, 1.0])
     assert found.table.coldest.values[0] == close_to(333.15)
     assert found.table.coldest.values[1] > 338.0
     unknown = found.table.power_at.isel(speed=1).where(

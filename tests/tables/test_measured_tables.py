@@ -294,6 +294,10 @@ def test_one_test_under_a_varying_temperature_is_no_set_of_isotherms(tmp_path: P
     # Times that begin again, sets that take turns, and oscillations are sets.
     assert len(of([1, 2, 3, 1, 2, 3], steps).sets()) == 2
     assert len(of([1, 2, 3, 4, 5, 6], [20.0, 27.0] * 3).sets()) == 2
+    three = [20.0, 20.0, 27.0, 27.0, 34.0, 34.0]
+    assert len(of([1, 2, 1, 2, 1, 2], three).sets()) == 3
+    with pytest.raises(ValueError, match=r"data.csv:5: time goes from 3 s back to 2.5 s, and goes"):
+        of([1, 2, 3, 2.5, 4, 5], three).sets()
     assert not of([1, 2, 3, 4, 5, 6], steps, "t [s],G' [MPa],T [degC]").has_varying_temperature
     assert not of([1, 2, 3, 4, 5, 6], [20.0, 20.4, 20.2] * 2).has_varying_temperature
 

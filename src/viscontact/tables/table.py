@@ -141,8 +141,8 @@ class Table:
         Raises
         ------
         ValueError
-            If temperatures creep on without a gap over more than 5 K, or the table is one test
-            under a temperature that varies.
+            If temperatures creep on without a gap over more than 5 K, the table is one test
+            under a temperature that varies, or would be if its times did not go back in places.
         """
         if "set" in self:
             numbers, first = np.unique(self["set"], return_index=True)
@@ -171,7 +171,23 @@ class Table:
                     f"{self.source.name}: temperatures from {low:.4g} to {high:.4g} °C without a "
                     "gap of 1 K cannot be distinguished; number the sets in a column Set"
                 )
+        self._refuse_few_beginnings(len(groups))
         return tuple(self._rows(np.sort(group)) for group in groups)
+
+    def _refuse_few_beginnings(self, count: int) -> None:
+        """Refuse sets over time of which most go on with the time of the one before."""
+        if "time" not in self or "angular_frequency" in self:
+            return
+        back = np.flatnonzero(np.diff(self["time"]) <= 0)
+        if 0 < back.size < count - 1:
+            row = int(back[0])
+            before, after = (f"{self['time'][at]:.6g} s" for at in (row, row + 1))
+            raise ValueError(
+                f"{self.source.name}:{self.lines[row + 1]}: time goes from {before} back to "
+                f"{after}, and goes on from one temperature to the next elsewhere; correct the "
+                "times if this is one test whose temperature varies, or number the sets in a "
+                "column Set"
+            )
 
     def _rows(self, which: Bools | NDArray[np.int64]) -> Table:
         columns = {name: read_only(values[which]) for name, values in self.columns.items()}

@@ -12,11 +12,13 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.laws import Shift
+from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.series_fits.columns import positive_column, require_rows
 from viscontact.bodies.series_fits.found_shift import FoundShift, factors_over
 from viscontact.bodies.series_fits.joint_fit import JointFit, joint_fit
 from viscontact.bodies.series_fits.shift_rules import (
+    ENERGIES,
     RULES,
     ArrheniusRule,
     ShiftRule,
@@ -41,6 +43,9 @@ UNCERTAIN = 0.5
 #: Fall of the information criterion, and part of the largest compliance, from which on a thermal
 #: strain is part of a fit.
 NOTABLE_EXPANSION, LEAST_EXPANSION = 10.0, 2e-3
+
+#: Part of the largest activation energy that is searched from which on a shift is doubtful.
+MOST_OF_SEARCHED = 0.9
 
 #: Temperature below which all rows are taken as degrees Celsius [K].
 COLDEST = 150.0
@@ -265,6 +270,14 @@ def _doubts(
             f"the shift over the record, {change:.2g} decades, is uncertain by {error:.2g}: "
             "temperature and time can hardly be told apart in it; hold the temperature in more "
             "or larger steps, or give the shift"
+        )
+    energy = change * np.log(10.0) * GAS_CONSTANT / abs(float(np.subtract(*(1 / ends))))
+    if energy > MOST_OF_SEARCHED * ENERGIES[-1]:
+        doubts.append(
+            f"the shift over the record, {change:.2g} decades, is that of an activation energy of "
+            f"{energy / 1e3:.0f} kJ/mol, where the search ends: each step of the temperature is a "
+            "test of its own then, and many laws fit. Check that the rows follow the temperature "
+            "through its ramps, try --no-thermal-strain, or give the shift"
         )
     if chosen:
         doubts.append(

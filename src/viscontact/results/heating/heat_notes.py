@@ -29,11 +29,10 @@ def reach_notes(
     """Speeds at which a balance may lie where the curve gives no power."""
     colder = [v for v, r in zip(speeds, reaches, strict=True) if r.low > sink.idle or r.is_empty]
     if colder:
-        needed = 1.01 * max(colder) * float(curve.shift.factor(sink.idle))
         yield (
             f"at {_listed(colder)} the curve gives no power of the cold body: colder balances are "
-            f"not known; compute the curve up to {format_quantity(needed, 'm/s', 3)}, which is the "
-            "speed times the shift factor at rest"
+            f"not known; compute the curve {_missing(curve, sink, colder)}, which is the speed "
+            "times the shift factor at rest"
         )
     hotter = [
         (v, r)
@@ -51,6 +50,15 @@ def reach_notes(
                 f"at {_listed([v for v, _ in found])} more heat arises than flows off up to "
                 f"{warmest}, and beyond {why}; hotter balances are not known"
             )
+
+
+def _missing(curve: PowerCurve, sink: Sink, speeds: Sequence[float]) -> str:
+    """Speeds that a curve lacks for the power at rest: faster ones, or slower ones if it is hot."""
+    at_rest = np.array(speeds) * float(curve.shift.factor(sink.idle))
+    fastest, slowest = 1.01 * float(at_rest.max()), float(at_rest.min()) / 1.01
+    if fastest < curve.speeds[0]:
+        return f"down to {format_quantity(slowest, 'm/s', 3)}"
+    return f"up to {format_quantity(fastest, 'm/s', 3)}"
 
 
 def _is_heated(curve: PowerCurve, sink: Sink, speed: float, reach: Reach) -> bool:
