@@ -111,6 +111,7 @@ from .results.netcdf import save as save
 from .results.stresses import section_stresses as section_stresses
 from .runs.single import simulate as simulate
 from .runs.steady import steady as steady
+from .runs.under_pressure import under_pressure as under_pressure
 from .simulation.transient.automatic_grid import auto_grid as auto_grid
 from .simulation.transient.state_generator import march as march
 from .studies.calibration.fit_case import fit_case as fit_case

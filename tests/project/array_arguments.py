@@ -37,9 +37,10 @@ MADE_BY_THE_PACKAGE = (
 UNITS = {
     **dict.fromkeys(("x", "y", "r", "drop", "depths", "spacing", "cell", "size", "contact"), "m"),
     **dict.fromkeys(("heights", "position", "deflection", "approach", "profile"), "m"),
+    **dict.fromkeys(("distance", "depth"), "m"),
     **dict.fromkeys(("force", "forces"), "N"),
     **dict.fromkeys(("compliance", "amplitudes"), "1/Pa"),
-    **dict.fromkeys(("modulus", "moduli", "storage", "loss"), "Pa"),
+    **dict.fromkeys(("modulus", "moduli", "storage", "loss", "pressure"), "Pa"),
     **{"speed": "m/s", "speeds": "m/s", "temperature": "K", "angular_frequency": "rad/s"},
 }
 
@@ -60,6 +61,7 @@ APPROACHES = {"times": [0.0, 1.0, 2.0], "approach": DROPS}
 TILTS = {"tilt_x": [1e-4, 2e-4, 3e-4], "tilt_y": [1e-4, 2e-4, 3e-4]}
 PLACES = {"eccentricity_x": LINE, "eccentricity_y": LINE}
 SPHERE = reference.SphereProfile(0.01)
+RECTANGLE = {"pressure": 1e6, "half_length": 1e-3, "half_width": 2e-3}
 SERIES = {"radius": 1e-3, **CREEP_SERIES}
 
 
@@ -121,6 +123,7 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "fit_relaxation": ({**RELAXED, "data": "shear"}, {**RELAXED, **HEATED}),
     "march": ({**RUN, "load": vc.ramp(0.1, 1.0), "times": [0.0, 1.0], "fields": [1.0]},),
     "material_curves": ({"law": RUBBER.law, "times": (1.0, 9.0), "measured": (1.0, 9.0)},),
+    "point_load": ({"force": 1.0, "contact_modulus": 1e9, "distance": LINE[1:]},),
     "press_axisymmetric": tuple(
         {
             **load,
@@ -139,6 +142,8 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
             **{"radius": 1e-3, "creep_compliance": _soft},
         },
     ),
+    "rectangle_displacement": ({**RECTANGLE, "contact_modulus": 1e9, "x": LINE, "y": LINE},),
+    "rectangle_stress": ({**RECTANGLE, "x": LINE, "y": LINE, "depth": [*LINE[1:], 4e-3]},),
     "resampled": ({"surface": surfaces.Surface(np.zeros((9, 9)), 1e-3), "cell": (2e-3, 3e-3)},),
     "series_complex_compliance": ({**CREEP_SERIES, "angular_frequency": 1.0},),
     "simulate": (
@@ -156,8 +161,15 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
             **{"speed": [0.1, 1.0], "conductivity": 0.2},
         },
     ),
+    "strip_stresses": ({"pressure": 1e6, "half_width": 1e-3, "y": LINE[1:], "depth": LINE[1:]},),
     "ting_triangle": (
         {**PRONY, "profile": reference.SphereProfile(0.01), "peak": 1.0, "rise": 1.0},
+    ),
+    "under_pressure": (
+        {
+            **{"material": RUBBER, "grid": vc.Grid((4, 4), (3e-3, 2e-3)), "times": [0.0, 1.0]},
+            "pressure": np.arange(16.0).reshape(4, 4).tolist(),
+        },
     ),
     "write_dxf": ({"path": Path("line.dxf"), "x": LINE, "drop": LINE},),
 }

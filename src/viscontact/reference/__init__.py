@@ -37,6 +37,13 @@ from viscontact.reference.steady_motion import (
     moving_wave_resistance,
     slow_friction_coefficient,
 )
+from viscontact.reference.surface_loads import (
+    point_load,
+    rectangle_displacement,
+    rectangle_stress,
+    strip_on_layer,
+    strip_stresses,
+)
 from viscontact.reference.ting import TingHump, ting_hump
 from viscontact.reference.ting_cycles import TingCycles, ting_cycles
 from viscontact.reference.ting_force_triangle import TingForceTriangle, ting_force_triangle
@@ -77,13 +84,18 @@ __all__ = [
     "lee_radok_step",
     "moving_cylinder",
     "moving_wave_resistance",
+    "point_load",
     "press_axisymmetric",
     "punch_harmonic",
     "punch_harmonic_start",
     "punch_staircase",
+    "rectangle_displacement",
+    "rectangle_stress",
     "resolution_error",
     "series_complex_compliance",
     "slow_friction_coefficient",
+    "strip_on_layer",
+    "strip_stresses",
     "ting_cycles",
     "ting_force_triangle",
     "ting_hump",

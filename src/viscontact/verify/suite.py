@@ -8,6 +8,7 @@ from viscontact.verify import (
     edges,
     elastic,
     fixed_contact,
+    given_pressure,
     growing,
     layers,
     line_contact,
@@ -31,6 +32,7 @@ CASES: tuple[Case, ...] = (
     *line_contact.CASES,
     *moving_contact.CASES,
     *steady_motion.CASES,
+    *given_pressure.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.

@@ -1,0 +1,175 @@
+"""Displacement and stresses under a given pressure: closed forms, superposition, refused input."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from closeness import close_to
+from viscontact.verify import run_cases
+from viscontact.verify.given_pressure import CASES
+
+RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+BODY = vc.Material(vc.Elastic.from_uniaxial(1e9, 0.3), poisson_ratio=0.3)
+GRID = vc.Grid((6, 8), (3e-3, 2e-3))
+MAP = np.arange(48.0).reshape(6, 8) * 1e3
+
+
+def test_cases_agree_with_closed_forms() -> None:
+    results = run_cases(fast=True, cases=CASES)
+    assert len(results) == 9
+    assert [each.case for each in results if not each.passed] == []
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+@pytest.mark.parametrize("layered", [False, True])
+def test_pressure_of_a_contact_gives_its_displacement(layered: bool, tmp_path: Path) -> None:
+    steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
+    body = vc.Layered([vc.Layer(1e-3, RUBBER)], base=steel) if layered else RUBBER
+    grid, times = vc.Grid((16, 12), (2.4e-3, 2.2e-3)), [0.0, 0.3, 1.0, 2.0]
+    run = vc.simulate(vc.Sphere(0.01), body, vc.ramp(0.05, 1.0), grid, times, errors=False)
+    found = vc.under_pressure(run, body)
+    np.testing.assert_allclose(found.displacement, run.displacement, rtol=1e-12, atol=1e-20)
+    np.testing.assert_allclose(found.force, run.force, rtol=1e-9)
+    inside, own = vc.section_stresses(found, [1e-4], y=0.0), vc.section_stresses(run, [1e-4], y=0.0)
+    np.testing.assert_allclose(inside.von_mises, own.von_mises, rtol=1e-6)
+    vc.save(run, tmp_path / "run.nc")
+    stored = vc.under_pressure(tmp_path / "run.nc", body)  # in single precision
+    np.testing.assert_allclose(stored.displacement, run.displacement, rtol=1e-5, atol=1e-15)
+
+
+def test_held_pressure_creeps_as_the_law() -> None:
+    times = [0.0, 0.4, 3.0]
+    found = vc.under_pressure(MAP, RUBBER, GRID, times).displacement.values
+    creep = np.asarray(RUBBER.law(np.array(times)))
+    expected = (creep / creep[0])[:, None, None] * found[0]
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_pressures_and_axes_add_and_change_places() -> None:
+    other = MAP[::-1] ** 2
+    parts = [vc.under_pressure(each, BODY, GRID).displacement.values for each in (MAP, other)]
+    both = vc.under_pressure(MAP + other, BODY, GRID).displacement.values
+    np.testing.assert_allclose(both, parts[0] + parts[1], rtol=1e-12)
+    turned = vc.under_pressure(MAP.T, BODY, vc.Grid((8, 6), (2e-3, 3e-3))).displacement.values
+    np.testing.assert_allclose(turned[0].T, parts[0][0], rtol=1e-12)
+
+
+def test_linear_rise_is_exact_whatever_the_instants() -> None:
+    fluid = vc.Material(vc.Maxwell(1e6, 1e6), poisson_ratio=0.5)
+    rising = np.stack([0 * MAP, MAP])
+    few = vc.under_pressure(rising, fluid, GRID, [0.0, 2.0])
+    held = vc.under_pressure(MAP, fluid, GRID, [0.0]).displacement.values[0]
+    # Phi = (1 + t)/(2 MPa), and the mean over 2 s is twice that at 0.
+    np.testing.assert_allclose(few.displacement.values[1], 2 * held, rtol=1e-12)
+    formula = vc.under_pressure(lambda x, y, t: t / 2 + 0 * (x + y), fluid, GRID, [0.3, 2.0])
+    uniform = vc.under_pressure(np.ones(GRID.shape), fluid, GRID, [0.0]).displacement.values[0]
+    np.testing.assert_allclose(formula.displacement.values[1], 2 * uniform, rtol=1e-12)
+    np.testing.assert_allclose(formula.displacement.values[0], (0.15 + 0.3**2 / 4) * uniform)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_moving_map_is_the_map_elsewhere(periodic: bool) -> None:
+    grid = vc.Grid((4, 12), (4.0, 12.0), periodic=periodic)
+    spot = np.zeros(grid.shape)
+    spot[1, 2:4] = 1e5, 2e5
+    motion = vc.Travel([0.0, 3.0], y=[0.0, 6.0])
+    found = vc.under_pressure(spot, BODY, grid, [0.0, 0.25, 3.0], motion=motion)
+    for index, cells in ((0, 0), (2, 6)):
+        there = vc.under_pressure(np.roll(spot, cells, axis=1), BODY, grid, [0.0])
+        np.testing.assert_array_equal(found.pressure[index], there.pressure[0])
+        np.testing.assert_allclose(found.displacement[index], there.displacement[0], rtol=1e-12)
+    half = 0.5 * (spot + np.roll(spot, 1, axis=1))
+    np.testing.assert_allclose(found.pressure[1], half, rtol=1e-12)
+
+
+def test_stated_error_covers_that_of_a_smooth_pressure() -> None:
+    a, compliance = 1e-3, 0.91e-9
+
+    def hertz(x: Any, y: Any) -> Any:
+        return 1e6 * np.sqrt(np.maximum(1 - (x**2 + y**2) / a**2, 0.0))
+
+    for cells in (12, 24, 48):
+        grid = vc.Grid((cells, cells + 2), (2.4e-3, 2.2e-3))
+        found = vc.under_pressure(hertz, BODY, grid)
+        r = np.hypot(grid.x[:, None], grid.y)
+        exact = math.pi / (4 * a) * 1e6 * compliance * (2 * a * a - r**2)
+        apart = np.abs(found.displacement.values[0] - exact)[r < 0.9 * a].max()
+        assert apart < float(found.displacement_error[0]) < 30 * apart
+
+
+def test_resultants_are_those_of_the_map() -> None:
+    grid = vc.Grid((6, 8), (3e-3, 2e-3), centre=(1e-3, 0.0))
+    spot = np.zeros(grid.shape)
+    spot[4, 1:3] = 2e6
+    found = vc.under_pressure(spot, BODY, grid)
+    assert float(found.force[0]) == close_to(2 * 2e6 * grid.cell_area)
+    assert float(found.eccentricity_x[0]) == close_to(grid.x[4])
+    assert float(found.eccentricity_y[0]) == close_to((grid.y[1] + grid.y[2]) / 2)
+    assert float(found.contact_length[0]) == close_to(0.5e-3)
+    assert float(found.contact_width[0]) == close_to(0.5e-3)
+
+
+def _labelled(x: Any, y: Any) -> xr.DataArray:
+    return xr.DataArray(MAP, dims=("x", "y"), coords={"x": x, "y": y})
+
+
+REFUSED: dict[str, tuple[Any, dict[str, Any], str]] = {
+    "no grid": (MAP, {}, "grid: needed"),
+    "another shape": (MAP.T, {"grid": GRID}, "shape .8, 6. does not fit the grid"),
+    "holes": (np.where(MAP > 4e4, np.nan, MAP), {"grid": GRID}, "has holes"),
+    "tension": (-MAP, {"grid": GRID}, "it pulls with .* tension=True"),
+    "elsewhere": (_labelled(GRID.x + 1e-3, GRID.y), {"grid": GRID}, "interpolate"),
+    "uneven": (_labelled(GRID.x**3, GRID.y), {}, "equally spaced"),
+    "no times": (MAP, {"grid": GRID, "material": RUBBER}, "times: the material creeps"),
+    "too few times": (np.stack([MAP, MAP]), {"grid": GRID, "times": [0.0]}, "as many times"),
+    "late": (np.stack([MAP, MAP]), {"grid": GRID, "times": [1.0, 2.0]}, "increase from 0"),
+    "no function": (lambda x: x, {"grid": GRID}, "must take .x, y."),
+    "part": (lambda x, y: np.ones(3), {"grid": GRID}, "a value for each"),
+    "infinite": (lambda x, y: 1 / (0 * x + 0 * y), {"grid": GRID}, "must be finite"),
+    "text": ("nowhere.nc", {"grid": GRID}, "nowhere"),
+    "a result without fields": (xr.Dataset(), {"grid": GRID}, "no stored pressure"),
+    "a body": (MAP, {"grid": GRID, "material": 1e9}, "material must be"),
+    "aged": (
+        MAP,
+        {
+            "grid": GRID,
+            "times": [1.0],
+            "material": vc.Material(RUBBER.law, 0.5, ageing=vc.Ageing(3600.0, 0.8)),
+        },
+        "ages",
+    ),
+    "leaving": (
+        MAP,
+        {"grid": GRID, "times": [1.0], "motion": vc.Travel([0.0, 1.0], y=[0.0, 1e-3])},
+        "leaves it",
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore:divide by zero")
+@pytest.mark.parametrize("name", REFUSED)
+def test_bad_input_is_refused_with_the_remedy(name: str) -> None:
+    pressure, given, message = REFUSED[name]
+    given = {"material": BODY, **given}
+    with pytest.raises((ValueError, FileNotFoundError), match=message):
+        vc.under_pressure(pressure, **given)
+
+
+def test_tension_is_taken_where_it_is_allowed() -> None:
+    pulled = vc.under_pressure(-MAP, BODY, GRID, tension=True).displacement.values
+    pressed = vc.under_pressure(MAP, BODY, GRID).displacement.values
+    np.testing.assert_allclose(pulled, -pressed, rtol=1e-12)
+
+
+def test_coordinates_take_the_place_of_a_grid() -> None:
+    turned = _labelled(GRID.x, GRID.y).transpose("y", "x")
+    found = vc.under_pressure(turned, BODY)
+    expected = vc.under_pressure(MAP, BODY, GRID)
+    np.testing.assert_allclose(found.displacement, expected.displacement, rtol=1e-9)
