@@ -76,6 +76,17 @@ def test_temperature_outside_the_tests() -> None:
     assert "the law is used at 20 to 40 °C, but was measured at 20 to 30 °C" in found
 
 
+def test_degrees_celsius_given_as_kelvin() -> None:
+    cold = vc.Material(LAW, 0.4, shift=vc.Arrhenius(293.15, 80e3))
+    found = said(cold, vc.TemperatureHistory([0.0, 36000.0], [60.0, 80.0]))
+    assert "a temperature of 80 K is given, that is -193.1 °C; add 273.15 if" in found
+    with pytest.raises(ValueError, match=r"shift factor is beyond 1e\+100.*20 °C is 293.15 K"):
+        said(cold, vc.TemperatureHistory([0.0, 36000.0], [20.0, 40.0]))
+    layer = vc.Layer(2e-3, cold, expansion=1.8e-4, expansion_from=20.0)
+    body = vc.Layered([layer], base="rigid")
+    assert "a temperature of 20 K is given" in said(body, 293.15)
+
+
 def test_temperature_below_the_glass_transition() -> None:
     # Polybutadienes with their glass transitions: J. E. Mark (ed.), Physical Properties of Polymers
     # Handbook, table 26.1. The estimate is low, so that the warning is of what is well below.

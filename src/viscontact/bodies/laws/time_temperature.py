@@ -23,6 +23,9 @@ from viscontact.units.numbers import check_fields, real_array
 #: Molar gas constant, exact since 2019 [J/(mol K)].
 GAS_CONSTANT = 8.31446261815324
 
+#: Largest shift factor, and reciprocal of the least: squares of times have to remain numbers.
+LARGEST_FACTOR = 1e100
+
 
 class Shift(Displayable, ABC):
     """A rule that gives the shift factor a_T of each temperature.
@@ -62,11 +65,12 @@ class Shift(Displayable, ABC):
             )
         with np.errstate(over="ignore", under="ignore"):
             factors = np.exp(self._log_factor(T))
-        beyond = ~((factors > 0) & np.isfinite(factors))
+        beyond = ~((factors >= 1 / LARGEST_FACTOR) & (factors <= LARGEST_FACTOR))
         if beyond.any():
             raise ValueError(
                 f"temperature: {T[beyond].flat[0]:.6g} K is so far from the reference temperature "
-                "that its shift factor is no number any more; choose a nearer one"
+                f"that its shift factor is beyond {LARGEST_FACTOR:g} or its reciprocal; choose a "
+                "nearer one (temperatures are absolute: 20 °C is 293.15 K)"
             )
         return float(factors) if T.ndim == 0 else factors
 

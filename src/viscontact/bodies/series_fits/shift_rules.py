@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import WLF, Arrhenius, Shift, TabulatedShift
-from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
+from viscontact.bodies.laws.time_temperature import GAS_CONSTANT, LARGEST_FACTOR
 
 #: Names of the rules.
 RULES = ("arrhenius", "wlf", "table")
@@ -19,8 +20,8 @@ RULES = ("arrhenius", "wlf", "table")
 #: the coldest temperature to the pole.
 LEAST_BEND, MOST_BEND = 1e-5, 0.95
 
-#: Largest change of ln a_T over a record: beyond, it is no number.
-MOST_SHIFT = 500.0
+#: Largest change of ln a_T over a record.
+MOST_SHIFT = math.log(LARGEST_FACTOR) * (1 - 1e-9)
 
 #: Least activation energy, and slope of log10 a_T at the reference [J/mol, 1/K].
 LEAST_ENERGY, LEAST_SLOPE = 1e2, 1e-6

@@ -17,6 +17,9 @@ from viscontact.units.temperatures import in_celsius
 #: Thermal diffusivity of polymers [m²/s].
 DIFFUSIVITY = 1e-7
 
+#: Temperature below which few contacts are meant [K].
+VERY_COLD = 150.0
+
 #: Deviation of the temperature from an even one, or from a range, that is not reported [K].
 NOTABLE = 2.0
 
@@ -33,12 +36,28 @@ _SAMPLES = 50
 
 def shift_warnings(problem: Problem) -> dict[str, str]:
     """Warn of materials whose shift does not cover the temperature of a run, or is missing."""
-    found: dict[str, str] = {}
+    found = _cold_warnings(problem)
     for body, name in zip(problem.given_materials, problem.body_names, strict=True):
         for material in body:
             for kind, text in _of_material(material, name, problem.temperature):
                 found.setdefault(kind, text)
     return found
+
+
+def _cold_warnings(problem: Problem) -> dict[str, str]:
+    """Warn of temperatures at which degrees Celsius may have been taken for kelvin."""
+    layers = [each for body in problem.bodies if isinstance(body, Layered) for each in body.layers]
+    given = [each.expansion_from for each in layers if each.expansion_from is not None]
+    if problem.temperature is not None:
+        given.append(problem.temperature.range[1])
+    if not given or min(given) >= VERY_COLD:
+        return {}
+    return {
+        "kelvin": (
+            f"a temperature of {min(given):.4g} K is given, that is {_celsius(min(given))}; add "
+            "273.15 if degrees Celsius are meant"
+        )
+    }
 
 
 def _of_material(
