@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.bodies.materials.compliance import SeriesCompliance
+from viscontact.bodies.loads.clock import ReducedTime
+from viscontact.bodies.materials.compliance import ClockedCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.default_times import (
     EVEN_STEPS,
     MAX_LOAD_STEPS,
@@ -65,3 +66,13 @@ def test_a_law_whose_creep_has_no_end_needs_times_under_a_held_load():
     with pytest.raises(ValueError, match="say when the run ends"):
         default_times(vc.ramp(1.0, 0.5), law)
     assert default_times(vc.triangle(1.0, 0.5), law)[-1] == 1.0
+
+
+def test_creep_that_age_stops_has_no_end_of_its_own():
+    # The effective time never exceeds t_e/(µ - 1) = 2 s (Struik 1978, with µ = 1.5), and the creep
+    # needs 50 s.
+    ageing = ReducedTime(ageing=vc.Ageing(1.0, 1.5))
+    with pytest.raises(
+        ValueError, match=r"the creep slows down, with age .* say when the run ends"
+    ):
+        default_times(vc.step(1.0), ClockedCompliance(RELAXING, ageing))

@@ -75,12 +75,14 @@ def default_end(load: LoadHistory, compliance: ContactCompliance) -> float:
     if load.level_at(end) <= 0:
         return end
     settled = compliance.settled_after
-    if math.isinf(settled):
-        raise ValueError(
-            "times: the law does not say when its creep is over; say when the run ends, e.g. "
-            "times=log_times(first, end, n)"
-        )
     clock, law = compliance.clock, compliance.over_reduced_time
+    if math.isinf(settled):
+        why = "the law does not say when its creep is over"
+        if math.isfinite(law.settled_after):
+            why = "the creep slows down, with age or in the cold, before it is over"
+        raise ValueError(
+            f"times: {why}; say when the run ends, e.g. times=log_times(first, end, n)"
+        )
     if math.isfinite(law.measured_until):
         return max(end, settled)
     passed = float(clock.reduced(np.array(end)))
