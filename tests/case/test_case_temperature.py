@@ -214,6 +214,11 @@ def test_columns_of_a_table_are_required(tmp_path: Path) -> None:
     assert "day.csv" in refusal(tmp_path, {"file": "day.csv"})
     (tmp_path / "day.csv").write_text("time [h],force [N]\n0,20\n")
     assert "the column temperature is missing" in refusal(tmp_path, {"file": "day.csv"})
+    (tmp_path / "day.csv").write_text("time [h],T [degC],temperature [K]\n0,20,293\n")
+    said = refusal(tmp_path, {"file": "day.csv"})
+    assert "leave one out with columns: 'temperature [K]='" in said
+    left_out = {"file": "day.csv", "columns": "temperature [K]="}
+    assert warmed(tmp_path, left_out).temperature == vc.TemperatureHistory([0.0], [293.15])
     (tmp_path / "day.csv").write_text("time [h],T [degC]\n2,20\n1,20\n")
     assert "day.csv:3: time must not decrease" in refusal(tmp_path, {"file": "day.csv"})
 

@@ -10,6 +10,7 @@ from typing import Annotated
 from pydantic import AfterValidator, ValidationInfo
 
 from viscontact.case.quantities import Section
+from viscontact.tables import with_typed_meanings
 
 #: Device names of Windows, with any suffix.
 _DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d) *(\.|$)", re.IGNORECASE)
@@ -36,6 +37,12 @@ def is_plain_name(name: str) -> bool:
 def _is_special(name: str) -> bool:
     """True if Windows reads the name as a device or as another name."""
     return name[-1:] in (".", " ") or bool(_DEVICE.match(name))
+
+
+def at_key(why: str) -> str:
+    """A message of the reader of tables, with the key of the section that it belongs to."""
+    at = "" if why.startswith("columns: ") else "file: "
+    return f"{at}{with_typed_meanings(why, 'columns:')}"
 
 
 def is_same_file(one: Path, other: Path) -> bool:

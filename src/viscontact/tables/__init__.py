@@ -1,6 +1,6 @@
 """Measured tables: CSV files and spreadsheets whose header names columns and units."""
 
-from viscontact.tables.given_columns import GivenColumns
+from viscontact.tables.given_columns import GivenColumns, with_typed_meanings
 from viscontact.tables.lines import read_line
 from viscontact.tables.names import QUANTITIES
 from viscontact.tables.reader import read_table
@@ -31,4 +31,5 @@ __all__ = [
     "read_text",
     "require_file",
     "split_sheet",
+    "with_typed_meanings",
 ]

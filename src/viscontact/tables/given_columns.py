@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 
 from viscontact.tables.text import Row, looks_like_number
@@ -30,6 +31,15 @@ def parted_columns(given: GivenColumns) -> tuple[Mapping[str, str | None], tuple
         pairs = (cell.rpartition("=") for cell in cells)
         return {heading.strip(): meant.strip() or None for heading, _, meant in pairs}, ()
     return {}, tuple(cells)
+
+
+def with_typed_meanings(message: str, name: str) -> str:
+    """A message whose meanings of columns are text: ``columns={'E': None}`` is ``NAME 'E='``."""
+
+    def typed(match: re.Match[str]) -> str:
+        return f"{name} '{match[2]}={'' if match[3] == 'None' else match[3]}'"
+
+    return re.sub(r"columns=\{(['\"])(.+?)\1: '?(\w+)'?\}", typed, message)
 
 
 def with_given_heading(

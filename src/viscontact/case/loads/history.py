@@ -10,7 +10,7 @@ from pydantic import Field
 
 from viscontact.bodies.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.bodies.loads.history import Control
-from viscontact.case.data_file import DataFile
+from viscontact.case.data_file import DataFile, at_key
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
 from viscontact.case.loads.course import SentenceError
@@ -153,8 +153,7 @@ def _read_table(path: Path, names: str | None) -> dict[str, list[float]]:
         _require_columns(table)
         _refuse_decrease(table)
     except ValueError as error:
-        at = "" if str(error).startswith("columns: ") else "file: "
-        raise ValueError(f"{at}{error}") from error
+        raise ValueError(at_key(str(error))) from error
     values = {name: column.tolist() for name, column in table.columns.items()}
     values["times"] = values.pop("time")
     return values

@@ -14,7 +14,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.bodies import loads
 from viscontact.bodies.loads import TemperatureHistory
-from viscontact.case.data_file import DataFile
+from viscontact.case.data_file import DataFile, at_key
 from viscontact.case.errors import dotted
 from viscontact.case.loads.course import SentenceError
 from viscontact.case.loads.sentence_history import temperatures_of
@@ -149,8 +149,7 @@ class Course(TemperatureSection):
                 _ = table[name]
             _refuse_decrease(table)
         except ValueError as error:
-            at = "" if str(error).startswith("columns: ") else "file: "
-            raise ValueError(f"{at}{error}") from error
+            raise ValueError(at_key(str(error))) from error
         return table
 
     def _from_sentences(self) -> TemperatureHistory:

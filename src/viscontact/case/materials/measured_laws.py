@@ -17,7 +17,7 @@ from viscontact.bodies.materials.cards import Card, is_card, read_card, unread_p
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.table_fit import is_oscillation
-from viscontact.case.data_file import DataFile
+from viscontact.case.data_file import DataFile, at_key
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.measured_record import measured_record
 from viscontact.case.materials.oscillation import fit_note, fit_oscillation, fit_warning
@@ -105,8 +105,7 @@ class TableLaw(FromFile):
             table = self._chosen_columns(self._whole_table)
             table = table.ascending("time") if "time" in table else table
         except ValueError as error:
-            at = "" if str(error).startswith("columns: ") else "file: "
-            raise ValueError(f"{at}{self._other_kind() or error}") from error
+            raise ValueError(at_key(self._other_kind() or str(error))) from error
         self._require_test(table)
         return table
 

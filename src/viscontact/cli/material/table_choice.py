@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from viscontact.cli.terminal.messages import say
-from viscontact.tables import Table, split_sheet
+from viscontact.tables import Table, split_sheet, with_typed_meanings
 
 
 def say_chosen(file: Path, table: Table) -> None:
@@ -20,14 +20,9 @@ def say_chosen(file: Path, table: Table) -> None:
 
 def as_option(why: str) -> str:
     """Return a message of the reader of tables in the words of the command line."""
-    # Meanings of columns as Python writes them: columns={'E': 'storage_modulus'}.
-    why = re.sub(r"columns=\{(['\"])(.+?)\1: '?(\w+)'?\}", _typed_meaning, why)
+    why = with_typed_meanings(why, "--columns")
     why = re.sub(r"^columns: ", "--columns: ", why)
     why = re.sub(r"leave the stress out$", "leave --stress out", why)
     return why.replace("with columns=", "with --columns").replace(
         "can be given in columns", "can be given by --columns 'time [s], ...'"
     )
-
-
-def _typed_meaning(match: re.Match[str]) -> str:
-    return f"--columns '{match[2]}={'' if match[3] == 'None' else match[3]}'"
