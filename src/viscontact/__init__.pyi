@@ -105,6 +105,7 @@ from .results.contact_spots import contact_spots as contact_spots
 from .results.heating.result import RollingTemperature as RollingTemperature
 from .results.heating.rolling_temperature import rolling_temperature as rolling_temperature
 from .results.interface_stresses import interface_stresses as interface_stresses
+from .results.leakage.leakage import leakage as leakage
 from .results.margins import margins as margins
 from .results.netcdf import open_results as open_results
 from .results.netcdf import save as save

@@ -1,0 +1,1 @@
+"""Leakage: flow of a fluid through the gap of a contact."""

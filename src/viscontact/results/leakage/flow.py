@@ -1,0 +1,203 @@
+"""Flow of a thin fluid film through a gap (Reynolds' equation), by finite volumes.
+
+With the pressure p and the gap h, q = -h³/(12 η) grad p and div q = 0, without flow into contact.
+There is an unknown for each cell of the channels. Between two cells the conductance is that of
+their halves in series (the harmonic mean of h³/12). The flow of unit viscosity under a unit
+difference of pressure over the length L is T W/L, with the width W and the transmissivity T [m³].
+
+References
+----------
+O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157; S. V. Patankar, Numerical Heat Transfer and Fluid
+Flow, Hemisphere 1980, section 4.2-3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import scipy
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.results.leakage.channels import FlowAxis, components
+
+#: Conductance of a face between cells of two gaps, over 1/12.
+FaceMean = Callable[[Floats, Floats], Floats]
+
+
+def harmonic(one: Floats, other: Floats) -> Floats:
+    """Harmonic mean of h³: two half cells in series, from below on rough gaps."""
+    a, b = one**3, other**3
+    return np.asarray(2 * a * b / (a + b))
+
+
+def of_mean_gap(one: Floats, other: Floats) -> Floats:
+    """h³ of the mean gap, from above on rough gaps."""
+    return np.asarray(((one + other) / 2) ** 3)
+
+
+@dataclass(frozen=True, eq=False)
+class ChannelFlow:
+    """Solved flow through the channels of a gap, of unit viscosity and difference of pressure."""
+
+    pressure: Floats  # over the difference, (nx, ny); NaN outside the channels
+    flux_x: Floats  # through the face beyond each cell along x, (nx, ny) [m³]
+    flux_y: Floats  # along y
+    flow: FlowAxis
+    length: float  # along the flow [m]
+    width: float  # across it [m]
+
+    @cached_property
+    def sections(self) -> Floats:
+        """Flow through each section across the axis [m³]."""
+        axis = self.flow.axis
+        through = (self.flux_x, self.flux_y)[axis].sum(axis=1 - axis)
+        return np.asarray(through if self.flow.ends == "period" else through[:-1])
+
+    @property
+    def transmissivity(self) -> float:
+        """T [m³]: h³/12 between parallel plates."""
+        return float(self.sections.mean()) * self.length / self.width
+
+    @property
+    def imbalance(self) -> float:
+        """Largest difference of the flow through two sections, over their mean [-]."""
+        mean = float(self.sections.mean())
+        return float(np.ptp(self.sections)) / mean if mean > 0 else 0.0
+
+
+def solved_flow(
+    gap: Floats,
+    cells: Bools,
+    flow: FlowAxis,
+    cell_size: tuple[float, float],
+    mean: FaceMean = harmonic,
+) -> ChannelFlow:
+    """Flow along an axis through the cells of channels, whose gaps are positive [m]."""
+    scale = float(gap[cells].max())  # so that no cube underflows
+    faces = _Faces(np.where(cells, gap / scale, 0.0), cells, flow, cell_size, mean)
+    unknown, pressure = faces.solved()
+    flux_x, flux_y = faces.fluxes(pressure)
+    shape = gap.shape
+    length, width = (shape[a] * cell_size[a] for a in (flow.axis, 1 - flow.axis))
+    shown = np.where(unknown >= 0, pressure + faces.mean_fall, np.nan)
+    factor = scale**3 / 12
+    return ChannelFlow(shown, factor * flux_x, factor * flux_y, flow, length, width)
+
+
+@dataclass(frozen=True, eq=False)
+class _Faces:
+    """Faces between cells of channels, and the linear system of their flows."""
+
+    gap: Floats  # scaled; 0 outside the channels
+    cells: Bools
+    flow: FlowAxis
+    cell_size: tuple[float, float]
+    mean: FaceMean
+
+    @cached_property
+    def conductances(self) -> tuple[Floats, Floats]:
+        """Of the face beyond each cell along x and along y; 0 at closed ones (nx, ny)."""
+        return self._conductance(0), self._conductance(1)
+
+    def _conductance(self, axis: int) -> Floats:
+        next_gap = np.roll(self.gap, -1, axis)
+        both = (self.gap > 0) & (next_gap > 0)
+        found = np.zeros(self.gap.shape)
+        found[both] = self.mean(self.gap[both], next_gap[both])
+        if not self.flow.joined[axis]:
+            np.moveaxis(found, axis, 0)[-1] = 0.0
+        dx, dy = self.cell_size
+        return found * (dy / dx if axis == 0 else dx / dy)
+
+    @cached_property
+    def ends(self) -> tuple[Floats, Floats]:
+        """Conductances of the outer faces, half a cell from the first and last centres."""
+        axis = self.flow.axis
+        across = self.cell_size[1 - axis] / self.cell_size[axis]
+        lines = np.moveaxis(self.gap, axis, 0)
+        return 2 * across * lines[0] ** 3, 2 * across * lines[-1] ** 3
+
+    @property
+    def mean_fall(self) -> Floats:
+        """Pressure that falls evenly by one over the period; 0 for given pressures at the ends."""
+        count = self.gap.shape[self.flow.axis]
+        if self.flow.ends == "pressure":
+            return np.zeros(self.gap.shape)
+        along = 1 - (np.arange(count) + 0.5) / count
+        return np.broadcast_to(
+            along[:, None] if self.flow.axis == 0 else along[None, :], self.gap.shape
+        )
+
+    def solved(self) -> tuple[Any, Floats]:
+        """Numbers of the unknowns (-1 outside), and the pressure, without the mean fall."""
+        unknown = np.full(self.cells.shape, -1)
+        unknown[self.cells] = np.arange(int(self.cells.sum()))
+        matrix, source = self._system(unknown)
+        # Symmetric and positive definite: no pivoting, and an ordering for symmetric matrices.
+        factors = scipy.sparse.linalg.splu(
+            matrix,
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+        pressure = np.zeros(self.cells.shape)
+        pressure[self.cells] = factors.solve(source)
+        return unknown, pressure
+
+    def _system(self, unknown: Any) -> tuple[Any, Floats]:
+        """Balance of the flows out of each cell: matrix and right-hand side."""
+        count = int(self.cells.sum())
+        diagonal, source = np.zeros(count), np.zeros(count)
+        rows, columns, values = [], [], []
+        for axis, conductance in enumerate(self.conductances):
+            face = conductance > 0
+            one, other = unknown[face], np.roll(unknown, -1, axis)[face]
+            of_face = conductance[face]
+            np.add.at(diagonal, one, of_face)
+            np.add.at(diagonal, other, of_face)
+            rows += [one, other]
+            columns += [other, one]
+            values += [-of_face, -of_face]
+            if axis == self.flow.axis and self.flow.ends == "period":
+                drop = of_face / self.gap.shape[axis]
+                np.add.at(source, one, -drop)
+                np.add.at(source, other, drop)
+        self._close(unknown, diagonal, source)
+        rows.append(np.arange(count))
+        columns.append(np.arange(count))
+        values.append(diagonal)
+        places = np.concatenate(rows), np.concatenate(columns)
+        matrix = scipy.sparse.csc_matrix((np.concatenate(values), places), shape=(count, count))
+        return matrix, source
+
+    def _close(self, unknown: Any, diagonal: Floats, source: Floats) -> None:
+        """Give the pressures at the ends, or that of one cell of each component."""
+        if self.flow.ends == "pressure":
+            lines = np.moveaxis(unknown, self.flow.axis, 0)
+            for end, conductance, level in zip((0, -1), self.ends, (1.0, 0.0), strict=True):
+                inside = lines[end] >= 0
+                np.add.at(diagonal, lines[end][inside], conductance[inside])
+                np.add.at(source, lines[end][inside], level * conductance[inside])
+            return
+        numbers, _ = components(self.cells, self.flow.joined)
+        # The widest cell of each, whose equation is not lost in rounding.
+        order = np.argsort(-self.gap, axis=None, kind="stable")
+        _, first = np.unique(numbers.ravel()[order], return_index=True)
+        for place in order[first].tolist():
+            index = int(unknown.flat[place])
+            if index >= 0:
+                diagonal[index] *= 2  # the flows balance, so that its pressure is 0
+
+    def fluxes(self, pressure: Floats) -> tuple[Floats, Floats]:
+        """Flows through the face beyond each cell along x and y."""
+        found = []
+        for axis, conductance in enumerate(self.conductances):
+            fall = pressure - np.roll(pressure, -1, axis)
+            if axis == self.flow.axis and self.flow.ends == "period":
+                fall = fall + 1 / self.gap.shape[axis]
+            found.append(conductance * fall)
+        return found[0], found[1]

@@ -1,0 +1,109 @@
+"""Leakage at one instant: transmissivity, its error, channel and critical constriction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.bodies.grid import Grid
+from viscontact.results.leakage.channels import FlowAxis, channel, critical_constriction
+from viscontact.results.leakage.effective_medium import effective_transmissivity
+from viscontact.results.leakage.flow import ChannelFlow, harmonic, of_mean_gap, solved_flow
+
+#: Multiple of the tolerance of a run, over the scatter of its gap, below which a gap is noise.
+NOISE = 10.0
+
+#: Most unknowns of a direct solution, and its memory for each [bytes].
+MOST_UNKNOWNS, MEMORY = 4_300_000, 1300
+
+
+@dataclass(frozen=True, eq=False)
+class InstantLeakage:
+    """Flow through the gap of one instant along one axis."""
+
+    gap: Floats  # shape (nx, ny) [m]
+    touched: Bools  # cells in contact
+    grid: Grid
+    flow: FlowAxis
+    tolerance: float  # relative error of the gap
+
+    @cached_property
+    def opened(self) -> Bools:
+        """Cells whose gap is more than the noise of the contact's solution."""
+        free = ~self.touched & (self.gap > 0)
+        known = self.gap[free & np.isfinite(self.gap)]
+        noise = NOISE * self.tolerance * float(known.std()) if known.size else 0.0
+        return np.asarray(free & (self.gap > noise))
+
+    @cached_property
+    def critical(self) -> tuple[float, int, int]:
+        """Critical gap [m], 0 if closed, and its cell."""
+        return critical_constriction(self.gap, self.opened, self.flow)
+
+    @property
+    def percolates(self) -> bool:
+        """True if a channel leads through."""
+        return self.critical[0] > 0
+
+    @cached_property
+    def cells(self) -> Bools:
+        """Cells of the channels."""
+        return channel(~self.touched & (self.gap > 0), self.flow)
+
+    @cached_property
+    def solution(self) -> ChannelFlow | None:
+        """Flow by the harmonic mean at faces; None if closed."""
+        return self._solved(harmonic) if self.percolates else None
+
+    def _solved(self, mean: object) -> ChannelFlow:
+        count = int(self.cells.sum())
+        if count > MOST_UNKNOWNS:
+            raise ValueError(
+                f"leakage: the channels have {count} cells, and a direct solution of more than "
+                f"{MOST_UNKNOWNS} takes over {MEMORY * MOST_UNKNOWNS / 1e9:.0f} GB; run on a grid "
+                "of at most 2048 by 2048 cells"
+            )
+        if not np.isfinite(self.gap[self.cells]).all():
+            raise ValueError(
+                "leakage: the channel leads beyond the end of the body, where the gap is infinite "
+                "or unknown; give a grid within the body"
+            )
+        assert callable(mean)
+        return solved_flow(self.gap, self.cells, self.flow, self.grid.cell_size, mean)
+
+    @property
+    def transmissivity(self) -> float:
+        """T [m³], exactly 0 if closed."""
+        return 0.0 if self.solution is None else self.solution.transmissivity
+
+    @cached_property
+    def error(self) -> float:
+        """Difference of T by the mean gap at faces, which deviates to the other side [m³]."""
+        if self.solution is None:
+            return 0.0
+        return abs(self._solved(of_mean_gap).transmissivity - self.transmissivity)
+
+    @cached_property
+    def row(self) -> dict[str, float]:
+        """Values of the scalars."""
+        critical, i, j = self.critical
+        closed = np.where(self.touched | (self.gap <= 0), 0.0, self.gap)
+        finite = bool(np.isfinite(closed).all())
+        transmissivity = self.transmissivity
+        return {
+            "transmissivity": transmissivity,
+            "transmissivity_error": self.error,
+            "percolates": float(self.percolates),
+            "critical_gap": critical,
+            "critical_x": float(self.grid.x[i]) if self.percolates else np.nan,
+            "critical_y": float(self.grid.y[j]) if self.percolates else np.nan,
+            "effective_gap": float(np.cbrt(12 * transmissivity)),
+            "mean_gap": float(closed.mean()),
+            "transmissivity_effective_medium": effective_transmissivity(closed)
+            if finite
+            else np.nan,
+            "flux_imbalance": 0.0 if self.solution is None else self.solution.imbalance,
+        }
