@@ -83,6 +83,9 @@ SIGNATURES = {
     ),
     "rolling_temperature": "(curve, *, cooling, ambient, area=None, speed=None, conductivity=None, "
     "core_temperature=None, heat_capacity=None, density=None)",
+    "leakage": "(ds, *, viscosity, pressure_difference=None, along='x', ends=None, length=None, "
+    "width=None, gas=None, fields='none')",
+    "under_pressure": "(pressure, material, grid=None, times=None)",
     "save": "(ds, path)",
     "open_results": "(path)",
 }
@@ -942,6 +945,7 @@ OPTIONS = {
         *("DIR", "--cooling", "--ambient", "--area", "--conductivity", "--core-temperature"),
         *("--heat-capacity", "--density"),
     ),
+    "leakage": ("DIR", "--viscosity", "--pressure-difference", "--along", "-o"),
     **{"status": ("DIR", "--watch"), "collect": ("DIR", "-o")},
     # promised, not built yet
     **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast", "-o")},

@@ -16,6 +16,7 @@ from viscontact.cli.commands.drawing import compare, plot
 from viscontact.cli.commands.fitting import fit
 from viscontact.cli.commands.heating import heat
 from viscontact.cli.commands.installation import cite, doctor
+from viscontact.cli.commands.leaking import leakage
 from viscontact.cli.commands.materials import material
 from viscontact.cli.commands.running import check, run
 from viscontact.cli.commands.sensing import sensitivity
@@ -46,6 +47,10 @@ _COMMANDS = (
         "viscontact sensitivity my.yaml --of peak_pressure,approach -o matters",
     ),
     (heat, "viscontact heat rolling --cooling '10 W/m2/K' --ambient '23 degC' --area '0.1 m2'"),
+    (
+        leakage,
+        "viscontact leakage seal --viscosity '1 mPa s' --pressure-difference '1 bar' --along x",
+    ),
     (schema, "viscontact schema > viscontact.schema.json"),
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),

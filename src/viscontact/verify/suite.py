@@ -11,6 +11,7 @@ from viscontact.verify import (
     given_pressure,
     growing,
     layers,
+    leakage,
     line_contact,
     moving_contact,
     periodic,
@@ -33,6 +34,7 @@ CASES: tuple[Case, ...] = (
     *moving_contact.CASES,
     *steady_motion.CASES,
     *given_pressure.CASES,
+    *leakage.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.

@@ -27,6 +27,7 @@ from viscontact.drawing.matplotlib.histories.contact_area import contact_area
 from viscontact.drawing.matplotlib.histories.exact import exact
 from viscontact.drawing.matplotlib.histories.history import compare_histories, history
 from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresis, hysteresis
+from viscontact.drawing.matplotlib.histories.leak_rate import leak_rate
 from viscontact.drawing.matplotlib.histories.margins import margin_history
 from viscontact.drawing.matplotlib.histories.steady_motion import friction, motion_profile
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
@@ -55,6 +56,7 @@ from viscontact.drawing.matplotlib.pressure.contact_outline import (
 )
 from viscontact.drawing.matplotlib.pressure.contact_spots import contact_spots
 from viscontact.drawing.matplotlib.pressure.deformed_surface import deformed_surface
+from viscontact.drawing.matplotlib.pressure.leak_channel import leak_channel
 from viscontact.drawing.matplotlib.pressure.pressure_map import compare_pressure_maps, pressure_map
 from viscontact.drawing.matplotlib.pressure.pressure_radial import pressure_radial
 from viscontact.drawing.matplotlib.pressure.pressure_surface import (
@@ -108,6 +110,8 @@ __all__ = [
     "history",
     "hysteresis",
     "indenter",
+    "leak_channel",
+    "leak_rate",
     "line_load",
     "margin_history",
     "master_curve",

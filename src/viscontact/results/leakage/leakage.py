@@ -216,7 +216,9 @@ def _dataset(
             for k, extent in enumerate(extents)
         ]
         values[f"leak_rate{key}"] = np.stack(rates, axis=1)
-    found: dict[str, Any] = {key: (dims, each, VARIABLES[key].attributes) for key, each in values.items()}
+    found: dict[str, Any] = {
+        key: (dims, each, VARIABLES[key].attributes) for key, each in values.items()
+    }
     fraction = np.array([at[0].touched.mean() for at in instants])
     found["contact_fraction"] = (name, fraction, VARIABLES["contact_fraction"].attributes)
     if keep:

@@ -35,9 +35,14 @@ def _near_closing(found: xr.Dataset) -> Iterator[str]:
     if bool(wide.any()):
         worst = float((error / value.where(value > 0)).max())
         yield (
-            f"the transmissivity has an error of up to {100 * worst:.0f} %: the channel is a few "
-            "cells wide at its narrowest place; use a finer grid, and rely on the critical gap"
+            f"the transmissivity has an error of up to {_size(worst)}: the channel is a few cells "
+            "wide at its narrowest place; use a finer grid, and rely on the critical gap"
         )
+
+
+def _size(error: float) -> str:
+    """Relative error in words."""
+    return f"{100 * error:.0f} %" if error < 1 else f"a factor of {1 + error:.2g}"
 
 
 def _push(ds: xr.Dataset, pressure_difference: float | None) -> Iterator[str]:

@@ -1,0 +1,130 @@
+"""Leakage of a run, printed, drawn or written as a table."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from viscontact.backend.arrays import Floats
+from viscontact.cli.results.stored import checked_result, early_end
+from viscontact.cli.terminal.console import TextConsole
+from viscontact.cli.terminal.messages import put, refuse, say
+from viscontact.results.leakage.leakage import leakage
+from viscontact.results.run_axis import run_axis
+from viscontact.units.formatting import format_quantity, time_labels
+from viscontact.units.parsing import parse_quantity
+
+#: Dimensions of the options, by the argument in Python.
+_DIMENSIONS = {
+    "viscosity": "viscosity",
+    "pressure_difference": "pressure",
+    "length": "length",
+    "width": "length",
+    "gas": "pressure",
+}
+
+
+def print_leakage(
+    directory: Path,
+    texts: Mapping[str, str | None],
+    words: Mapping[str, Any],
+    output: Path | None,
+) -> None:
+    """Print the leakage of a run, and write the file that is named."""
+    given: dict[str, Any] = {
+        name: _quantity(name, text) for name, text in texts.items() if text is not None
+    }
+    with checked_result(directory) as ds:
+        if ended := early_end(ds):
+            say(ended)
+        try:
+            found = leakage(ds, **given, **words)
+        except ValueError as error:
+            refuse(_as_typed(str(error)))
+    _print(found)
+    if output is not None:
+        _write(found, output)
+
+
+def _quantity(name: str, text: str) -> float:
+    try:
+        return parse_quantity(text, _DIMENSIONS[name])
+    except ValueError as error:
+        refuse(f"{_option(name)}: {error}")
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def _as_typed(message: str) -> str:
+    """Message about an argument, with the option in its place."""
+    match = re.match(r"\w+(?=: | must)", message)
+    name = match.group() if match else ""
+    is_option = name in _DIMENSIONS or name in ("along", "ends")
+    return f"{_option(name)}{message.removeprefix(name)}" if is_option else message
+
+
+def _print(found: xr.Dataset) -> None:
+    axis, many = run_axis(found), "direction" in found.dims
+    unit, factor = _rate_unit(found["leak_rate"].values)
+    rate = [f"leak rate [{unit}]", "±"] if factor else []
+    headings = [axis.name, *(["along"] if many else []), "contact", "critical gap", "effective gap"]
+    table = Table(*headings, *rate, box=SIMPLE_HEAD, show_edge=False)
+    directions = found["direction"].values.tolist() if many else [""]
+    for index, place in enumerate(time_labels(axis.values(found).tolist(), axis.unit)):
+        for direction in directions:
+            row = found.isel({axis.name: index})
+            row = row.sel(direction=direction) if many else row
+            cells = [*([direction] if many else []), *_cells(row, factor)]
+            table.add_row(place, *cells)
+    console = TextConsole()
+    console.print(table, crop=False)
+    if not factor:
+        put("Give --pressure-difference for the leak rate.")
+    for note in str(found.attrs["warnings"]).splitlines():
+        console.warn(note, soft_wrap=True)
+
+
+def _cells(row: xr.Dataset, factor: float) -> list[str]:
+    fraction = f"{100 * float(row.contact_fraction):.3g} %"
+    if not float(row.percolates):
+        return [fraction, "closed", "0", *(["0", ""] if factor else [])]
+    gaps = [format_quantity(float(row[name]), "m", 3) for name in ("critical_gap", "effective_gap")]
+    if not factor:
+        return [fraction, *gaps]
+    rate, error = float(row.leak_rate), float(row.leak_rate_error)
+    # Near closing only the order is known.
+    shown = f"{100 * error / rate:.2g} %" if error < rate else f"factor {1 + error / rate:.2g}"
+    return [fraction, *gaps, f"{rate / factor:.3g}", shown]
+
+
+def _rate_unit(rates: Floats) -> tuple[str, float]:
+    """Unit of all leak rates and its factor [m³/s], by the largest; 0 if none is known."""
+    known = rates[np.isfinite(rates)]
+    if not known.size:
+        return "", 0.0
+    units = (("l/s", 1e-3), ("ml/s", 1e-6), ("mm³/s", 1e-9), ("mm³/h", 1e-9 / 3600))
+    return next((each for each in units if known.max() >= each[1]), ("µm³/s", 1e-18))
+
+
+def _write(found: xr.Dataset, output: Path) -> None:
+    try:
+        if output.suffix == ".csv":
+            found.to_dataframe().to_csv(output)
+        else:
+            from viscontact.drawing.matplotlib import leak_rate, save_figure
+
+            save_figure(leak_rate(found), output)
+        put(output)
+    except ModuleNotFoundError as error:
+        refuse(str(error))
+    except (ValueError, OSError) as error:
+        refuse(f"{output}: {error}")

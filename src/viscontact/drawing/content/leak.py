@@ -1,0 +1,123 @@
+"""Leakage: rate and critical gap over time or speed, and the flow over the surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.drawing.content.along_run import steps_grow
+from viscontact.drawing.content.panel import FIRST, Axis, Curve, Ink, Mark, Panel
+from viscontact.results.leakage.leakage import fields_of, instant_leakage
+from viscontact.results.run_axis import run_axis
+from viscontact.results.snapshots import field_times
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
+from viscontact.units.numbers import finite_array
+
+#: Decades of the flow below its largest value that are drawn.
+DECADES = 4
+
+
+@dataclass(frozen=True, eq=False)
+class LeakMap:
+    """Gap, contact and flow of one instant."""
+
+    heading: str
+    x: Floats  # centres of the cells [m]
+    y: Floats
+    touched: Bools
+    flow: Floats  # over the largest; NaN where nothing flows
+    gap: Floats  # [m]
+    constriction: tuple[float, float] | None  # place of the critical gap [m]
+    note: str
+
+
+def leak_map(results: xr.Dataset, times: ArrayLike | None, along: str, figure: str) -> LeakMap:
+    """Flow at the stored instant or speed nearest to a requested one, the last by default."""
+    stored, axis = field_times(results, figure), run_axis(results)
+    if along not in ("x", "y"):
+        raise ValueError(f"{figure}: along must be 'x' or 'y', got {along!r}")
+    wanted = stored[-1:] if times is None else finite_array(figure, times, axis.unit).ravel()
+    if wanted.size != 1:
+        raise ValueError(f"{figure}: shows one {axis.row}, got {wanted.size}")
+    index = int(np.abs(stored - wanted[0]).argmin())
+    found = instant_leakage(results, index, along, None)
+    critical, i, j = found.critical
+    grid, fields = found.grid, fields_of(found)
+    flow = np.hypot(fields["flux_x"], fields["flux_y"])
+    place = None if not critical else (float(grid.x[i]), float(grid.y[j]))
+    note = "closed: no channel leads through"
+    if critical:
+        note = (
+            f"effective gap {format_quantity(float(np.cbrt(12 * found.transmissivity)), 'm', 3)}, "
+            f"critical gap {format_quantity(critical, 'm', 3)}"
+        )
+        flow = flow / flow.max()
+    gap = np.where(np.isfinite(found.gap), found.gap, np.nan)
+    return LeakMap(
+        f"{axis.place(float(stored[index]))}, flow along {along}",
+        *(grid.x, grid.y, found.touched, np.where(flow > 0, flow, np.nan), gap, place, note),
+    )
+
+
+def leak_panels(leak: xr.Dataset, along: str) -> tuple[Panel, Panel]:
+    """Panels of the leak rate, or the transmissivity without one, and of the critical gap."""
+    axis, one = run_axis(leak), leak
+    if "direction" in leak.dims:
+        one = leak.sel(direction=along)
+    name = "leak_rate" if np.isfinite(one["leak_rate"].values).any() else "transmissivity"
+    places = axis.values(leak)
+    x = _along(axis.name.capitalize(), axis.unit, places)
+    values, errors = one[name].values, one[f"{name}_error"].values
+    opened = one["percolates"].values > 0
+    closes = np.flatnonzero(opened[:-1] & ~opened[1:])
+    marks = tuple(Mark(float(places[k + 1]), text="closed", look="dashed") for k in closes[:1])
+    quantity = "Leak rate" if name == "leak_rate" else "Transmissivity"
+    si = "m³/s" if name == "leak_rate" else "m³"
+    shown = np.where(values > 0, values, np.nan)
+    first = Panel(
+        x,
+        _decades(quantity, si, shown),
+        (Curve(places, shown, "", FIRST, "joined", error=np.minimum(errors, 0.9 * values)),),
+        marks=marks,
+        name="leak-rate",
+    )
+    gaps = {
+        "critical gap": one["critical_gap"].values,
+        "effective gap": one["effective_gap"].values,
+    }
+    gaps["mean gap"] = one["mean_gap"].values
+    curves = tuple(
+        Curve(places, np.where(each > 0, each, np.nan), label, Ink(place=k), "joined", symbol=k)
+        for k, (label, each) in enumerate(gaps.items())
+    )
+    every = np.concatenate([curve.y for curve in curves])
+    second = Panel(x, _decades("Gap", "m", every), curves, marks=marks, name="critical-gap")
+    return first, second
+
+
+def _along(name: str, si: str, places: Floats) -> Axis:
+    unit, positive = readable_unit(si, places), places[places > 0]
+    if positive.size > 2 and steps_grow(places):
+        limits, first = (float(places.min()), float(places.max())), float(positive[0])
+        return Axis(name, unit, limits, "time" if si == "s" else "log", first=first)
+    return Axis(name, unit)
+
+
+def _decades(quantity: str, si: str, values: Floats) -> Axis:
+    """Logarithmic axis of what is above 0, or an empty one."""
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return Axis(quantity, ReadableUnit(si, 1.0), (0.0, 1.0))
+    unit = readable_unit(si, float(known.max())) if si == "m" else _volume(si, float(known.max()))
+    return Axis(quantity, unit, (float(known.min()) / 1.5, float(known.max()) * 1.5), "log")
+
+
+def _volume(si: str, largest: float) -> ReadableUnit:
+    """Cubic millimetres or micrometres, by size."""
+    rest = si.removeprefix("m³")
+    name, factor = ("mm³", 1e-9) if largest > 1e-12 else ("µm³", 1e-18)
+    return ReadableUnit(f"{name}{rest}", factor)

@@ -1,0 +1,58 @@
+"""Leak rate and critical gap over time or speed."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+
+from viscontact.drawing.content.leak import leak_panels
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.page import Width, page_width
+from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
+
+
+def leak_rate(
+    leak: xr.Dataset, *, along: Literal["x", "y"] = "x", width: Width | None = None
+) -> Figure:
+    """Draw how much leaks over time or speed, and the gap where the channel is narrowest.
+
+    Parameters
+    ----------
+    leak : xarray.Dataset
+        From `viscontact.leakage`.
+    along : {"x", "y"}, optional
+        Direction of the flow, if there are two.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The leak rate with its error on a logarithmic scale, or the transmissivity if no pressure
+        difference was given; below it the critical, the effective and the mean gap. A dashed line
+        is where the contact closes, from which on nothing leaks.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> figure = leak_rate(vc.leakage(ds, viscosity=1e-3, pressure_difference=1e4))
+    >>> [axes.get_ylabel() for axes in figure.axes]
+    ['Leak rate [mm³/s]', 'Gap [µm]']
+    """
+    panels = leak_panels(leak, along)
+    wide = page_width(width, style.ONE_COLUMN)
+    figure = style.new_figure(wide, 1.15 * wide)
+    both = figure.subplots(2, 1, sharex=True)
+    for axes, panel in zip(both, panels, strict=True):
+        draw_panel(axes, panel)
+        if panel.y.scale == "log":
+            axes.yaxis.set_minor_formatter(NullFormatter())
+    both[0].set_xlabel("")
+    style.add_legend_below(figure, *named_keys(panels[1].curves))
+    return figure

@@ -1,0 +1,52 @@
+"""Figures of leakage against the flow that they draw."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import synthetic_results
+import viscontact as vc
+from closeness import close_to
+from viscontact.drawing.content.leak import leak_map, leak_panels
+
+# Few cells are enough here.
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+
+def test_map_shows_contact_flow_and_constriction_in_their_places() -> None:
+    ds = synthetic_results.ellipse()
+    shown = leak_map(ds, None, "y", "leak-channel")
+    last = ds.isel({str(ds.pressure.dims[0]): -1})
+    np.testing.assert_array_equal(shown.touched, last.pressure.values > 0)
+    assert np.isnan(shown.flow[shown.touched]).all()
+    assert np.nanmax(shown.flow) == close_to(1.0)
+    assert shown.constriction is not None
+    i, j = (
+        np.abs(shown.x - shown.constriction[0]).argmin(),
+        np.abs(shown.y - shown.constriction[1]).argmin(),
+    )
+    assert not shown.touched[i, j]
+    assert "flow along y" in shown.heading
+
+
+def test_map_of_several_instants_is_refused() -> None:
+    ds = synthetic_results.ellipse()
+    with pytest.raises(ValueError, match="shows one"):
+        vc.plot.leak_channel(ds, times=[0.0, 1.0])
+    with pytest.raises(ValueError, match="along must be"):
+        vc.plot.leak_channel(ds, along="z")
+
+
+def test_panels_show_rate_error_and_the_instant_of_closing() -> None:
+    grid = vc.Grid((6, 32), (1e-4, 1e-4), periodic=True)
+    steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
+    load, waves = vc.ramp(2e9 * grid.area, 1.0), vc.Waviness(1e-6, wavelength_y=1e-4)
+    ds = vc.simulate(waves, steel, load, grid, [0.0, 0.25, 0.5], errors=False)
+    leak = vc.leakage(ds, viscosity=1e-3, pressure_difference=1e5, along="both")
+    rate, gaps = leak_panels(leak, "x")
+    np.testing.assert_allclose(rate.curves[0].y, leak.leak_rate.sel(direction="x"))
+    assert [curve.name for curve in gaps.curves] == ["critical gap", "effective gap", "mean gap"]
+    across, _ = leak_panels(leak, "y")
+    assert [mark.text for mark in across.marks] == ["closed"]
+    assert across.marks[0].place == 0.25

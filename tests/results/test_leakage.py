@@ -1,0 +1,255 @@
+"""Leakage through gaps: exact channels, topology of channels, symmetries, refused input."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from closeness import close_to
+from viscontact.results.descriptions import describe
+from viscontact.results.leakage.channels import FlowAxis, channel, critical_constriction
+from viscontact.results.leakage.effective_medium import effective_transmissivity
+from viscontact.results.leakage.flow import of_mean_gap, solved_flow
+from viscontact.verify import run_cases
+from viscontact.verify.leakage import CASES, through_slot
+
+PERIODIC = (True, True)
+FLUID: dict[str, Any] = {"viscosity": 1e-3, "pressure_difference": 1e5}
+
+
+def result(gap: Any, size: tuple[float, float], periodic: Any = True) -> xr.Dataset:
+    """Result with a gap; contact where it is 0."""
+    gap = np.asarray(gap, dtype=float)
+    grid = vc.Grid(gap.shape, size, periodic=periodic)
+    touched = gap <= 0
+    fields = {"gap": gap, "pressure": touched * 1e9, "in_contact": touched.astype("i1")}
+    data = {name: (("time", "x", "y"), each[None]) for name, each in fields.items()}
+    case = {"grid": describe(grid)}
+    coordinates = {"time": [0.0], "x": grid.x, "y": grid.y}
+    return xr.Dataset(data, coordinates, {"case": json.dumps(case), "tolerance": 1e-6})
+
+
+def bars(*rows: str) -> Any:
+    """Open cells from drawings: x downwards, y to the right, `#` is contact."""
+    return np.array([[cell == "." for cell in row] for row in rows])
+
+
+def opens(drawing: Any, axis: int, ends: Any = "period", periodic: Any = PERIODIC) -> bool:
+    return bool(channel(drawing, FlowAxis(axis, ends, periodic)).any())
+
+
+def test_cases_agree_with_exact_channels() -> None:
+    results = run_cases(fast=True, cases=CASES)
+    assert len(results) == 4
+    assert [each.case for each in results if not each.passed] == []
+
+
+def test_error_of_a_sinusoid_along_the_flow_falls_spectrally() -> None:
+    errors = []
+    for cells in (16, 32, 64):
+        x = (np.arange(cells) + 0.5) / cells
+        gap = 1e-6 * (1 + 0.8 * np.cos(2 * np.pi * x))[:, None] * np.ones((1, 3))
+        flow = solved_flow(gap, gap > 0, FlowAxis(0, "period", PERIODIC), (1 / cells, 0.1))
+        exact = (1 - 0.64) ** 2.5 / (1 + 0.32) * 1e-18 / 12
+        errors.append(abs(flow.transmissivity / exact - 1))
+    assert errors[0] < 2e-3
+    assert errors[1] < 1e-7
+    assert errors[2] < 1e-11
+
+
+def test_slot_between_rooms_converges_with_the_first_order() -> None:
+    # Potential flow through a slot of width a in unit width; extra length of both steps.
+    a, length, long = 0.25, 3.0, 0.5
+    steps = (a * a + 1) / a * np.log((1 + a) / (1 - a)) - 2 * np.log(4 * a / (1 - a * a))
+    exact = length / (length - long + long / a + steps / np.pi)
+    errors = [abs(through_slot(cells, a, length, long) / exact - 1) for cells in (16, 32, 64)]
+    assert errors[2] < 4e-3
+    assert 1.5 < errors[0] / errors[1] < 3.5
+    assert 1.5 < errors[1] / errors[2] < 3.5
+
+
+def test_slanting_channel_is_open_along_both_axes() -> None:
+    slant = bars(".##.", "..##", "#..#", "##..")
+    assert opens(slant, 0)
+    assert opens(slant, 1)
+    found = [
+        solved_flow(1.0 * slant, slant, FlowAxis(axis, "period", PERIODIC), (1.0, 1.0))
+        for axis in (0, 1)
+    ]
+    assert found[0].transmissivity == close_to(found[1].transmissivity, rel=1e-12)
+
+
+def test_channel_displaced_at_the_seam_spans_but_does_not_close_on_itself() -> None:
+    displaced = bars(".####", ".####", "...##", "##.##", "##.##")
+    assert not opens(displaced, 0)
+    assert opens(displaced, 0, "pressure")
+
+
+def test_channel_that_closes_after_two_periods_is_open() -> None:
+    twice = bars(".#.#", ".#.#", "..##", "#..#")
+    # From the last row it goes on in the other column of the first, and so around twice.
+    turning = bars(".#.##", ".#..#", ".##.#", "..#.#", "#.#..")
+    assert opens(turning, 0) == opens(np.tile(turning, (2, 2)), 0)
+    assert opens(twice, 0) == opens(np.tile(twice, (2, 2)), 0)
+    assert not opens(turning & bars("#####", *["....."] * 4), 0)
+
+
+def test_blind_branches_change_nothing() -> None:
+    straight = bars(*["..##"] * 4)
+    branch = straight.copy()
+    branch[1, 2] = True
+    values = [
+        solved_flow(1.0 * each, each, FlowAxis(0, "period", PERIODIC), (1.0, 1.0)).transmissivity
+        for each in (straight, branch)
+    ]
+    assert values[0] == close_to(0.5 / 12, rel=1e-12)
+    assert values[1] == close_to(0.5 / 12, rel=0.05)
+    assert not opens(branch, 1)
+
+
+def test_critical_gap_is_the_narrowest_place_of_the_widest_channel() -> None:
+    gap = np.zeros((6, 8))
+    gap[:, 1], gap[:, 4] = 3.0, 5.0
+    gap[2, 1], gap[5, 4] = 2.0, 1.0
+    found = critical_constriction(gap, gap > 0, FlowAxis(0, "period", PERIODIC))
+    assert found == (2.0, 2, 1)
+    assert critical_constriction(gap, gap > 0, FlowAxis(1, "period", PERIODIC))[0] == 0.0
+
+
+def rough(seed: int, closed: float) -> Any:
+    """Smooth random gap whose lowest part is closed."""
+    random = np.random.default_rng(seed)
+    waves = np.fft.fft2(random.normal(size=(40, 48)))
+    k = np.hypot(*np.meshgrid(np.fft.fftfreq(40) * 40, np.fft.fftfreq(48) * 48, indexing="ij"))
+    field = np.fft.ifft2(waves * np.exp(-((k / 5) ** 2))).real
+    return 1e-6 * np.maximum((field - np.quantile(field, closed)) / field.std(), 0.0)
+
+
+def test_shift_and_transposition_of_a_map_change_nothing() -> None:
+    gap, size = rough(1, 0.25), (4e-4, 5e-4)
+    found = vc.leakage(result(gap, size), **FLUID, along="both").isel(time=0)
+    moved = vc.leakage(result(np.roll(gap, (7, 19), (0, 1)), size), **FLUID, along="both")
+    turned = vc.leakage(result(gap.T, size[::-1]), **FLUID, along="both").isel(time=0)
+    for name in ("transmissivity", "transmissivity_error", "leak_rate", "critical_gap"):
+        np.testing.assert_allclose(moved[name][0], found[name], rtol=1e-8)
+        np.testing.assert_allclose(turned[name][::-1], found[name], rtol=1e-8)
+    assert float(found.flux_imbalance.max()) < 1e-8
+    assert float(found.transmissivity[0]) != close_to(float(found.transmissivity[1]), rel=0.05)
+
+
+def test_stated_error_covers_the_limit_of_finer_cells() -> None:
+    coarse = rough(2, 0.2)
+    axis = FlowAxis(0, "period", PERIODIC)
+    values = []
+    for times in (1, 2, 4):  # the same stairs, each cell divided
+        shape = (40 * times, 48 * times)
+        fine = np.kron(coarse, np.ones((times, times))) if times > 1 else coarse
+        assert fine.shape == shape
+        solved = [
+            solved_flow(fine, fine > 0, axis, (1 / 40 / times, 1 / 48 / times), *mean)
+            for mean in ((), (of_mean_gap,))
+        ]
+        values.append([each.transmissivity for each in solved])
+    error = abs(values[0][1] - values[0][0])
+    assert abs(values[2][0] - values[0][0]) < error
+
+
+def test_leak_rate_has_the_units_of_the_seal() -> None:
+    plates = result(np.full((4, 6), 2e-6), (1e-3, 3e-3))
+    found = vc.leakage(plates, **FLUID).isel(time=0)
+    transmissivity = 8e-18 / 12
+    assert float(found.transmissivity) == close_to(transmissivity, rel=1e-12)
+    assert float(found.leak_rate) == close_to(transmissivity * 1e5 * 3 / 1e-3, rel=1e-12)
+    assert float(found.effective_gap) == close_to(2e-6)
+    assert float(found.critical_gap) == close_to(2e-6)
+    seal = vc.leakage(plates, **FLUID, length=2e-3, width=0.3).isel(time=0)
+    assert float(seal.leak_rate) == close_to(transmissivity * 1e5 * 150 / 1e-3, rel=1e-12)
+    gas = vc.leakage(plates, viscosity=1e-3, pressure_difference=1e5, gas=1e5).isel(time=0)
+    assert float(gas.leak_rate) == close_to(1.5 * float(found.leak_rate), rel=1e-12)
+    assert np.isnan(float(vc.leakage(plates, viscosity=1e-3).leak_rate[0]))
+
+
+def test_contact_without_a_channel_leaks_nothing() -> None:
+    gap = rough(3, 0.2)
+    gap[11] = 0.0
+    found = vc.leakage(result(gap, (1e-3, 1e-3)), **FLUID, along="both", fields="all").isel(time=0)
+    shut, still_open = (found.sel(direction=each) for each in "xy")
+    names = ("transmissivity", "leak_rate", "leak_rate_error", "critical_gap", "percolates")
+    assert [float(shut[name]) for name in names] == [0.0] * 5
+    assert not np.asarray(shut.channel).any()
+    assert float(still_open.percolates) == 1
+
+
+def test_fields_balance_in_each_cell() -> None:
+    gap = rough(4, 0.2)
+    found = vc.leakage(result(gap, (4e-4, 4.8e-4)), **FLUID, fields="all").isel(time=0)
+    through = found.flux_x.sum("y").values * 1e-5
+    np.testing.assert_allclose(through, float(found.leak_rate), rtol=1e-9)
+    assert float(found.fluid_pressure.max()) < 2e5
+    assert not found.flux_x.values[gap == 0].any()
+
+
+def test_gap_of_bodies_apart_is_that_of_the_map() -> None:
+    x = (np.arange(32) + 0.5) / 32 * 1e-3 - 0.5e-3
+    height = np.broadcast_to(1e-6 * np.cos(2 * np.pi * x / 1e-3)[:, None], (32, 32))
+    grid, steel = vc.Grid((32, 32), (1e-3, 1e-3), periodic=True), vc.Material(vc.Elastic(8e10), 0.3)
+    load = vc.ApproachHistory([0.0], [-0.25e-6])
+    waves = vc.Surface(height, 1e-3 / 32)
+    ds = vc.simulate(waves, steel, load, grid, [0.0], errors=False)
+    found = vc.leakage(ds, **FLUID).isel(time=0)
+    expected = height.max() - height + 0.25e-6
+    exact = 1 / np.mean(1 / expected[:, 0] ** 3) / 12
+    assert float(found.transmissivity) == close_to(exact, rel=2e-3)
+
+
+def test_effective_medium_of_one_gap_is_that_gap() -> None:
+    assert effective_transmissivity(np.full((3, 3), 3e-9)) == close_to(27e-27 / 12, rel=1e-9)
+    assert effective_transmissivity(np.zeros((3, 3))) == 0.0
+    shares = [effective_transmissivity(rough(5, part)) for part in (0.1, 0.3, 0.45)]
+    assert shares[0] > shares[1] > shares[2] == 0.0
+
+
+REFUSED: dict[str, tuple[Any, dict[str, Any], str]] = {
+    "no gap": (xr.Dataset(), {}, "needs stored fields"),
+    "viscosity": (rough(1, 0.2), {"viscosity": -1.0}, "viscosity must be"),
+    "difference": (rough(1, 0.2), {"pressure_difference": 0.0}, "pressure_difference must be"),
+    "along": (rough(1, 0.2), {"along": "z"}, "along must be"),
+    "ends": (rough(1, 0.2), {"ends": "free"}, "ends must be"),
+    "gas": (rough(1, 0.2), {"gas": 1e5, "pressure_difference": None}, "gas: needs"),
+    "fields": (
+        rough(1, 0.2),
+        {"fields": "all", "pressure_difference": None},
+        "fields: .* need pressure_difference",
+    ),
+    "unknown gap": (np.where(rough(1, 0.2) > 2e-6, np.nan, 1e-6), {}, "enlarged"),
+    "beyond the body": (np.where(rough(1, 0.2) > 2e-6, np.inf, 1e-6), {}, "beyond the end"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_bad_input_is_refused_with_the_remedy(name: str) -> None:
+    gap, given, message = REFUSED[name]
+    ds = gap if isinstance(gap, xr.Dataset) else result(gap, (1e-3, 1e-3))
+    with pytest.raises(ValueError, match=message):
+        vc.leakage(ds, **{**FLUID, **given})
+
+
+def test_period_ends_need_a_period() -> None:
+    free = result(rough(1, 0.2), (1e-3, 1e-3), periodic=False)
+    assert vc.leakage(free, **FLUID).attrs["ends"] == ["pressure"]
+    with pytest.raises(ValueError, match="not periodic along x"):
+        vc.leakage(free, **FLUID, ends="period")
+
+
+def test_doubts_are_warned_of() -> None:
+    narrow = np.zeros((8, 8))
+    narrow[:, 2], narrow[3, 2] = 1e-6, 1e-9
+    notes = vc.leakage(result(narrow, (1e-3, 1e-3)), **FLUID).attrs["warnings"]
+    assert "a liquid is no continuum" in notes
+    assert "a few cells wide" in notes
+    assert vc.leakage(result(np.full((4, 4), 1e-6), (1e-3, 1e-3)), **FLUID).attrs["warnings"] == ""
