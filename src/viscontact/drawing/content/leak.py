@@ -40,7 +40,11 @@ def leak_map(results: xr.Dataset, times: ArrayLike | None, along: str, figure: s
     stored, axis = field_times(results, figure), run_axis(results)
     if along not in ("x", "y"):
         raise ValueError(f"{figure}: along must be 'x' or 'y', got {along!r}")
-    wanted = stored[-1:] if times is None else finite_array(figure, times, axis.unit).ravel()
+    wanted = stored[-1:]
+    if times is not None:
+        wanted = finite_array(f"{figure}: {axis.name}s", times, axis.unit).ravel()
+    if not wanted.size:
+        raise ValueError(f"{figure}: {axis.name}s must be finite numbers, got none")
     if wanted.size != 1:
         raise ValueError(f"{figure}: shows one {axis.row}, got {wanted.size}")
     index = int(np.abs(stored - wanted[0]).argmin())
