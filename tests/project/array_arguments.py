@@ -61,6 +61,7 @@ APPROACHES = {"times": [0.0, 1.0, 2.0], "approach": DROPS}
 TILTS = {"tilt_x": [1e-4, 2e-4, 3e-4], "tilt_y": [1e-4, 2e-4, 3e-4]}
 PLACES = {"eccentricity_x": LINE, "eccentricity_y": LINE}
 SPHERE = reference.SphereProfile(0.01)
+WAVES = surfaces.Surface(1e-6 * np.cos(np.arange(16) * np.pi / 8) * np.ones((16, 1)), 1e-5)
 RECTANGLE = {"pressure": 1e6, "half_length": 1e-3, "half_width": 2e-3}
 SERIES = {"radius": 1e-3, **CREEP_SERIES}
 
@@ -123,6 +124,10 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "fit_relaxation": ({**RELAXED, "data": "shear"}, {**RELAXED, **HEATED}),
     "march": ({**RUN, "load": vc.ramp(0.1, 1.0), "times": [0.0, 1.0], "fields": [1.0]},),
     "material_curves": ({"law": RUBBER.law, "times": (1.0, 9.0), "measured": (1.0, 9.0)},),
+    "persson_area": ({"surface": WAVES, "material": RUBBER, "pressure": [1e4, 2e4], "time": 1.0},),
+    "persson_sliding": (
+        {"surface": WAVES, "material": RUBBER, "pressure": 1e4, "speed": [1e-3, 1e-2]},
+    ),
     "point_load": ({"force": 1.0, "contact_modulus": 1e9, "distance": LINE[1:]},),
     "press_axisymmetric": tuple(
         {

@@ -23,6 +23,7 @@ from viscontact.cli.commands.sensing import sensitivity
 from viscontact.cli.commands.serving import serve
 from viscontact.cli.commands.showing import export, report, show, verify
 from viscontact.cli.commands.sweeps import collect, status
+from viscontact.cli.commands.theory import theory
 from viscontact.cli.terminal.messages import put
 
 #: Functions of the commands, each with an example.
@@ -51,6 +52,7 @@ _COMMANDS = (
         leakage,
         "viscontact leakage seal --viscosity '1 mPa s' --pressure-difference '1 bar' --along x",
     ),
+    (theory, "viscontact theory road.npz --material epdm-70-25c --pressure '0.3 MPa' --time '1 h'"),
     (schema, "viscontact schema > viscontact.schema.json"),
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),

@@ -66,15 +66,7 @@ def power_spectrum(surface: Surface) -> PowerSpectrum:
     >>> round(1e9 * spectrum.rms_height, 2)  # nm: the amplitude over the root of two
     70.71
     """
-    require_map(surface)
-    require_complete(surface)
-    heights = surface.heights - surface.heights.mean()
-    if not surface.periodic:
-        heights = heights * _hann(surface.shape[0])[:, np.newaxis] * _hann(surface.shape[1])
-        heights = heights - heights.mean()
-    waves = np.abs(np.fft.fft2(heights)) ** 2 / heights.size**2  # sum over q: mean square
-    steps = zip(surface.shape, surface.spacing, strict=True)
-    along, across = (2 * np.pi * np.fft.fftfreq(n, step) for n, step in steps)
+    waves, along, across = mean_square_waves(surface)
     q = np.hypot(along[:, np.newaxis], across)
     lowest, highest = q[q > 0].min(), np.pi / max(surface.spacing)
     count = max(1, round(_BINS_PER_DECADE * float(np.log10(highest / lowest))))
@@ -89,6 +81,23 @@ def power_spectrum(surface: Surface) -> PowerSpectrum:
     found = number > 0
     density = surface.size[0] * surface.size[1] * of_waves[found] / number[found]
     return PowerSpectrum(of_q[found] / number[found], density, float(np.sqrt(waves.sum())))
+
+
+def mean_square_waves(surface: Surface) -> tuple[Floats, Floats, Floats]:
+    """Mean square of each wave [m²], and their wave numbers along x and along y [rad/m].
+
+    Their sum is Sq². ValueError for a line scan, or if points are missing.
+    """
+    require_map(surface)
+    require_complete(surface)
+    heights = surface.heights - surface.heights.mean()
+    if not surface.periodic:
+        heights = heights * _hann(surface.shape[0])[:, np.newaxis] * _hann(surface.shape[1])
+        heights = heights - heights.mean()
+    waves = np.abs(np.fft.fft2(heights)) ** 2 / heights.size**2
+    steps = zip(surface.shape, surface.spacing, strict=True)
+    along, across = (np.asarray(2 * np.pi * np.fft.fftfreq(n, step), float) for n, step in steps)
+    return waves, along, across
 
 
 def _hann(count: int) -> Floats:

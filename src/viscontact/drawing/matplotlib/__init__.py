@@ -29,6 +29,7 @@ from viscontact.drawing.matplotlib.histories.history import compare_histories, h
 from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresis, hysteresis
 from viscontact.drawing.matplotlib.histories.leak_rate import leak_rate
 from viscontact.drawing.matplotlib.histories.margins import margin_history
+from viscontact.drawing.matplotlib.histories.rough_theory import rough_theory
 from viscontact.drawing.matplotlib.histories.steady_motion import friction, motion_profile
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
@@ -126,6 +127,7 @@ __all__ = [
     "response",
     "rolling_heating",
     "rolling_temperature",
+    "rough_theory",
     "save_animation",
     "save_figure",
     "scatter_bands",
